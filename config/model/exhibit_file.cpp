@@ -5,11 +5,11 @@
 namespace starbow {
 namespace {
 
-Flying read_flying(const Place& place)
+Flying read_flying(const Place& place, bool& paced)
 {
     reject_unknown_members(place,
         {"mode", "max_gamma", "turn_deg_per_s", "roll_deg_per_s", "turn_jerk_deg_per_s3", "rapidity_per_s",
-            "rapidity_jerk_per_s2"});
+            "rapidity_jerk_per_s2", "paced"});
     Flying flying;
     if (auto p = find_member(place, "mode"))
         flying.mode = chosen(*p, flight_modes);
@@ -19,6 +19,7 @@ Flying read_flying(const Place& place)
     take(place, "turn_jerk_deg_per_s3", flying.turn_jerk_deg_per_s3, {1, 1e6});
     take(place, "rapidity_per_s", flying.rapidity_per_s, {0.01, 10});
     take(place, "rapidity_jerk_per_s2", flying.rapidity_jerk_per_s2, {0.01, 1e4});
+    take(place, "paced", paced);
     return flying;
 }
 
@@ -97,7 +98,7 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     if (auto p = find_member(top, "quality"); p && exhibit.frame_budget_ms > 0)
         complain(*p, "is one too many beside frame_budget_ms, which chooses it; one of them is right");
     if (auto p = find_member(top, "flying"))
-        exhibit.flying = read_flying(*p);
+        exhibit.flying = read_flying(*p, exhibit.paced);
     if (auto p = find_member(top, "exposure"))
         exhibit.exposure = read_exposing(*p);
     if (auto p = find_member(top, "remote"))

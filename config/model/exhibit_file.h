@@ -23,6 +23,7 @@ struct Exhibit {
     std::string ladder = "ladder"; ///< a path, or the name of a shipped one
     std::filesystem::path textfile; ///< receives the counts for node_exporter; empty: none
     Flying flying;
+    bool paced = false; ///< the visitors gain speed at each world's own pace
     Exposing exposure;
     RemoteSettings remote;
     std::optional<Visiting> visiting; ///< the exhibit attends to its visitors itself; none: somebody else does

@@ -21,6 +21,24 @@ struct Boundary {
     double radius = 0;
 };
 
+/// A box along the world's axes around a thing. Scene units.
+struct AlignedBox {
+    glm::dvec3 low{0}, high{0};
+};
+
+/// The flight that a world is made for: straight ahead from its start, with the throttle held open.
+struct PlannedFlight {
+    double distance = 0; ///< scene units
+    double time_s = 0; ///< the visitor's
+};
+
+/// The pace at which visitors gain speed among a world's things: the less, the sooner they reach the nearest one.
+struct Pace {
+    double per_s2 = 0; ///< rapidity per second for each second to the nearest thing
+    double least = 0; ///< a nearer thing counts as so far away, scene units
+    std::vector<AlignedBox> things; ///< that rest in the world
+};
+
 /// The rules of flight of an exhibit. Times are the visitor's seconds, which are the ship's.
 struct Flying {
     FlightMode mode = FlightMode::guided;
@@ -32,6 +50,7 @@ struct Flying {
     double rapidity_per_s = 1.5; ///< greatest gain or loss of speed
     double rapidity_jerk_per_s2 = 15; ///< greatest change of that gain
     std::optional<Boundary> boundary{}; ///< the world's, where visitors shall not get lost
+    std::optional<Pace> pace{}; ///< the world's, where a flight through it shall last its planned time
 };
 
 } // namespace starbow

@@ -104,8 +104,8 @@ SceneFile load_scene_file(const std::filesystem::path& file)
 {
     const Document document = read_document(file);
     const Place top = root(document);
-    reject_unknown_members(
-        top, {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "bodies", "boundary", "start"});
+    reject_unknown_members(top,
+        {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "bodies", "boundary", "flight", "start"});
     SceneFile scene;
     scene.name = file.stem().string();
     scene.file = document.file;
@@ -128,6 +128,10 @@ SceneFile load_scene_file(const std::filesystem::path& file)
     if (auto p = find_member(top, "boundary")) {
         reject_unknown_members(*p, {"centre", "radius"});
         scene.boundary = {vec3(member(*p, "centre"), {-1e9, 1e9}), number(member(*p, "radius"), {0, 1e9, true})};
+    }
+    if (auto p = find_member(top, "flight")) {
+        reject_unknown_members(*p, {"distance", "time_s"});
+        scene.planned = {number(member(*p, "distance"), {0, 1e9, true}), number(member(*p, "time_s"), {1, 3600})};
     }
     if (auto p = find_member(top, "start"))
         scene.start = read_shot(*p, false);

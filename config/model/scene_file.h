@@ -59,6 +59,7 @@ struct SceneFile {
     std::vector<Light> lights;
     std::vector<Body> bodies;
     std::optional<Boundary> boundary; ///< for exhibits that nobody attends to
+    std::optional<PlannedFlight> planned; ///< for exhibits with a pace
     Shot start; ///< the visitor's start; its `scene` is this file's name
 
     /// The factor from scene times (unit / c) to seconds.

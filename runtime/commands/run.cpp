@@ -82,6 +82,7 @@ ExhibitOptions open(const RunOptions& options)
         .layout = load_layout(shipped_file("layouts", exhibit.layout)),
         .words = std::move(words)};
     exhibit_options.rules = exhibit.flying;
+    exhibit_options.paced_flight = exhibit.paced && options.log.empty(); // in a laboratory the throttle is the students'
     exhibit_options.exposure = exhibit.exposure;
     exhibit_options.profiles = known_profiles(exhibit.profiles);
     exhibit_options.tutorial = exhibit.tutorial;

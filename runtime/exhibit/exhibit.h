@@ -24,6 +24,7 @@ struct ExhibitOptions {
     Layout layout;
     Words words; ///< for the visitor's texts
     Flying rules{};
+    bool paced_flight = false; ///< the visitors gain speed at each world's own pace
     Exposing exposure{};
     std::vector<Profile> profiles{};
     bool tutorial = true;

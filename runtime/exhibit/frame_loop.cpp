@@ -22,7 +22,7 @@ std::int64_t steady_ns(Clock::time_point t) { return std::chrono::nanoseconds(t.
 
 } // namespace
 
-void Pace::wait(double refresh_hz)
+void FramePace::wait(double refresh_hz)
 {
     const auto turn = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(0.99 / refresh_hz));
     std::this_thread::sleep_until(next);

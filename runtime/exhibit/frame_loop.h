@@ -12,7 +12,7 @@ namespace starbow {
 
 /// Starts frames at the screen's rate, because some drivers' FIFO does not wait for the screen. The period is a hundredth
 /// shorter than the screen's: where the driver does wait, its wait alone counts.
-struct Pace {
+struct FramePace {
     using Clock = std::chrono::steady_clock;
     Clock::time_point next = Clock::now();
     void wait(double refresh_hz);
@@ -87,7 +87,7 @@ private:
     bool rested_ = false; ///< it is over, for the present world, layout and quality
     std::size_t most_pipelines_; ///< that are kept
     HudUpdater hud_;
-    Pace pace_;
+    FramePace pace_;
     vk::raii::Fence done_;
     LiveCopy live_;
     vk::raii::CommandBuffers commands_; ///< the world's, the outputs'

@@ -31,6 +31,8 @@ static void add_visit(const Session& session, Readings& shown)
         shown.caption = Caption{.text = words(key, {{"left", std::to_string(int(std::ceil(*left)))}})};
     } else if (session.flight.homing && session.flight.homing->from_boundary) {
         shown.caption = Caption{.text = words("visit.boundary"), .flying = true};
+    } else if (session.flight.homeward) {
+        shown.caption = Caption{.text = words("visit.homeward"), .flying = true};
     } else if (session.options.visiting && !in_hand(session.visit)) {
         const std::string& begin = words(session.hid.capabilities().stick ? "visit.begin_stick" : "visit.begin_keys");
         // Large for some seconds, and small beside the tour's caption, which passers-by read meanwhile.
@@ -55,6 +57,11 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
         shown.caption = session.guide->caption(words, capabilities);
     } else if (session.options.tutorial)
         shown.prompt = prompt(session.tutorial, capabilities, words);
+    if (session.flight.slowness > 0) {
+        const double board_s = time_rates[session.flight.slowness];
+        shown.prompt = words("hud.slow_motion",
+            {{"board", shown_duration(board_s, words, 2)}, {"world", shown_duration(board_s * shown.gamma, words, 2)}});
+    }
     add_visit(session, shown);
     if (shows_pins(session))
         shown.caption = Caption{.text = session.pins};

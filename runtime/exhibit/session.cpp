@@ -1,11 +1,13 @@
 #include "session.h"
 #include "config/json/reader.h"
 #include "config/model/scene_file.h"
+#include "runtime/flight/pace.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/messages.h"
 #include "runtime/operation/vitals.h"
 #include "runtime/render/render_context.h"
+#include "runtime/world/surroundings.h"
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -14,10 +16,10 @@
 namespace starbow {
 namespace {
 
-RecordReplay record_replay_of(const ExhibitOptions& options)
+RecordReplay record_replay_of(const ExhibitOptions& options, const Flying& rules)
 {
     // An exhibit that attends to its visitors has a record for each visit, which begins with it.
-    return {options.record.empty() || options.visiting ? nullptr : recorder_of(options, options.rules),
+    return {options.record.empty() || options.visiting ? nullptr : recorder_of(options, rules),
         options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
 }
 
@@ -80,8 +82,17 @@ std::uint64_t digest(const Session& session)
 
 Flying rules_in(const ExhibitOptions& options, Flying rules, const Programme& programme)
 {
-    if (options.visiting || options.rules.boundary) // a record's rules have the one of its first world
-        rules.boundary = load_scene_file(programme.scene).boundary;
+    // A record's rules have those of its first world.
+    const bool bounded = options.visiting || options.rules.boundary, paced = options.paced_flight || options.rules.pace;
+    if (!bounded && !paced)
+        return rules;
+    const SceneFile scene = load_scene_file(programme.scene);
+    if (bounded)
+        rules.boundary = scene.boundary;
+    rules.pace.reset();
+    if (paced && scene.planned)
+        rules.pace
+            = pace_for(*scene.planned, things_at_rest(scene), scene.start, options.rules, scene.seconds_per_time_unit());
     return rules;
 }
 
@@ -99,7 +110,7 @@ Session::Session(const ExhibitOptions& given)
     , visit(given.visiting ? Visit{} : begun({}))
     , programme(given.visiting ? attraction_of(given, given.words, 0) : given.programme)
     , words(given.words)
-    , rules(rules_in(given, given.rules, programme))
+    , rules(given.replay.empty() ? rules_in(given, given.rules, programme) : given.rules)
     , quality(given.quality)
     , quality_name(given.quality_name)
     , layout(given.layout)
@@ -108,7 +119,7 @@ Session::Session(const ExhibitOptions& given)
     , guide(guide_of(programme, rules, !given.visiting))
     , flight(flight_at(programme.start, rules))
     , tutorial(tutorial_at(flight))
-    , record_replay(record_replay_of(given))
+    , record_replay(record_replay_of(given, rules))
     , hid(given.profiles, write_log)
     , tracker(tracker_of(layout))
     , alignment(given.pattern)
@@ -238,6 +249,7 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     session.somebody = session.presence.take(controls, dt_s);
     if (session.options.visiting)
         lock_builders_keys(session, controls);
+    controls.slow_motion &= session.options.log.empty(); // a laboratory's seconds are the ship's
     const bool quits = controls.quit;
     if (session.directions.holds || (session.options.visiting && !in_hand(session.visit)))
         hold(controls);

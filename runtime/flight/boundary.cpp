@@ -1,4 +1,5 @@
 #include "boundary.h"
+#include "config/model/angles.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,6 +27,20 @@ bool leaves(const Boundary& boundary, const Ship& ship)
 {
     const glm::dvec3 from = ship.position.total() - boundary.centre;
     return glm::length(from) > edge * boundary.radius && glm::dot(from, ship.u.total()) > 0;
+}
+
+std::optional<glm::dvec3> turn_towards(const glm::dvec3& place, const Ship& ship, const Flying& rules)
+{
+    constexpr double there_rad = 3 * degree;
+    const glm::dvec3 to = glm::inverse(ship.ship_from_cockpit) * (place - ship.position.total());
+    const double yaw = std::atan2(-to.x, -to.z), pitch = std::atan2(to.y, std::hypot(to.x, to.z));
+    if (std::max(std::abs(yaw), std::abs(pitch)) < there_rad)
+        return {};
+    // It slows down over the last half second of the way.
+    constexpr double closely_s = 0.5;
+    const double rate = degree * rules.turn_deg_per_s * closely_s;
+    // A pitch raises what lies ahead and lowers what lies behind, so it waits for the yaw.
+    return glm::clamp(glm::dvec3(pitch * std::max(0.0, std::cos(yaw)), yaw, 0) / rate, -1.0, 1.0);
 }
 
 } // namespace starbow

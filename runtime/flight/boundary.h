@@ -1,6 +1,7 @@
 #pragma once
 #include "config/model/flying.h"
 #include "ship.h"
+#include <optional>
 
 namespace starbow {
 
@@ -12,5 +13,9 @@ double rapidity_within(const Boundary& boundary, const Ship& ship, const Flying&
 
 /// True for a ship that has come close to the boundary, or is beyond it, and flies outward.
 bool leaves(const Boundary& boundary, const Ship& ship);
+
+/// The controls' turn that leads the nose to a place, kindly: level at first, for it lies behind. Each is a part of the
+/// rules' turn rate. None once the nose points there.
+std::optional<glm::dvec3> turn_towards(const glm::dvec3& place, const Ship& ship, const Flying& rules);
 
 } // namespace starbow

@@ -1,5 +1,6 @@
 #include "flight.h"
 #include "boundary.h"
+#include "pace.h"
 #include "pilot.h"
 #include <algorithm>
 #include <cmath>
@@ -10,10 +11,21 @@ namespace {
 
 constexpr double half_pi = 1.57079632679489662;
 
-double most_rapidity(const Flight& flight, const Flying& rules, double seconds_per_time_unit)
+/// The visitor's seconds in a time unit on board.
+double shown_unit_s(const Flight& flight, double seconds_per_time_unit)
 {
-    return rules.boundary ? rapidity_within(*rules.boundary, flight.ship, rules, seconds_per_time_unit)
-                          : std::numeric_limits<double>::infinity();
+    return seconds_per_time_unit / time_rates[flight.slowness];
+}
+
+SpeedLimits limits_of(const Flight& flight, const Flying& rules, double seconds_per_time_unit)
+{
+    const double unit_s = shown_unit_s(flight, seconds_per_time_unit);
+    SpeedLimits limits;
+    if (rules.boundary)
+        limits.rapidity = rapidity_within(*rules.boundary, flight.ship, rules, unit_s);
+    if (rules.pace)
+        limits.gain = paced_gain(*rules.pace, flight.ship, unit_s);
+    return limits;
 }
 
 /// Leaves no thrust. inhibits: the throttle has no effect before it was at 0.
@@ -46,6 +58,8 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, double
     flight.look_rad = controls.look_ahead ? glm::dvec2(0) : flight.look_rad + controls.look_rad;
     flight.look_rad.y = std::clamp(flight.look_rad.y, -half_pi, half_pi);
     flight.frozen ^= controls.freeze;
+    if (controls.slow_motion)
+        flight.slowness = (flight.slowness + 1) % time_rates.size();
     if (controls.next_mode)
         flight.mode = FlightMode((int(flight.mode) + 1) % 3);
     if (controls.stop) {
@@ -53,11 +67,11 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, double
         flight.homing.reset();
     }
     if (controls.home && !flight.homing) { // one press is enough: the way goes on
-        FeltMotion motion = felt_motion(flight, controls, rules, most_rapidity(flight, rules, seconds_per_time_unit));
+        FeltMotion motion = felt_motion(flight, controls, rules, limits_of(flight, rules, seconds_per_time_unit));
         if (controls.stop)
             motion.thrust = glm::dvec3(0);
         flight.homing = homing_from(flight.ship, motion, rules);
-        flight.frozen = false;
+        flight.frozen = flight.homeward = false;
     }
     if (controls.stop || controls.home)
         flight.coasting = flight.lever_waits = false;
@@ -95,18 +109,27 @@ void tick(Flight& flight, const Controls& controls, const Flying& rules, double 
         }
         return;
     }
-    const double most = most_rapidity(flight, rules, seconds_per_time_unit);
-    if (rules.boundary && leaves(*rules.boundary, flight.ship)) {
-        flight.homing = homing_from(flight.ship, felt_motion(flight, controls, rules, most), rules);
-        flight.homing->from_boundary = true;
+    const SpeedLimits limits = limits_of(flight, rules, seconds_per_time_unit);
+    const bool leaving = rules.boundary && leaves(*rules.boundary, flight.ship);
+    if (leaving)
         flight.coasting = flight.lever_waits = false;
+    if (leaving && flight.mode != FlightMode::guided) { // a turn of the nose would not turn the flight
+        flight.homing = homing_from(flight.ship, felt_motion(flight, controls, rules, limits), rules);
+        flight.homing->from_boundary = true;
         drop_thrust(flight, controls, true);
         return;
     }
-    const Push push = pilot(flight, controls, rules, most);
+    Steering steering = controls;
+    flight.homeward = (flight.homeward || leaving) && flight.mode == FlightMode::guided;
+    if (flight.homeward) {
+        const std::optional<glm::dvec3> turn = turn_towards(start.position, flight.ship, rules);
+        flight.homeward = turn.has_value();
+        steering.turn = turn.value_or(steering.turn);
+    }
+    const Push push = pilot(flight, steering, rules, limits);
     if (push.stop)
         flight.ship = stopped(flight.ship);
-    const double dtau = tick_s / seconds_per_time_unit;
+    const double dtau = tick_s / shown_unit_s(flight, seconds_per_time_unit);
     flight.ship = fly(flight.ship, push.rapidity / dtau, flight.turn_rad_s * tick_s, dtau);
 }
 

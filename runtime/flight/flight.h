@@ -3,6 +3,7 @@
 #include "homing.h"
 #include "input/controls.h"
 #include "ship.h"
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -17,11 +18,13 @@ struct Flight {
     bool lever_waits = false; ///< after a start in flight: the throttle has no effect until it is moved
     std::optional<double> lever_rest; ///< its place meanwhile, once a throttle has reported
     bool frozen = false; ///< the world stands still, and the stick turns the head
+    std::size_t slowness = 0; ///< slow motion: index into time_rates
     bool thrust_inhibited = false; ///< after a stop the engine gives no thrust until the throttle has been at 0
     double throttle_rate = 0; ///< rapidity per second now, along the way; guided and free
     glm::dvec3 thrust{0}; ///< rapidity per second, cockpit axes; newtonian
     glm::dvec3 turn_rad_s{0}, turn_lead_rad_s{0}; ///< the turn now, and the smoothed turn it approaches
     std::optional<Homing> homing; ///< the flight back to the start, while it lasts
+    bool homeward = false; ///< at the world's end the nose turns to the start; the stick does not turn it meanwhile
     glm::dvec2 look_rad{0}; ///< the head's turn to the left and up from the nose
     Effects effects;
     double exposure_ev = 0;
@@ -43,6 +46,9 @@ constexpr double key_rapidity_per_s = 0.5;
 /// A throttle that has moved by so much has been touched: less may be its sensor's noise.
 constexpr double lever_touched = 0.02;
 constexpr double exposure_ev_per_s = 2;
+
+/// Slow motion: time on board that passes in one of the visitor's seconds, s. Controls act as fast as ever.
+inline constexpr std::array time_rates{1.0, 0.25, 0.0625};
 
 /// A start in flight goes on at its velocity until a hand touches the controls.
 Flight flight_at(const Shot& start, const Flying& rules = {});

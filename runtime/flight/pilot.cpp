@@ -48,18 +48,18 @@ glm::dvec3 across(const glm::dvec3& way, const glm::dvec3& to)
 }
 
 /// Guided and free: the throttle's place sets the speed.
-Push by_lever(Flight& flight, const Flying& rules, double most_rapidity)
+Push by_lever(Flight& flight, const Flying& rules, const SpeedLimits& limits)
 {
     const double speed = rapidity_of(flight.ship),
                  target = flight.thrust_inhibited ? 0 : flight.lever * std::acosh(rules.max_gamma);
     // A greatest rapidity that falls must be followed more closely than a hand.
     constexpr double closely_s = 0.25;
-    const double gain_to_target = std::min((target - speed) / settle_s, (most_rapidity - speed) / closely_s),
-                 wanted = std::clamp(gain_to_target, -rules.rapidity_per_s, rules.rapidity_per_s);
+    const double gain_to_target = std::min((target - speed) / settle_s, (limits.rapidity - speed) / closely_s),
+                 wanted = std::clamp(gain_to_target, -rules.rapidity_per_s, std::min(rules.rapidity_per_s, limits.gain));
     flight.throttle_rate += gain_share(rules) * (wanted - flight.throttle_rate);
     const double gain = flight.throttle_rate * tick_s;
     Push push;
-    if (std::min(target, most_rapidity) == 0
+    if (std::min(target, limits.rapidity) == 0
         && speed + gain < 2e-3) { // slower than anyone can see; the approach would never end
         flight.throttle_rate = 0;
         push.stop = speed > 0;
@@ -75,6 +75,15 @@ Push by_lever(Flight& flight, const Flying& rules, double most_rapidity)
         push.rapidity += (across(way, nose) * turned - way * (0.5 * turned * turned)) * std::tanh(speed);
     }
     return push;
+}
+
+/// The keys' lever after a tick. It is no further ahead of the speed than the pilot's delay needs, so that the ship gains
+/// hardly any speed after the key is let go.
+double moved_lever(const Flight& flight, double rate, const Flying& rules, const SpeedLimits& limits)
+{
+    const double most = (rapidity_of(flight.ship) + settle_s * limits.gain) / std::acosh(rules.max_gamma);
+    const double moved = std::min(flight.lever + rate * lever_per_s * tick_s, std::max(flight.lever, most));
+    return std::clamp(moved, 0.0, 1.0);
 }
 
 /// Newtonian: the throttle sets the thrust.
@@ -121,7 +130,7 @@ void steer(Flight& flight, const Steering& controls, const Flying& rules)
             degree * rules.turn_jerk_deg_per_s3);
 }
 
-Push pilot(Flight& flight, const Steering& input, const Flying& rules, double most_rapidity)
+Push pilot(Flight& flight, const Steering& input, const Flying& rules, const SpeedLimits& limits)
 {
     Steering controls = input;
     watch_hands(flight, controls);
@@ -134,21 +143,20 @@ Push pilot(Flight& flight, const Steering& input, const Flying& rules, double mo
     if (controls.lever)
         flight.lever = std::clamp(*controls.lever, 0.0, 1.0);
     else if (flight.mode != FlightMode::newtonian)
-        flight.lever = std::clamp(flight.lever + controls.throttle_rate * lever_per_s * tick_s, 0.0, 1.0);
+        flight.lever = moved_lever(flight, controls.throttle_rate, rules, limits);
     const bool let_go = flight.mode == FlightMode::newtonian
         ? controls.throttle_rate == 0 && controls.push == glm::dvec3(0) && controls.lever.value_or(0) < 0.02
         : (controls.lever ? flight.lever < 0.02 : controls.throttle_rate <= 0);
     flight.thrust_inhibited = flight.thrust_inhibited && !let_go;
     if (flight.thrust_inhibited && !controls.lever)
         flight.lever = 0;
-    return flight.mode == FlightMode::newtonian ? by_thrust(flight, controls, rules)
-                                                : by_lever(flight, rules, most_rapidity);
+    return flight.mode == FlightMode::newtonian ? by_thrust(flight, controls, rules) : by_lever(flight, rules, limits);
 }
 
-FeltMotion felt_motion(Flight flight, const Steering& controls, const Flying& rules, double most_rapidity)
+FeltMotion felt_motion(Flight flight, const Steering& controls, const Flying& rules, const SpeedLimits& limits)
 {
     const glm::dvec3 turn = flight.turn_rad_s;
-    const Push push = pilot(flight, controls, rules, most_rapidity);
+    const Push push = pilot(flight, controls, rules, limits);
     return {push.rapidity / tick_s, turn, (flight.turn_rad_s - turn) / tick_s};
 }
 

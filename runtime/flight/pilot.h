@@ -1,5 +1,6 @@
 #pragma once
 #include "flight.h"
+#include <limits>
 
 namespace starbow {
 
@@ -9,14 +10,20 @@ struct Push {
     bool stop = false; ///< the ship is at rest at once: the end of slowing down
 };
 
+/// The limits of a place in a world, where the throttle sets the speed.
+struct SpeedLimits {
+    double rapidity = std::numeric_limits<double>::infinity(); ///< the greatest
+    double gain = std::numeric_limits<double>::infinity(); ///< of speed: the greatest, rapidity per second
+};
+
 /// Advances the flight's smoothed turn by a tick.
 void steer(Flight& flight, const Steering& controls, const Flying& rules);
 
 /// Advances the flight's smoothed controls (turn_rad_s, throttle_rate, thrust, lever) by a tick; it does not move the
-/// ship. most_rapidity: where the throttle sets the speed, it sets no greater one.
-Push pilot(Flight& flight, const Steering& controls, const Flying& rules, double most_rapidity);
+/// ship.
+Push pilot(Flight& flight, const Steering& controls, const Flying& rules, const SpeedLimits& limits = {});
 
 /// The ship's motion in the next tick under these controls.
-FeltMotion felt_motion(Flight flight, const Steering& controls, const Flying& rules, double most_rapidity);
+FeltMotion felt_motion(Flight flight, const Steering& controls, const Flying& rules, const SpeedLimits& limits = {});
 
 } // namespace starbow

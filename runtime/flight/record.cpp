@@ -24,7 +24,7 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
 [[maybe_unused]] void name_every_member(const Controls& c, const Flying& f, const Exposing& e, const Flight& s)
 {
     [[maybe_unused]] const auto& [time_ns, report_ns] = static_cast<const ControlTimes&>(c);
-    [[maybe_unused]] const auto& [lever, throttle_rate, push, turn, stop, home, undo, reset, next_mode, freeze]
+    [[maybe_unused]] const auto& [lever, throttle_rate, push, turn, stop, home, undo, reset, next_mode, freeze, slow_motion]
         = static_cast<const Steering&>(c);
     [[maybe_unused]] const auto& [look_rad, look_ahead, head, exposure, lock_exposure] = static_cast<const Looking&>(c);
     [[maybe_unused]] const auto& [aberration, doppler, headlight, false_colours, comparison]
@@ -36,11 +36,11 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
     [[maybe_unused]] const auto& [key_pressed] = static_cast<const Touches&>(c); // not kept: a record is one visit
     [[maybe_unused]] const auto& [commands] = static_cast<const RemoteCommands&>(c);
     [[maybe_unused]] const auto& [mode, max_gamma, turn_deg_per_s, roll_deg_per_s, turn_jerk_deg_per_s3, rapidity_per_s,
-        rapidity_jerk_per_s2, boundary]
+        rapidity_jerk_per_s2, boundary, pace]
         = f;
     [[maybe_unused]] const auto& [automatic, min_ev, max_ev, bloom] = e;
-    [[maybe_unused]] const auto& [ship, flight_mode, flight_lever, coasting, lever_waits, lever_rest, frozen,
-        thrust_inhibited, rate, thrust, turn_rad_s, turn_lead_rad_s, homing, flight_look_rad, effects, exposure_ev,
+    [[maybe_unused]] const auto& [ship, flight_mode, flight_lever, coasting, lever_waits, lever_rest, frozen, slowness,
+        homeward, thrust_inhibited, rate, thrust, turn_rad_s, turn_lead_rad_s, homing, flight_look_rad, effects, exposure_ev,
         flight_hud, ticks, left_ns]
         = s;
 }
@@ -52,12 +52,12 @@ constexpr double most_ns = 9e15; ///< a hundred days; whole numbers below it are
 
 constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", &Controls::look_ahead},
     {"stop", &Controls::stop}, {"home", &Controls::home}, {"undo", &Controls::undo}, {"reset", &Controls::reset},
-    {"next_mode", &Controls::next_mode}, {"freeze", &Controls::freeze}, {"aberration", &Controls::aberration},
-    {"doppler", &Controls::doppler}, {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours},
-    {"comparison", &Controls::comparison}, {"lock_exposure", &Controls::lock_exposure}, {"overlay", &Controls::overlay},
-    {"mark", &Controls::mark}, {"log", &Controls::log}, {"why", &Controls::why}, {"hud", &Controls::hud},
-    {"full_screen", &Controls::full_screen}, {"quit", &Controls::quit}, {"pattern", &Controls::pattern},
-    {"save", &Controls::save}};
+    {"next_mode", &Controls::next_mode}, {"freeze", &Controls::freeze}, {"slow_motion", &Controls::slow_motion},
+    {"aberration", &Controls::aberration}, {"doppler", &Controls::doppler}, {"headlight", &Controls::headlight},
+    {"false_colours", &Controls::false_colours}, {"comparison", &Controls::comparison},
+    {"lock_exposure", &Controls::lock_exposure}, {"overlay", &Controls::overlay}, {"mark", &Controls::mark},
+    {"log", &Controls::log}, {"why", &Controls::why}, {"hud", &Controls::hud}, {"full_screen", &Controls::full_screen},
+    {"quit", &Controls::quit}, {"pattern", &Controls::pattern}, {"save", &Controls::save}};
 
 /// == would accept 0 for -0, which must come back as -0.
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
@@ -128,12 +128,31 @@ Shot read_start(const Place& place)
     return start;
 }
 
+Pace read_pace(const Place& place)
+{
+    reject_unknown_members(place, {"per_s2", "least", "things"});
+    Pace pace;
+    take(place, "per_s2", pace.per_s2, {0, 1e30});
+    take(place, "least", pace.least, {0, 1e15});
+    for (const Place& thing : items(member(place, "things"), 0, 10'000, "things")) {
+        const std::vector<Place> at = items(thing, 6, 6, "numbers (the lowest corner, the highest)");
+        AlignedBox& box = pace.things.emplace_back();
+        for (std::size_t i = 0; i < 3; ++i) {
+            box.low[int(i)] = number(at[i], any_place);
+            box.high[int(i)] = number(at[i + 3], any_place);
+        }
+    }
+    return pace;
+}
+
 Flying read_rules(const Place& place)
 {
     reject_unknown_members(place,
         {"mode", "max_gamma", "turn_deg_per_s", "roll_deg_per_s", "turn_jerk_deg_per_s3", "rapidity_per_s",
-            "rapidity_jerk_per_s2", "boundary"});
+            "rapidity_jerk_per_s2", "boundary", "pace"});
     Flying rules;
+    if (auto p = find_member(place, "pace"))
+        rules.pace = read_pace(*p);
     if (auto p = find_member(place, "boundary")) {
         reject_unknown_members(*p, {"centre", "radius"});
         Boundary& boundary = rules.boundary.emplace();
@@ -257,6 +276,12 @@ std::string text_of(const RecordHeader& header)
             {"rapidity_per_s", rules.rapidity_per_s}, {"rapidity_jerk_per_s2", rules.rapidity_jerk_per_s2}};
     if (rules.boundary)
         json["flying"]["boundary"] = {{"centre", components(rules.boundary->centre)}, {"radius", rules.boundary->radius}};
+    if (rules.pace) {
+        Json& pace = json["flying"]["pace"] = {{"per_s2", rules.pace->per_s2}, {"least", rules.pace->least}};
+        pace["things"] = Json::array();
+        for (const auto& [low, high] : rules.pace->things)
+            pace["things"].push_back({low.x, low.y, low.z, high.x, high.y, high.z});
+    }
     json["exposure"] = {{"automatic", header.exposing.automatic}, {"min_ev", header.exposing.min_ev},
         {"max_ev", header.exposing.max_ev}, {"bloom", header.exposing.bloom}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -352,6 +377,7 @@ std::uint64_t digest(const Flight& flight)
     all.add(std::int64_t(flight.mode));
     all.add(flight.coasting), all.add(flight.lever_waits), all.add(flight.lever_rest.has_value());
     all.add(flight.lever_rest.value_or(0)), all.add(flight.frozen);
+    all.add(std::int64_t(flight.slowness)), all.add(flight.homeward);
     all.add(flight.lever), all.add(flight.thrust_inhibited), all.add(flight.throttle_rate), all.add(flight.thrust);
     all.add(flight.turn_rad_s), all.add(flight.turn_lead_rad_s);
     all.add(flight.homing.has_value());

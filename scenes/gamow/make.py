@@ -584,6 +584,7 @@ SCENE = """// A street where light flies at 5 metres a second (after George Gamo
 BODIES
     ],
     "boundary": { "centre": [0, 0, -30], "radius": 220 },
+    "flight": { "distance": 130, "time_s": 30 },
     "start": { "position": [1.0, 1.7, 17], "look": [0, 0, -1], "up": [0, 1, 0] }
 }
 """

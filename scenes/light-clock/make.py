@@ -136,6 +136,7 @@ SCENE = """// Two light clocks: a pulse of light goes up and down between mirror
 BODIES
     ],
     "boundary": { "centre": [0, 0, 0], "radius": 40 },
+    "flight": { "distance": 32, "time_s": 25 },
     "start": { "time": -4, "position": [0, 1.1, 8.5], "look": [0, 0, -1], "up": [0, 1, 0] }
 }
 """

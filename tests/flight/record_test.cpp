@@ -67,9 +67,9 @@ RecordEntry some_entry(std::mt19937_64& random)
     maybe(c.exposure, -1, 1);
     for (bool Controls::*flag : std::initializer_list<bool Controls::*>{&Controls::look_ahead, &Controls::stop,
              &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode, &Controls::freeze,
-             &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud, &Controls::false_colours,
-             &Controls::comparison, &Controls::full_screen, &Controls::quit, &Controls::pattern, &Controls::save,
-             &Controls::lock_exposure, &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why})
+             &Controls::slow_motion, &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud,
+             &Controls::false_colours, &Controls::comparison, &Controls::full_screen, &Controls::quit, &Controls::pattern,
+             &Controls::save, &Controls::lock_exposure, &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why})
         c.*flag = random() % 200 == 0;
     c.choose = random() % 20 == 0 ? int(random() % 3) - 1 : 0;
     c.turn_by = random() % 20 == 0 ? int(random() % 21) - 10 : 0;
@@ -85,9 +85,9 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
              c.look_rad.x, c.look_rad.y, c.head.moved_m.x, c.head.moved_m.y, c.head.moved_m.z, c.head.turned.w,
              c.head.turned.x, c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0)})
         all.push_back(std::bit_cast<std::uint64_t>(v));
-    for (bool flag : {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.freeze, c.aberration, c.doppler,
-             c.headlight, c.false_colours, c.comparison, c.hud, c.full_screen, c.quit, c.pattern, c.save, c.lock_exposure,
-             c.overlay, c.mark, c.log, c.why})
+    for (bool flag : {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.freeze, c.slow_motion, c.aberration,
+             c.doppler, c.headlight, c.false_colours, c.comparison, c.hud, c.full_screen, c.quit, c.pattern, c.save,
+             c.lock_exposure, c.overlay, c.mark, c.log, c.why})
         all.push_back(flag);
     all.push_back(std::uint64_t(c.choose));
     all.push_back(std::uint64_t(c.turn_by));
@@ -111,6 +111,7 @@ RecordHeader some_header()
     header.rules.mode = FlightMode::newtonian;
     header.rules.max_gamma = 123.456;
     header.rules.boundary = {{0.1, 0, 1.0 / 3}, 1e12};
+    header.rules.pace = {1.0 / 7, 0.3, {{{-1, -0.1, 0}, {1, 2, 1.0 / 3}}, {{5, 5, 5}, {6, 6, 6}}}};
     return header;
 }
 
@@ -176,6 +177,12 @@ TEST(Record, TheHeaderIsReadBackToTheBit)
     EXPECT_EQ(digest(flight_at(read.start, read.rules)), digest(flight_at(header.start, header.rules)));
     EXPECT_EQ(read.start.position, header.start.position);
     EXPECT_EQ(read.rules.max_gamma, header.rules.max_gamma);
+    ASSERT_TRUE(read.rules.pace);
+    EXPECT_EQ(read.rules.pace->per_s2, header.rules.pace->per_s2);
+    EXPECT_EQ(read.rules.pace->least, header.rules.pace->least);
+    ASSERT_EQ(read.rules.pace->things.size(), 2u);
+    EXPECT_EQ(read.rules.pace->things[0].high, header.rules.pace->things[0].high);
+    EXPECT_EQ(read.rules.pace->things[1].low, header.rules.pace->things[1].low);
     ASSERT_TRUE(read.rules.boundary);
     EXPECT_EQ(read.rules.boundary->centre, header.rules.boundary->centre);
     EXPECT_EQ(read.rules.boundary->radius, header.rules.boundary->radius);

@@ -6,22 +6,6 @@
 namespace starbow {
 namespace {
 
-/// The root nodes of the scene; of a file without scenes, all roots.
-std::vector<int> roots(const tinygltf::Model& model)
-{
-    if (!model.scenes.empty())
-        return model.scenes[std::size_t(std::max(model.defaultScene, 0))].nodes;
-    std::vector<bool> is_child(model.nodes.size(), false);
-    for (const auto& node : model.nodes)
-        for (int child : node.children)
-            is_child[std::size_t(child)] = true;
-    std::vector<int> out;
-    for (std::size_t i = 0; i < model.nodes.size(); ++i)
-        if (!is_child[i])
-            out.push_back(int(i));
-    return out;
-}
-
 /// A mesh's primitives, made at the mesh's first use by a node.
 const std::vector<std::uint32_t>& primitives_of(WorldBuild& build, int mesh, std::map<int, std::vector<std::uint32_t>>& made)
 {
@@ -79,7 +63,7 @@ void add_instances(WorldBuild& build)
     };
     for (const auto& node : build.model.nodes)
         build.world.nodes.push_back({node.name, -1});
-    push_backwards(roots(build.model), -1, glm::dmat4(1), -1, glm::dmat4(1));
+    push_backwards(root_nodes(build.model), -1, glm::dmat4(1), -1, glm::dmat4(1));
     while (!open.empty()) {
         auto [index, parent, world_from_parent, joint, joint_from_parent] = open.back();
         open.pop_back();
@@ -121,6 +105,21 @@ void add_instances(WorldBuild& build)
 }
 
 } // namespace
+
+std::vector<int> root_nodes(const tinygltf::Model& model)
+{
+    if (!model.scenes.empty())
+        return model.scenes[std::size_t(std::max(model.defaultScene, 0))].nodes;
+    std::vector<bool> is_child(model.nodes.size(), false);
+    for (const auto& node : model.nodes)
+        for (int child : node.children)
+            is_child[std::size_t(child)] = true;
+    std::vector<int> out;
+    for (std::size_t i = 0; i < model.nodes.size(); ++i)
+        if (!is_child[i])
+            out.push_back(int(i));
+    return out;
+}
 
 glm::dmat4 local_transform(const tinygltf::Node& node)
 {

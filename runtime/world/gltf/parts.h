@@ -65,6 +65,9 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
 /// Adds a copy with the corners in the reverse order; returns the copy's index.
 std::uint32_t turned_primitive(WorldBuild& build, std::uint32_t primitive);
 
+/// The root nodes of the scene; of a file without scenes, all roots.
+std::vector<int> root_nodes(const tinygltf::Model& model);
+
 glm::dmat4 local_transform(const tinygltf::Node& node);
 
 /// Adds the animations' tracks, and assigns them to their nodes.

@@ -1,0 +1,108 @@
+#include "surroundings.h"
+#include "config/json/error.h"
+#include "gltf/parts.h"
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace starbow {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr AlignedBox nothing{glm::dvec3(infinite), glm::dvec3(-infinite)};
+
+bool is_nothing(const AlignedBox& box) { return !(box.low.x <= box.high.x); }
+
+void include(AlignedBox& box, const glm::dvec3& point)
+{
+    box.low = glm::min(box.low, point);
+    box.high = glm::max(box.high, point);
+}
+
+/// The box around all positions of a mesh, in its own frame.
+AlignedBox box_of(const GuardedGltf& file, const tinygltf::Mesh& mesh)
+{
+    AlignedBox box = nothing;
+    std::size_t sparse_bytes_left = GltfLimits::sparse_bytes;
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+        const auto position = primitive.attributes.find("POSITION");
+        if (position == primitive.attributes.end())
+            continue;
+        Elements elements;
+        const char* problem = nullptr;
+        if (!open_accessor(file.model, position->second, sparse_bytes_left, elements, problem))
+            throw InputError(file.name, "/accessors/" + std::to_string(position->second), problem);
+        for (std::size_t i = 0; i < elements.count; ++i)
+            include(box, {elements.component(i, 0), elements.component(i, 1), elements.component(i, 2)});
+    }
+    return box;
+}
+
+/// The box around a box that a transform has turned.
+AlignedBox transformed(const AlignedBox& box, const glm::dmat4& transform)
+{
+    AlignedBox out = nothing;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 at(
+            corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y, corner & 4 ? box.high.z : box.low.z);
+        include(out, transform * glm::dvec4(at, 1));
+    }
+    return out;
+}
+
+/// One box for all boxes whose middles lie in the same cell of a grid of 8 x 8 x 8.
+std::vector<AlignedBox> merged(const std::vector<AlignedBox>& boxes)
+{
+    constexpr int cells = 8;
+    AlignedBox all = nothing;
+    for (const AlignedBox& box : boxes)
+        include(all, box.low), include(all, box.high);
+    std::map<int, AlignedBox> by_cell;
+    for (const AlignedBox& box : boxes) {
+        const glm::dvec3 size = glm::max(all.high - all.low, glm::dvec3(1e-300));
+        const glm::ivec3 at = glm::min(glm::ivec3((0.5 * (box.low + box.high) - all.low) / size * double(cells)), cells - 1);
+        AlignedBox& cell = by_cell.try_emplace((at.x * cells + at.y) * cells + at.z, nothing).first->second;
+        include(cell, box.low), include(cell, box.high);
+    }
+    std::vector<AlignedBox> out;
+    for (const auto& [at, box] : by_cell)
+        out.push_back(box);
+    return out;
+}
+
+} // namespace
+
+std::vector<AlignedBox> things_at_rest(const SceneFile& scene)
+{
+    const GuardedGltf file = guard_gltf(scene.gltf);
+    const tinygltf::Model& model = file.model;
+    std::set<std::string> moving;
+    for (const Body& body : scene.bodies)
+        moving.insert(body.nodes.begin(), body.nodes.end());
+    std::vector<AlignedBox> meshes, things;
+    for (const tinygltf::Mesh& mesh : model.meshes)
+        meshes.push_back(box_of(file, mesh));
+    struct Open {
+        int node;
+        glm::dmat4 world_from_parent;
+    };
+    std::vector<Open> open;
+    for (const int root : root_nodes(model))
+        open.push_back({root, glm::dmat4(1)});
+    while (!open.empty()) {
+        const Open at = open.back();
+        open.pop_back();
+        const tinygltf::Node& node = model.nodes[std::size_t(at.node)];
+        if (moving.contains(node.name))
+            continue;
+        const glm::dmat4 world_from_local = at.world_from_parent * local_transform(node);
+        for (const int child : node.children)
+            open.push_back({child, world_from_local});
+        if (node.mesh >= 0 && !is_nothing(meshes[std::size_t(node.mesh)]))
+            things.push_back(transformed(meshes[std::size_t(node.mesh)], world_from_local));
+    }
+    return things.size() > most_things ? merged(things) : things;
+}
+
+} // namespace starbow
