@@ -25,6 +25,7 @@ enum class CommandKind : std::uint8_t {
     doppler,
     headlight,
     false_colours,
+    slow_motion, ///< on: the time on board at a quarter
     comparison, ///< text: one of comparison_names
     language,
     caption, ///< text on the head-up display; empty: none

@@ -31,6 +31,7 @@ struct Steering {
     bool reset = false; ///< to the start at once
     bool next_mode = false;
     bool freeze = false; ///< the world stands still to look around in, or goes on
+    bool menu = false; ///< opens the visitors' menu, or closes it
     bool slow_motion = false; ///< the next slower rate of time, and from the slowest back to the usual one
 };
 

@@ -123,6 +123,7 @@ void Keyboard::finish(Controls& controls)
     controls.undo = pressed(GLFW_KEY_BACKSPACE);
     controls.next_mode = pressed(GLFW_KEY_M);
     controls.freeze = pressed(GLFW_KEY_P);
+    controls.menu = pressed(GLFW_KEY_TAB) || pressed(GLFW_KEY_ENTER);
     controls.slow_motion = pressed(GLFW_KEY_T);
     controls.aberration = pressed(GLFW_KEY_1);
     controls.doppler = pressed(GLFW_KEY_2);

@@ -58,7 +58,7 @@ constexpr std::size_t most_waiting = 255; ///< presses of one button or hat
 /// The switches of buttons. A frame's switch holds one press, so that a second one waits for the next frame.
 constexpr std::pair<ButtonRole, bool Controls::*> switches[] = {{ButtonRole::stop, &Controls::stop},
     {ButtonRole::home, &Controls::home}, {ButtonRole::undo, &Controls::undo}, {ButtonRole::next_mode, &Controls::next_mode},
-    {ButtonRole::freeze, &Controls::freeze}, {ButtonRole::slow_motion, &Controls::slow_motion},
+    {ButtonRole::freeze, &Controls::freeze}, {ButtonRole::menu, &Controls::menu}, {ButtonRole::slow_motion, &Controls::slow_motion},
     {ButtonRole::look_ahead, &Controls::look_ahead}, {ButtonRole::aberration, &Controls::aberration},
     {ButtonRole::doppler, &Controls::doppler}, {ButtonRole::headlight, &Controls::headlight},
     {ButtonRole::false_colours, &Controls::false_colours}, {ButtonRole::comparison, &Controls::comparison},
@@ -264,7 +264,8 @@ Profile usual_profile(const Descriptor& descriptor)
     else
         use(desktop, dial, AxisRole::throttle, true);
     profile.buttons = {{1, ButtonRole::stop}, {2, ButtonRole::home}, {3, ButtonRole::undo}, {4, ButtonRole::doppler},
-        {5, ButtonRole::headlight}, {6, ButtonRole::aberration}, {7, ButtonRole::hud}, {8, ButtonRole::next_mode}};
+        {5, ButtonRole::headlight}, {6, ButtonRole::aberration}, {7, ButtonRole::hud}, {8, ButtonRole::next_mode},
+        {9, ButtonRole::menu}};
     profile.hat_x = AxisRole::look_right, profile.hat_y = AxisRole::look_up;
     return profile;
 }

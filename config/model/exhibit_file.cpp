@@ -1,6 +1,8 @@
 #include "exhibit_file.h"
 #include "exposing_reader.h"
 #include "remote_reader.h"
+#include "shipped.h"
+#include <algorithm>
 
 namespace starbow {
 namespace {
@@ -70,6 +72,20 @@ Exposing read_exposing(const Place& place)
     return exposure;
 }
 
+/// The name of a shipped file of a kind.
+std::string shipped_name(const Place& place, const std::string& kind)
+{
+    const std::string name = text(place);
+    const std::vector<std::string> all = shipped_names(kind);
+    if (std::ranges::find(all, name) == all.end()) {
+        std::string list;
+        for (const std::string& one : all)
+            list += (list.empty() ? "" : ", ") + one;
+        complain(place, "is not among the shipped " + kind + "; one of these is right: " + list);
+    }
+    return name;
+}
+
 Exhibit load_exhibit(const std::filesystem::path& file)
 {
     const Document document = read_document(file);
@@ -77,7 +93,7 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     reject_unknown_members(top,
         {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "frame_budget_ms",
-            "ladder", "flying", "exposure", "textfile", "remote", "visit"});
+            "ladder", "flying", "exposure", "textfile", "remote", "visit", "menu"});
     Exhibit exhibit;
     for (const auto& [name, value] :
         {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}, {"tour", &exhibit.tour},
@@ -105,6 +121,13 @@ Exhibit load_exhibit(const std::filesystem::path& file)
         exhibit.remote = read_remote(*p, folder);
     if (auto p = find_member(top, "visit"))
         exhibit.visiting = read_visiting(*p, folder);
+    if (auto menu = find_member(top, "menu")) {
+        reject_unknown_members(*menu, {"scenes", "tours"});
+        for (const auto& [name, names] : {std::pair{"scenes", &exhibit.menu_scenes}, {"tours", &exhibit.menu_tours}})
+            if (auto p = find_member(*menu, name))
+                for (const Place& one : items(*p, 1, 20, "names of shipped files"))
+                    names->push_back(shipped_name(one, name));
+    }
     return exhibit;
 }
 

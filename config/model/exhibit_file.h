@@ -17,6 +17,7 @@ struct Exhibit {
     std::filesystem::path profiles; ///< a folder with profiles of this exhibit's own sticks; empty: none
     std::string tour; ///< the shown tour, in its own scene; empty: none
     std::string language = "en"; ///< of the visitors' texts: a path, or the name of a shipped one
+    std::vector<std::string> menu_scenes{}, menu_tours{}; ///< that visitors can choose: names of shipped ones; none: all
     bool tutorial = true; ///< three prompts for the first minute
     std::string quality; ///< a path, or the name of a shipped one; empty: the device's default
     double frame_budget_ms = 0; ///< time of a whole frame, held by the ladder; 0: the quality stays

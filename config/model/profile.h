@@ -31,6 +31,7 @@ enum class ButtonRole {
     undo,
     next_mode,
     freeze,
+    menu,
     slow_motion,
     look_ahead,
     aberration,

@@ -28,6 +28,7 @@ struct ExhibitOptions {
     Exposing exposure{};
     std::vector<Profile> profiles{};
     bool tutorial = true;
+    std::vector<std::string> menu_scenes{}, menu_tours{}; ///< that visitors can choose, names of shipped ones
     std::optional<Visiting> visiting{}; ///< the exhibit attends to its visitors itself; none: somebody else does
     bool careful = false; ///< the exhibit starts with care after disorderly ends; for the service manager's status
     std::optional<Quality> quality{}; ///< none: the device's default

@@ -93,6 +93,10 @@ bool FrameLoop::fly_frame()
     // Follow the visit, carry out a remote's commands, and step the flight. From here on the controls may be a replay's.
     if (!session_.record_replay.play(entry))
         return false;
+    if (!session_.record_replay.replays()) {
+        choose_in_menu(entry);
+        await_worlds(entry.controls);
+    }
     attend(entry);
     for (const Command& command : entry.controls.commands)
         carry_out(command, entry.controls);

@@ -7,6 +7,7 @@
 #include "runtime/render/warm_up.h"
 #include "screens.h"
 #include "session.h"
+#include "world_loader.h"
 
 namespace starbow {
 
@@ -51,6 +52,13 @@ private:
     /// Throws InputError where a layout is wrong, or there is no memory for it.
     std::unique_ptr<FrameRenderer> renderer(
         const Layout& layout, const Quality& quality, std::optional<PreparedLayout> prepared = {});
+    /// Advances the visitors' menu; its choice is a command of this frame.
+    void choose_in_menu(RecordEntry& entry);
+    /// Takes those of the frame's commands out that lead to another world, until it is read, and brings them back then. So a
+    /// record has a command in the frame in which it is carried out.
+    void await_worlds(Controls& controls);
+    /// Another state is wanted than the world that is being read.
+    void forget_coming();
     /// visitors: false where nobody is there to fly.
     void show_programme(Programme programme, bool visitors = true);
     void show_attraction(std::size_t number);
@@ -90,6 +98,8 @@ private:
     FramePace pace_;
     vk::raii::Fence done_;
     LiveCopy live_;
+    WorldLoader worlds_;
+    std::optional<Command> coming_; ///< waits for its world
     vk::raii::CommandBuffers commands_; ///< the world's, the outputs'
     bool submitted_ = false; ///< a frame since the last wait for the device
     double prepared_ms_ = 0; ///< the processor's part of the frame before

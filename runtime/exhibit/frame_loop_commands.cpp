@@ -3,6 +3,7 @@
 #include "config/json/reader.h"
 #include "config/model/shipped.h"
 #include "frame_loop.h"
+#include "menu_pages.h"
 #include "obey.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/vitals.h"
@@ -11,6 +12,54 @@
 
 namespace starbow {
 
+void FrameLoop::choose_in_menu(RecordEntry& entry)
+{
+    if (!in_hand(session_.visit)) {
+        session_.menu = {};
+        return;
+    }
+    if (session_.menu.open || entry.controls.menu)
+        if (std::optional<Command> chosen = advance(session_.menu, menu_of(session_), entry.controls, entry.dt_ns))
+            entry.controls.commands.push_back(std::move(*chosen));
+}
+
+void FrameLoop::await_worlds(Controls& controls)
+{
+    // Frames that follow no clock have nobody who watches meanwhile.
+    for (std::size_t i = 0; session_.options.paced && i < controls.commands.size();) {
+        const Command& command = controls.commands[i];
+        const bool leads
+            = command.kind == CommandKind::scene || command.kind == CommandKind::shot || command.kind == CommandKind::tour;
+        std::filesystem::path scene;
+        try {
+            scene = leads ? programme_after(session_, command).scene : "";
+        } catch (const InputError&) { // it is refused where it is carried out
+        }
+        if (scene.empty() || scene == session_.programme.scene) {
+            ++i;
+            continue;
+        }
+        worlds_.open(scene);
+        coming_ = command;
+        session_.coming = title_of(session_.words, "scene", scene.stem());
+        remote_.defer(i);
+        controls.commands.erase(controls.commands.begin() + std::ptrdiff_t(i));
+    }
+    if (!coming_ || !worlds_.ready())
+        return;
+    controls.commands.push_back(std::move(*coming_));
+    coming_.reset();
+    session_.coming.clear();
+    remote_.resume();
+}
+
+void FrameLoop::forget_coming()
+{
+    coming_.reset();
+    session_.coming.clear();
+    remote_.resume("the exhibit began anew meanwhile");
+}
+
 /// Shows a programme, in its world, from the start. Throws InputError, for want of memory, too; then the old world is still
 /// shown.
 void FrameLoop::show_programme(Programme programme, bool visitors)
@@ -18,7 +67,8 @@ void FrameLoop::show_programme(Programme programme, bool visitors)
     if (programme.scene != session_.programme.scene) {
         const LimitedWait loading("the world " + programme.scene.filename().string(), loading_limit_s);
         session_.service.loads("Loads the world " + programme.scene.filename().string() + ".", loading_limit_s);
-        GpuWorld world = in_room([&] { return load_gpu_world(context_, programme.scene, spectral_level_of(session_)); });
+        LoadedScene loaded = worlds_.take(programme.scene);
+        GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), spectral_level_of(session_)); });
         forget_warm_up(); // it draws the old world
         std::swap(context_.world, world);
         try {
@@ -50,6 +100,7 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
     try {
         switch (command.kind) {
         case CommandKind::reset:
+            forget_coming();
             forget_directions(session_);
             frame_->adopt(quality_of(session_, device_));
             show_programme(session_.options.programme);

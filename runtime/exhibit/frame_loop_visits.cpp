@@ -101,6 +101,9 @@ void FrameLoop::attend(RecordEntry& entry)
         return;
     VisitEvents events;
     session_.visit = advance(session_.visit, session_.visiting, signs_of(session_), entry.dt_ns, events);
+    if (session_.visit.phase == VisitPhase::entering && session_.visit.phase_ns == 0
+        && session_.options.programme.scene != session_.programme.scene)
+        worlds_.open(session_.options.programme.scene); // while the picture fades
     session_.visited_s += knows_visitor(session_) ? 1e-9 * double(entry.dt_ns) : 0;
     if (events.ends && (session_.options.visiting || events.length_s > 0))
         count_visit(session_, events.length_s);
@@ -115,6 +118,7 @@ void FrameLoop::attend(RecordEntry& entry)
 void FrameLoop::change_visitors(const VisitEvents& events, Controls& controls)
 {
     if (events.ends) {
+        forget_coming();
         session_.record_replay.end(session_.flight, print_message);
         session_.record_replay.close();
         forget_visitor(session_);

@@ -1,4 +1,5 @@
 #include "hud_updater.h"
+#include "menu_pages.h"
 #include <cmath>
 
 namespace starbow {
@@ -18,7 +19,7 @@ const Panel* HudUpdater::update(const Session& session, const SceneFile& scene, 
     }
     const bool covers_pattern
         = session.alignment.pattern() != Pattern::none && session.alignment.says().empty() && !shows_pins(session);
-    const bool asks = seconds_left(session.visit, session.visiting).has_value();
+    const bool asks = seconds_left(session.visit, session.visiting).has_value() || session.menu.open;
     return (session.flight.hud || asks) && !covers_pattern ? &panel_ : nullptr;
 }
 
@@ -62,7 +63,11 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
         shown.prompt = words("hud.slow_motion",
             {{"board", shown_duration(board_s, words, 2)}, {"world", shown_duration(board_s * shown.gamma, words, 2)}});
     }
+    if (!session.coming.empty())
+        shown.prompt = words("menu.coming", {{"world", session.coming}});
     add_visit(session, shown);
+    if (session.menu.open)
+        shown.caption = caption_of(session.menu, menu_of(session), words, capabilities);
     if (shows_pins(session))
         shown.caption = Caption{.text = session.pins};
     else if (!session.directions.caption.empty())

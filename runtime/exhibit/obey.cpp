@@ -8,14 +8,16 @@ namespace starbow {
 namespace {
 
 /// The flight whose switches a docent may set: a tour shows its own effects until the visitor flies.
-Effects& effects_of(Session& session)
+Flight& flight_of(Session& session)
 {
     if (!session.guide)
-        return session.flight.effects;
+        return session.flight;
     if (!session.guide->flies())
         throw InputError("a tour shows its own effects; a tour's end, or a scene, is right");
-    return session.guide->effects();
+    return session.guide->flight();
 }
+
+Effects& effects_of(Session& session) { return flight_of(session).effects; }
 
 void set_comparison(Session& session, const std::string& name)
 {
@@ -88,6 +90,9 @@ void obey(Session& session, const Command& command, Controls& controls)
     case CommandKind::false_colours:
         effects_of(session).false_colours = command.on;
         break;
+    case CommandKind::slow_motion:
+        flight_of(session).slowness = command.on && session.options.log.empty() ? 1 : 0;
+        break;
     case CommandKind::comparison:
         set_comparison(session, command.text);
         break;
@@ -149,6 +154,7 @@ void begin_programme(Session& session, Programme programme, bool visitors)
 void forget_visitor(Session& session)
 {
     session.words = session.options.words;
+    session.menu = {};
     forget_language(session.options.state);
     session.exposure = {};
 }

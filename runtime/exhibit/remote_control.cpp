@@ -28,7 +28,7 @@ void describe(const Session& session, Snapshot& out)
     out.fade = session.directions.fades, out.hold = session.directions.holds;
     out.visit = session.options.visiting || knows_visitor(session) ? visit_phase_names[std::size_t(session.visit.phase)]
                                                                    : visit_phase_names[std::size_t(VisitPhase::attract)];
-    out.effects = session.flight.effects;
+    out.effects = session.flight.effects, out.slow_motion = session.flight.slowness > 0;
     const double rapidity = rapidity_of(session.flight.ship);
     out.speed = std::tanh(rapidity), out.gamma = std::cosh(rapidity);
     out.max_gamma = session.rules.max_gamma;
@@ -64,6 +64,27 @@ void RemoteControl::note(const std::string& refusal)
 {
     if (noted_ < pending_.size())
         pending_[noted_++].refusal = refusal;
+}
+
+void RemoteControl::defer(std::size_t index)
+{
+    resume("another world was asked for meanwhile");
+    if (noted_ + index >= pending_.size())
+        return; // a visitor's
+    const auto at = pending_.begin() + std::ptrdiff_t(noted_ + index);
+    deferred_ = at->number;
+    pending_.erase(at);
+}
+
+void RemoteControl::resume(const std::string& refusal)
+{
+    if (!deferred_)
+        return;
+    if (refusal.empty())
+        pending_.push_back({*deferred_, {}});
+    else
+        remote_->answer(*deferred_, refusal);
+    deferred_.reset();
 }
 
 void RemoteControl::shown(const Session& session)

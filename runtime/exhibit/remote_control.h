@@ -2,6 +2,7 @@
 #include "runtime/remote/remote.h"
 #include "session.h"
 #include <chrono>
+#include <optional>
 
 namespace starbow {
 
@@ -17,6 +18,10 @@ public:
     void read(Controls& controls);
     /// Notes a command's end, in the order of read. refusal: the reason; empty: it is carried out.
     void note(const std::string& refusal);
+    /// The command at an index of those that are read and not noted waits for a world; one that waits already is refused.
+    void defer(std::size_t index);
+    /// The waiting command is carried out in this frame after all others, or is refused.
+    void resume(const std::string& refusal = {});
     /// The frame with these commands is on the screens, or will never be. Answers them and publishes the state.
     void shown(const Session& session);
     /// The counts' text is a new one: publishes it and the last lines of the log.
@@ -46,6 +51,7 @@ private:
     };
     std::unique_ptr<Remote> remote_;
     std::vector<Pending> pending_; ///< of this frame, in order
+    std::optional<std::uint64_t> deferred_; ///< the number of the command that waits
     std::size_t noted_ = 0;
     Clock::time_point published_{}, pictured_{};
 };

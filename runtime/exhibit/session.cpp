@@ -76,7 +76,8 @@ std::uint64_t digest(const Session& session)
     std::string text = session.programme.scene.string() + '\n' + session.programme.tour_name + '\n'
         + session.words("hud.speed") + '\n' + std::to_string(int(session.alignment.pattern()))
         + std::to_string(session.tutorial.lesson) + std::to_string(session.exposure.locked)
-        + std::to_string(session.history.empty()) + std::to_string(session.lab.shows_anything());
+        + std::to_string(session.history.empty()) + std::to_string(session.lab.shows_anything())
+        + std::to_string(session.menu.open);
     return digest(text, digest(session.flight));
 }
 

@@ -10,6 +10,7 @@
 #include "layout_loader.h"
 #include "runtime/flight/flight.h"
 #include "runtime/flight/history.h"
+#include "runtime/flight/menu.h"
 #include "runtime/flight/record_replay.h"
 #include "runtime/flight/tutorial.h"
 #include "runtime/flight/visit.h"
@@ -51,6 +52,8 @@ struct Session {
     bool goes_home = false; ///< through black, as the way is too long to be flown
     double home_black = 0; ///< the part of black on that way
     bool somebody = false; ///< has touched a control in this frame
+    MenuState menu{}; ///< the visitors'
+    std::string coming{}; ///< the visitors' name of a world that is being read; empty: none
     Programme programme; ///< the shown one
     Words words; ///< for the visitors' texts
     Flying rules; ///< of the visitors' flight

@@ -84,9 +84,34 @@ std::string verdict_of(const Caption& caption)
     return verdict;
 }
 
+/// Writes a menu's page: its title small at the top, the chosen choice large in the middle, its neighbours at the sides.
+static void write_menu(Panel& panel, const Typesetter& typesetter, const Caption& caption)
+{
+    const double width = panel.size.x, height = panel.size.y;
+    const auto write
+        = [&](const std::string& text, double middle, double baseline, double part, double room, double strength) {
+              int size = int(part * height);
+              while (size > 6 && typesetter.width_of(text, size) > room * width)
+                  --size;
+              typesetter.write(
+                  panel, text, middle * width - 0.5 * typesetter.width_of(text, size), baseline * height, size, strength);
+          };
+    const int count = int(caption.choices.size()), chosen = caption.chosen;
+    const auto at = [&](int i) { return caption.choices[std::size_t((i + count) % count)]; };
+    write(caption.text, 0.5, 0.25, 0.19, 0.9, 0.8);
+    write(at(chosen), 0.5, 0.62, 0.34, 0.5, 1);
+    if (count > 1)
+        write(at(chosen + 1) + " ›", 0.87, 0.6, 0.17, 0.21, 0.6);
+    if (count > 2)
+        write("‹ " + at(chosen - 1), 0.13, 0.6, 0.17, 0.21, 0.6);
+    write(caption.aside, 0.5, 0.89, 0.16, 0.9, 0.8);
+}
+
 void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& caption,
     const std::vector<std::pair<std::string, std::string>>& fields)
 {
+    if (caption.menu)
+        return write_menu(panel, typesetter, caption);
     const double width = panel.size.x, height = panel.size.y, left = 0.04 * width, right = 0.97 * width;
     // Above: the controls at the right, and at the left as many of the figures as fit.
     const int small = std::max(6, int(0.13 * height));

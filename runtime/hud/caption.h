@@ -20,6 +20,7 @@ struct Caption {
     int right = -1; ///< index of the right choice, once it is shown; -1: not yet
     std::string aside{}; ///< what the keys do now, and the seconds left
     bool flying = false; ///< the visitor flies: the lever counts
+    bool menu = false; ///< the chosen choice is large, and the ones before and after it stand beside it
 };
 
 /// The caption of a tour's present state, in words for the controls at hand; empty where the visitor flies freely.

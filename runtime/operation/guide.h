@@ -31,8 +31,8 @@ public:
     void pause(bool on) { touring_.paused = on; }
     /// The visitor's greatest gamma from now on.
     void limit(double max_gamma) { show_.rules.max_gamma = max_gamma; }
-    /// The effects of the visitor's flight.
-    Effects& effects() { return touring_.flight.effects; }
+    /// The flight, for a docent's switches.
+    Flight& flight() { return touring_.flight; }
 
     /// The EV: the tour's, or the adapted one where the visitor flies; it fades from one to the other.
     double shown_ev(const Exposure& adapted, const Exposing& rules) const;

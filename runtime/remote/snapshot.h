@@ -16,6 +16,7 @@ struct Snapshot {
     bool paused = false, fade = false, hold = false;
     std::string visit; ///< one of visit_phase_names
     Effects effects;
+    bool slow_motion = false;
     double speed = 0; ///< v/c
     double gamma = 1;
     double max_gamma = 1; ///< at full throttle

@@ -5,13 +5,7 @@
 
 namespace starbow {
 
-struct LoadedScene {
-    SceneFile scene;
-    World world;
-    std::vector<Star> stars;
-};
-
-static LoadedScene load(const std::filesystem::path& file)
+LoadedScene load_scene(const std::filesystem::path& file)
 {
     SceneFile scene = load_scene_file(file);
     World world = load_world(scene.gltf);
@@ -24,7 +18,7 @@ static LoadedScene load(const std::filesystem::path& file)
 
 RenderContext::RenderContext(
     const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level)
-    : RenderContext(load(scene), options, level)
+    : RenderContext(load_scene(scene), options, level)
 {
 }
 
@@ -35,9 +29,8 @@ RenderContext::RenderContext(LoadedScene&& loaded, const Device::Options& option
 {
 }
 
-GpuWorld load_gpu_world(RenderContext& context, const std::filesystem::path& scene, std::optional<SpectralLevel> level)
+GpuWorld upload_scene(RenderContext& context, LoadedScene&& loaded, std::optional<SpectralLevel> level)
 {
-    LoadedScene loaded = load(scene);
     return upload(context.device, context.pipelines, std::move(loaded.world), loaded.scene, loaded.stars, level);
 }
 

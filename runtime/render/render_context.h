@@ -8,6 +8,16 @@
 
 namespace starbow {
 
+/// A scene's files, read, before they are on a device.
+struct LoadedScene {
+    SceneFile scene;
+    World world;
+    std::vector<Star> stars;
+};
+
+/// Reads a scene's files; it needs no device. Throws InputError.
+LoadedScene load_scene(const std::filesystem::path& scene);
+
 /// The device and one world on it, which most commands open first.
 struct RenderContext {
     Device device;
@@ -20,11 +30,11 @@ struct RenderContext {
         const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level = {});
 
 private:
-    RenderContext(struct LoadedScene&& loaded, const Device::Options& options, std::optional<SpectralLevel> level);
+    RenderContext(LoadedScene&& loaded, const Device::Options& options, std::optional<SpectralLevel> level);
 };
 
 /// Another world on an open device, to take RenderContext::world's place. Throws InputError.
-GpuWorld load_gpu_world(RenderContext& context, const std::filesystem::path& scene, std::optional<SpectralLevel> level = {});
+GpuWorld upload_scene(RenderContext& context, LoadedScene&& loaded, std::optional<SpectralLevel> level = {});
 
 /// The scene's spectral level with its reason: a line for the log.
 std::string describe_light(const RenderContext& context);

@@ -26,6 +26,7 @@ TEST(Command, EveryKindComesBackFromItsWords)
         {{"speed-limit", "2.5"}, {CommandKind::speed_limit, false, 2.5}}, {{"aberration", "off"}, {CommandKind::aberration}},
         {{"doppler", "on"}, {CommandKind::doppler, true}}, {{"headlight", "on"}, {CommandKind::headlight, true}},
         {{"false-colours", "on"}, {CommandKind::false_colours, true}},
+        {{"slow-motion", "on"}, {CommandKind::slow_motion, true, 0, ""}},
         {{"comparison", "galilean"}, {CommandKind::comparison, false, 0, "galilean"}},
         {{"language", "de"}, {CommandKind::language, false, 0, "de"}},
         {{"caption", "Grüße an alle: γ = 4"}, {CommandKind::caption, false, 0, "Grüße an alle: γ = 4"}},

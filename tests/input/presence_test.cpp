@@ -50,7 +50,7 @@ TEST(PresenceTest, EveryControlAloneIsASign)
         controls_with(Steering{.push = {0, 0, 0.4}}), controls_with(Steering{.stop = true}),
         controls_with(Steering{.home = true}), controls_with(Steering{.undo = true}),
         controls_with(Steering{.next_mode = true}), controls_with(Steering{.freeze = true}),
-        controls_with(Steering{.slow_motion = true}), controls_with(Looking{.look_rad = {0.02, 0}}),
+        controls_with(Steering{.menu = true}), controls_with(Steering{.slow_motion = true}), controls_with(Looking{.look_rad = {0.02, 0}}),
         controls_with(Looking{.look_ahead = true}), controls_with(Looking{.exposure = -1}),
         controls_with(Looking{.lock_exposure = true}), controls_with(EffectSwitches{.aberration = true}),
         controls_with(EffectSwitches{.doppler = true}), controls_with(EffectSwitches{.headlight = true}),

@@ -1,0 +1,86 @@
+#include "menu_pages.h"
+#include "config/json/error.h"
+#include "config/model/shipped.h"
+#include <algorithm>
+
+namespace starbow {
+namespace {
+
+enum Page : std::size_t { beginning, worlds, tours, switches, languages };
+
+MenuPage page_of(const Words& words, const std::string& title, CommandKind kind, const std::string& named,
+    const std::vector<std::string>& names)
+{
+    MenuPage page{.title = title, .items = {}};
+    for (const std::string& name : names)
+        page.items.push_back({title_of(words, named, name), Command{.kind = kind, .text = name}});
+    return page;
+}
+
+/// The languages, each in its own word.
+MenuPage languages_of(const Words& words)
+{
+    MenuPage page{.title = words("menu.language"), .items = {}};
+    for (const std::string& name : shipped_names("words"))
+        try {
+            page.items.push_back(
+                {words_in(name)("remote.this_language"), Command{.kind = CommandKind::language, .text = name}});
+        } catch (const InputError&) { // a site's own words may be wrong; the remote's page says so
+        }
+    return page;
+}
+
+MenuPage switches_of(const Session& session)
+{
+    const Words& words = session.words;
+    const Effects& on = session.flight.effects;
+    MenuPage page{.title = words("menu.show"), .items = {}, .stays = true};
+    const auto add = [&](const char* key, CommandKind kind, bool is_on) {
+        page.items.push_back({(is_on ? "☑ " : "☐ ") + words(key), Command{.kind = kind, .on = !is_on}});
+    };
+    add("menu.aberration", CommandKind::aberration, on.aberration);
+    add("menu.doppler", CommandKind::doppler, on.doppler);
+    add("menu.headlight", CommandKind::headlight, on.headlight);
+    if (session.options.log.empty())
+        add("menu.slow_motion", CommandKind::slow_motion, session.flight.slowness > 0);
+    return page;
+}
+
+} // namespace
+
+std::string title_of(const Words& words, const std::string& kind, const std::string& name)
+{
+    const auto found = words.texts.find("menu." + kind + "." + name);
+    return found == words.texts.end() ? name : found->second;
+}
+
+std::vector<MenuPage> menu_of(const Session& session)
+{
+    const Words& words = session.words;
+    const bool can_switch = !session.guide || session.guide->flies();
+    MenuPage first{.title = words("menu.title"), .items = {}};
+    first.items.push_back({words("menu.worlds"), std::size_t(worlds)});
+    first.items.push_back({words("menu.tours"), std::size_t(tours)});
+    if (can_switch) // a tour shows its own effects
+        first.items.push_back({words("menu.show"), std::size_t(switches)});
+    first.items.push_back({words("menu.language"), std::size_t(languages)});
+    return {std::move(first), page_of(words, words("menu.worlds"), CommandKind::scene, "scene", session.options.menu_scenes),
+        page_of(words, words("menu.tours"), CommandKind::tour, "tour", session.options.menu_tours), switches_of(session),
+        languages_of(words)};
+}
+
+Caption caption_of(
+    const MenuState& menu, std::span<const MenuPage> pages, const Words& words, const InputCapabilities& capabilities)
+{
+    const MenuPage& page = pages[menu.page];
+    Caption caption{.text = page.title, .chosen = int(menu.item), .menu = true};
+    for (const MenuItem& item : page.items)
+        caption.choices.push_back(item.text);
+    caption.aside = capabilities.stick && capabilities.stop_button > 0 && capabilities.home_button > 0
+        ? words("menu.hands_stick",
+            {{"take", std::to_string(capabilities.stop_button)}, {"back", std::to_string(capabilities.home_button)}})
+        : words("menu.hands_keys");
+    return caption;
+}
+
+} // namespace starbow

@@ -1,0 +1,156 @@
+// The visitors' menu: it takes the hands from the ship while it is open, and gives a docent's commands.
+#include "runtime/flight/menu.h"
+#include "tests/support/controls.h"
+#include <gtest/gtest.h>
+#include <random>
+
+namespace menu_test {
+
+using namespace starbow;
+using namespace starbow::testing;
+
+namespace {
+
+constexpr std::int64_t frame_ns = 16'000'000;
+
+struct Visitor {
+    std::vector<MenuPage> pages{
+        {.title = "first",
+            .items = {{"worlds", std::size_t(1)}, {"switches", std::size_t(2)}, {"close", MenuItem::Close{}}}},
+        {.title = "worlds",
+            .items = {{"train", Command{.kind = CommandKind::scene, .text = "train"}},
+                {"clocks", Command{.kind = CommandKind::scene, .text = "clocks"}}}},
+        {.title = "switches", .items = {{"doppler", Command{.kind = CommandKind::doppler}}}, .stays = true}};
+    MenuState menu;
+    Controls left; ///< of the last frame's controls: what reaches the ship
+
+    std::optional<Command> does(const Steering& hands)
+    {
+        left = controls_with(hands);
+        const std::optional<Command> chosen = advance(menu, pages, left, frame_ns);
+        Controls rest; // the hand lets go
+        advance(menu, pages, rest, frame_ns);
+        return chosen;
+    }
+};
+
+const Steering opens{.menu = true}, right{.turn = {0, -1, 0}}, left_hand{.turn = {0, 1, 0}}, takes{.stop = true},
+    leads_back{.home = true};
+
+} // namespace
+
+TEST(MenuTest, AWorldIsChosenByTheStick)
+{
+    Visitor visitor;
+    EXPECT_FALSE(visitor.does(opens));
+    EXPECT_TRUE(visitor.menu.open);
+    EXPECT_FALSE(visitor.does(takes));
+    EXPECT_EQ(visitor.menu.page, 1u);
+    EXPECT_FALSE(visitor.does(right));
+    const std::optional<Command> chosen = visitor.does(takes);
+    ASSERT_TRUE(chosen);
+    EXPECT_EQ(chosen->kind, CommandKind::scene);
+    EXPECT_EQ(chosen->text, "clocks");
+    EXPECT_FALSE(visitor.menu.open);
+}
+
+TEST(MenuTest, NothingButTheLeverReachesTheShip)
+{
+    Visitor visitor;
+    visitor.does(opens);
+    visitor.does({.lever = 0.4, .throttle_rate = 1, .push = {1, 1, 1}, .turn = {1, 1, 1}, .undo = true});
+    EXPECT_EQ(visitor.left.lever, 0.4);
+    EXPECT_EQ(visitor.left.turn, glm::dvec3(0));
+    EXPECT_EQ(visitor.left.push, glm::dvec3(0));
+    EXPECT_EQ(visitor.left.throttle_rate, 0);
+    EXPECT_FALSE(visitor.left.undo || visitor.left.stop || visitor.left.home);
+    Visitor closed;
+    closed.does({.turn = {1, 1, 1}, .stop = true});
+    EXPECT_TRUE(closed.left.stop) << "a menu that is shut takes nothing";
+    EXPECT_EQ(closed.left.turn, glm::dvec3(1));
+}
+
+TEST(MenuTest, TheChoiceGoesAroundAndRepeatsWhileTheStickIsHeld)
+{
+    Visitor visitor;
+    visitor.does(opens);
+    visitor.does(left_hand);
+    EXPECT_EQ(visitor.menu.item, 2u) << "from the first to the last";
+    visitor.does(right);
+    EXPECT_EQ(visitor.menu.item, 0u);
+    int steps = 0;
+    std::size_t before = visitor.menu.item;
+    for (int i = 0; i < 63; ++i) { // one second: at once, after half of it, and each fifth then
+        Controls held = controls_with(right);
+        advance(visitor.menu, visitor.pages, held, frame_ns);
+        steps += visitor.menu.item != before;
+        before = visitor.menu.item;
+    }
+    EXPECT_EQ(steps, 4);
+}
+
+TEST(MenuTest, BackLeadsToTheFirstPageAndOut)
+{
+    Visitor visitor;
+    visitor.does(opens);
+    visitor.does(takes);
+    visitor.does(leads_back);
+    EXPECT_TRUE(visitor.menu.open);
+    EXPECT_EQ(visitor.menu.page, 0u);
+    visitor.does(leads_back);
+    EXPECT_FALSE(visitor.menu.open);
+    visitor.does(opens);
+    visitor.does(right);
+    visitor.does(right);
+    visitor.does(takes);
+    EXPECT_FALSE(visitor.menu.open) << "the choice to close it";
+}
+
+TEST(MenuTest, SwitchesStayOpen)
+{
+    Visitor visitor;
+    visitor.does(opens);
+    visitor.does(right);
+    visitor.does(takes);
+    EXPECT_EQ(visitor.does(takes)->kind, CommandKind::doppler);
+    EXPECT_TRUE(visitor.menu.open);
+    EXPECT_EQ(visitor.does(takes)->kind, CommandKind::doppler);
+    visitor.does(opens);
+    EXPECT_FALSE(visitor.menu.open) << "the menu's own key shuts it";
+}
+
+TEST(MenuTest, AMenuThatNobodyTouchesCloses)
+{
+    Visitor visitor;
+    visitor.does(opens);
+    for (int i = 0; i < 19 * 1000 / 16; ++i) {
+        Controls nothing = controls_with(Steering{.lever = 0.7});
+        advance(visitor.menu, visitor.pages, nothing, frame_ns);
+    }
+    EXPECT_TRUE(visitor.menu.open);
+    for (int i = 0; i < 2 * 1000 / 16; ++i) {
+        Controls nothing;
+        advance(visitor.menu, visitor.pages, nothing, frame_ns);
+    }
+    EXPECT_FALSE(visitor.menu.open);
+}
+
+TEST(MenuTest, RandomHandsNeverLeaveTheMenusPages)
+{
+    std::mt19937 random{3};
+    Visitor visitor;
+    int chosen = 0;
+    for (int i = 0; i < 200'000; ++i) {
+        const auto rarely = [&] { return random() % 20 == 0; };
+        const double turn = double(random() % 3) - 1;
+        Controls hands = controls_with(
+            Steering{.turn = {0, turn, 0}, .stop = rarely(), .home = rarely(), .undo = rarely(), .menu = rarely()});
+        if (i % 5000 == 0)
+            visitor.pages[1].items.resize(1 + random() % 2, visitor.pages[1].items[0]); // a world goes, or comes
+        chosen += advance(visitor.menu, visitor.pages, hands, frame_ns).has_value();
+        ASSERT_LT(visitor.menu.page, visitor.pages.size());
+    }
+    EXPECT_GT(chosen, 1000);
+}
+
+} // namespace menu_test
