@@ -69,7 +69,7 @@ RecordEntry some_entry(std::mt19937_64& random)
              &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode, &Controls::freeze,
              &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud, &Controls::false_colours,
              &Controls::comparison, &Controls::full_screen, &Controls::quit, &Controls::pattern, &Controls::save,
-             &Controls::lock_exposure, &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why})
+             &Controls::lock_exposure, &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why, &Controls::plot})
         c.*flag = random() % 200 == 0;
     c.choose = random() % 20 == 0 ? int(random() % 3) - 1 : 0;
     c.turn_by = random() % 20 == 0 ? int(random() % 21) - 10 : 0;
@@ -87,7 +87,7 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
         all.push_back(std::bit_cast<std::uint64_t>(v));
     for (bool flag : {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.freeze, c.aberration, c.doppler,
              c.headlight, c.false_colours, c.comparison, c.hud, c.full_screen, c.quit, c.pattern, c.save, c.lock_exposure,
-             c.overlay, c.mark, c.log, c.why})
+             c.overlay, c.mark, c.log, c.why, c.plot})
         all.push_back(flag);
     all.push_back(std::uint64_t(c.choose));
     all.push_back(std::uint64_t(c.turn_by));

@@ -56,7 +56,7 @@ TEST(PresenceTest, EveryControlAloneIsASign)
         controls_with(EffectSwitches{.headlight = true}), controls_with(EffectSwitches{.false_colours = true}),
         controls_with(EffectSwitches{.comparison = true}), controls_with(LabSwitches{.overlay = true}),
         controls_with(LabSwitches{.mark = true}), controls_with(LabSwitches{.log = true}),
-        controls_with(LabSwitches{.why = true}), controls_with(WindowSwitches{.hud = true}),
+        controls_with(LabSwitches{.why = true}), controls_with(LabSwitches{.plot = true}), controls_with(WindowSwitches{.hud = true}),
         controls_with(WindowSwitches{.full_screen = true}), controls_with(AlignmentKeys{.pattern = true}),
         controls_with(AlignmentKeys{.choose = -1}), controls_with(AlignmentKeys{.turn_by = 10}),
         controls_with(Touches{.pressed = true})};
