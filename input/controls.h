@@ -49,9 +49,9 @@ struct EffectSwitches {
     bool comparison = false; ///< the next comparison, and back to the seen picture
 };
 
-/// For measuring: the next overlay; a mark at the crosshair; a line of the log; the next page of explanation.
+/// For measuring: the next overlay; a mark at the crosshair; a line of the log; the next page of explanation; the next plot.
 struct LabSwitches {
-    bool overlay = false, mark = false, log = false, why = false;
+    bool overlay = false, mark = false, log = false, why = false, plot = false;
 };
 
 struct WindowSwitches {

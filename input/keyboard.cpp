@@ -35,6 +35,7 @@ const char* keyboard_help()
            "+, -            brighter, darker; L holds the automatic exposure, or lets it go\n"
            "O               instruments: crosshair, grid, ring of D = 1, distance, time of emission, off\n"
            "X, K            mark what is at the crosshair (the first thing, the second); write a line of the log\n"
+           "G               plots of the log against theory: D, length, clock, off\n"
            "F1              why? the next page, with the formula and its numbers\n"
            "H               head-up display; F11 full screen; Esc leave\n"
            "F2              for builders: the next test pattern\n"
@@ -135,6 +136,7 @@ void Keyboard::finish(Controls& controls)
     controls.mark = pressed(GLFW_KEY_X);
     controls.log = pressed(GLFW_KEY_K);
     controls.why = pressed(GLFW_KEY_F1);
+    controls.plot = pressed(GLFW_KEY_G);
     controls.hud = pressed(GLFW_KEY_H);
     controls.full_screen = pressed(GLFW_KEY_F11);
     controls.quit = pressed(GLFW_KEY_ESCAPE);

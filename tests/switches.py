@@ -14,8 +14,8 @@ import tempfile
 
 starbow, seconds = sys.argv[1], float(sys.argv[2]) if len(sys.argv) > 2 and sys.argv[2] != "--" else 60.0
 options = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
-switches = ["aberration", "doppler", "headlight", "false_colours", "comparison", "overlay", "hud", "why", "next_mode"]
-presses = {"comparison": 3, "overlay": 6, "why": 7, "next_mode": 3}  # presses until the first state is back; the others need two
+switches = ["aberration", "doppler", "headlight", "false_colours", "comparison", "overlay", "hud", "why", "plot", "next_mode"]
+presses = {"comparison": 3, "overlay": 6, "why": 7, "plot": 4, "next_mode": 3}  # presses until the first state is back; the others need two
 sequence = [name for name in switches for _ in range(presses.get(name, 2))]
 
 

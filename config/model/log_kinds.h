@@ -55,6 +55,7 @@ enum class LogKind : std::uint8_t {
     record_ended,
     record_differs,
     lab_log_ended,
+    lab_line_skipped,
     attraction_refused,
 };
 
@@ -110,6 +111,7 @@ inline constexpr auto log_rules = std::to_array<LogRule>({
     {"record-ended", "135d7259fca14b5dba915cafd04fec0b", LogLevel::warning, "record"},
     {"record-differs", "0919d1228f1b4405963596bb12e09c62", LogLevel::warning, "record"},
     {"lab-log-ended", "1623209b10c543b1956dc4cfd256c7cc", LogLevel::warning, "log"},
+    {"lab-line-skipped", "d94e5b6f752842bbb85c59995a16581b", LogLevel::warning, "log"},
     {"attraction-refused", "672f0acf8a984782a9195c77537a2115", LogLevel::warning, "visit"},
 });
 

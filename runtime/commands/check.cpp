@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "config/json/error.h"
+#include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include "config/model/shipped.h"
 #include "displays/check/floor_plan.h"

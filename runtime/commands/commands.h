@@ -23,5 +23,7 @@ void add_check(CLI::App& app, std::function<int()>& chosen);
 void add_warp(CLI::App& app, std::function<int()>& chosen);
 void add_import(CLI::App& app, std::function<int()>& chosen);
 void add_tell(CLI::App& app, std::function<int()>& chosen);
+void add_challenges(CLI::App& app, std::function<int()>& chosen);
+void add_class(CLI::App& app, std::function<int()>& chosen);
 
 } // namespace starbow

@@ -99,7 +99,8 @@ int run(int count, char** arguments)
     std::function<int()> chosen;
     for (auto add : {starbow::add_run, starbow::add_render, starbow::add_check, starbow::add_doctor, starbow::add_displays,
              starbow::add_devices, starbow::add_calibrate, starbow::add_warp, starbow::add_import, starbow::add_bench,
-             starbow::add_measure, starbow::add_report, starbow::add_soak, starbow::add_tell})
+             starbow::add_measure, starbow::add_report, starbow::add_soak, starbow::add_tell, starbow::add_challenges,
+             starbow::add_class})
         add(app, chosen);
     try {
         app.parse(count, arguments);

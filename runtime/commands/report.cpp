@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "config/json/error.h"
 #include "config/json/whole_file.h"
+#include "runtime/hud/html.h"
 #include "runtime/operation/diary.h"
 #include "runtime/operation/state_folder.h"
 #include <CLI/CLI.hpp>
@@ -16,21 +17,6 @@ namespace {
 struct ReportOptions {
     std::string day, state, out;
 };
-
-constexpr const char* style
-    = "body{font:16px/1.5 sans-serif;color:#1a1a1a;background:#fff;max-width:56rem;margin:2rem auto;padding:0 1rem}"
-      "h1{font-size:1.5rem}h2{font-size:1.1rem;margin-top:2rem}table{border-collapse:collapse}"
-      "td,th{padding:.2rem .8rem;text-align:right;border-bottom:1px solid "
-      "#ddd}td:first-child,th:first-child{text-align:left}"
-      "svg{width:100%;height:auto}text{font:12px sans-serif;fill:#333}";
-
-std::string escaped_html(const std::string& text)
-{
-    std::string out;
-    for (char c : text)
-        out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
-    return out;
-}
 
 std::string figure(double x, int decimals)
 {
@@ -92,10 +78,7 @@ std::string page_of(const Day& day, int first, int last, const Tally& all)
 {
     std::ostringstream out;
     const std::string mean = all.visits > 0 ? time_of(all.visits_s / double(all.visits)) : "none";
-    out << "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-           "content=\"width=device-width,initial-scale=1\"><title>Starbow, "
-        << day.date << "</title><style>" << style << "</style></head><body>\n<h1>Starbow on " << day.date
-        << "</h1>\n<table>\n"
+    out << page_begin("en", "Starbow, " + day.date) << "<h1>Starbow on " << day.date << "</h1>\n<table>\n"
         << row("Visits", grouped(all.visits)) << row("Mean length of a visit", mean)
         << row("Tours shown to their end", grouped(all.tours_finished)) << row("Pictures", grouped(all.frames()))
         << row("Half of them came within", figure(1e3 * all.percentile_s(0.5), 1) + " ms")

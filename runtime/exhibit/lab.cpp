@@ -1,34 +1,41 @@
 #include "lab.h"
+#include "config/json/error.h"
+#include "config/json/whole_file.h"
 #include "runtime/operation/log.h"
 #include <algorithm>
 
 namespace starbow {
-
-Measured measured_of(const MeasuringObserver& observer, const Ship& ship, const SceneFile& scene, const World& world,
-    const Effects& effects, const Spot& aim, double light, const std::array<std::optional<Spot>, 2>& marks)
-{
-    const double seconds = scene.seconds_per_time_unit();
-    Measured m{.observer = observer,
-        .ship_s = ship.proper_time.total() * seconds,
-        .world_s = observer.time * seconds,
-        .light_speed_m_s = scene.light_speed_m_s,
-        .seconds_per_time_unit = seconds,
-        .effects = effects,
-        .aim = read_spot(observer, aim, world, seconds)};
-    m.aim.light = light;
-    for (std::size_t i = 0; i < 2; ++i)
-        if (marks[i])
-            m.marks[i] = read_spot(observer, *marks[i], world, seconds);
-    if (marks[0] && marks[1])
-        m.pair = read_pair(observer, *marks[0], *marks[1], world, seconds);
-    return m;
-}
 
 Lab::Lab(const std::filesystem::path& log, double every_s, const Words& words)
     : words_(words)
     , log_(log.empty() ? nullptr : std::make_unique<LabLog>(log, write_log))
     , every_s_(every_s)
 {
+    if (!log_ || log_->lines() == 0)
+        return;
+    const std::string name = log.string(),
+                      bytes = read_whole(log, most_lab_bytes, "a log that starbow run --log has written");
+    for (const auto& [number, text] : lab_texts(bytes, name))
+        add_to_plots(text, number);
+}
+
+void Lab::add_to_plots(std::string_view text, long number)
+{
+    LabLine line;
+    try {
+        line = read_lab_line(text, log_->file().string(), number);
+    } catch (const InputError& error) {
+        // A line that a power cut has cut is no reason not to fly.
+        write_log(LogKind::lab_line_skipped, std::string(error.what()) + "; the plots leave this line out");
+        return;
+    }
+    constexpr std::size_t most = 100'000; // more would cost frames; hours of a log that is written by itself
+    for (std::size_t i = 1; i < plot_names.size(); ++i) {
+        add_points(points_[i], Plot(i), last_line_ ? &*last_line_ : nullptr, line);
+        if (points_[i].size() > most)
+            points_[i].erase(points_[i].begin(), points_[i].begin() + most / 2);
+    }
+    last_line_ = std::move(line);
 }
 
 void Lab::read(const FrameRenderer& frame, const LabSwitches& pressed, const GpuWorld& world, double dt_s,
@@ -38,6 +45,8 @@ void Lab::read(const FrameRenderer& frame, const LabSwitches& pressed, const Gpu
         overlay_ = Overlay((int(overlay_) + 1) % int(overlay_names.size()));
     if (pressed.why)
         why_ = Why((int(why_) + 1) % int(why_names.size()));
+    if (pressed.plot)
+        plot_ = Plot((int(plot_) + 1) % int(plot_names.size()));
     if ((pressed.mark || pressed.log || every_s_ > 0) && overlay_ == Overlay::off)
         overlay_ = Overlay::aim; // marking and logging show the crosshair
     marks_due_ += pressed.mark;
@@ -56,10 +65,12 @@ void Lab::read(const FrameRenderer& frame, const LabSwitches& pressed, const Gpu
     const Spot aimed = spot_at(observer, seen, world.world);
     for (; marks_due_ > 0; --marks_due_) {
         if (marks_[0] && marks_[1])
-            marks_ = {};
+            marks_ = {}, mark_numbers_ = {};
+        mark_numbers_[marks_[0] ? 1 : 0] = ++marks_made_;
         marks_[marks_[0] ? 1 : 0] = snapped(aimed, world.world);
     }
     measured_ = measured_of(frame.head(), ship_, world.scene, world.world, effects_, aimed, probed[0].light, marks_);
+    measured_->mark_numbers = mark_numbers_;
     waited_s_ += dt_s;
     if (every_s_ > 0 && waited_s_ >= every_s_)
         lines_due_ = std::max(lines_due_, 1); // a press in the same frame writes this line
@@ -73,8 +84,12 @@ void Lab::keep(const std::function<void(std::string)>& say)
 {
     if (!log_)
         say(words_("lab.no_log"));
-    else if (log_->write(*measured_, overlay_names[std::size_t(overlay_)]) && every_s_ == 0)
-        say(words_("lab.logged", {{"line", std::to_string(log_->lines())}, {"file", log_->file().filename().string()}}));
+    else if (log_->write(*measured_, overlay_names[std::size_t(overlay_)])) {
+        add_to_plots(log_->last(), log_->lines() + 1);
+        drawn_ = {}; // the point is in the next picture
+        if (every_s_ == 0)
+            say(words_("lab.logged", {{"line", std::to_string(log_->lines())}, {"file", log_->file().filename().string()}}));
+    }
 }
 
 void Lab::request(
@@ -93,14 +108,22 @@ void Lab::request(
     Measuring what{
         .probes = {{glm::dvec3(0, 0, -1)}}, .over = {overlay_ == Overlay::off ? Overlay::aim : overlay_, marks_, scale_}};
     if (measured_ && flight.hud) {
-        const double aspect = lab_aspect(overlay_, why_);
+        const double aspect = plot_ == Plot::none ? lab_aspect(overlay_, why_) : plot_aspect;
         const int width = frame.views().lab_panel_width(aspect);
         if (again || panel_.size != glm::ivec2(width, int(width * aspect)))
-            panel_ = draw_lab_panel(typesetter, words_, *measured_, overlay_, scale_, why_, width);
+            panel_ = draw_panel(typesetter, width);
         what.panel = &panel_;
-        what.scale = scale_place(overlay_, why_);
+        if (plot_ == Plot::none)
+            what.scale = scale_place(overlay_, why_);
     }
     frame.measure(what);
+}
+
+Panel Lab::draw_panel(const Typesetter& typesetter, int width) const
+{
+    if (plot_ == Plot::none)
+        return draw_lab_panel(typesetter, words_, *measured_, overlay_, scale_, why_, width);
+    return draw_lab_plot(typesetter, words_, plot_, points_[std::size_t(plot_)], glm::length(measured_->observer.u), width);
 }
 
 } // namespace starbow

@@ -2,14 +2,11 @@
 #include "runtime/flight/flight.h"
 #include "runtime/hud/lab_log.h"
 #include "runtime/hud/lab_panel.h"
+#include "runtime/hud/lab_plot.h"
 #include "runtime/render/frame_renderer.h"
 #include <chrono>
 
 namespace starbow {
-
-/// The instruments' readings at one instant. aim: the spot at the crosshair; light: its light, as Probed::light.
-Measured measured_of(const MeasuringObserver& observer, const Ship& ship, const SceneFile& scene, const World& world,
-    const Effects& effects, const Spot& aim, double light, const std::array<std::optional<Spot>, 2>& marks);
 
 /// The instruments of a running exhibit: the chosen overlay and page, the marks, and the log.
 class Lab {
@@ -29,20 +26,27 @@ public:
     /// True where an instrument, a page or a mark is on.
     bool shows_anything() const { return on() || marks_[0] || marks_[1]; }
     /// Another world: its marks and readings are gone.
-    void forget() { marks_ = {}, measured_.reset(), marks_due_ = lines_due_ = 0; }
+    void forget() { marks_ = {}, mark_numbers_ = {}, measured_.reset(), marks_due_ = lines_due_ = 0; }
     /// Another visitor: the instruments are off, as at the start.
-    void reset() { forget(), overlay_ = Overlay::off, why_ = Why::none; }
+    void reset() { forget(), overlay_ = Overlay::off, why_ = Why::none, plot_ = Plot::none; }
 
 private:
-    bool on() const { return overlay_ != Overlay::off || why_ != Why::none; }
+    bool on() const { return overlay_ != Overlay::off || why_ != Why::none || plot_ != Plot::none; }
     void keep(const std::function<void(std::string)>& say);
+    void add_to_plots(std::string_view text, long number);
+    Panel draw_panel(const Typesetter& typesetter, int width) const;
 
     const Words& words_;
     std::unique_ptr<LabLog> log_;
     double every_s_, waited_s_ = 0;
     Overlay overlay_ = Overlay::off;
     Why why_ = Why::none;
+    Plot plot_ = Plot::none;
+    std::array<std::vector<PlotPoint>, plot_names.size()> points_; ///< of each plot, from the log's lines
+    std::optional<LabLine> last_line_;
     std::array<std::optional<Spot>, 2> marks_;
+    std::array<long, 2> mark_numbers_{};
+    long marks_made_ = 0;
     int marks_due_ = 0, lines_due_ = 0; ///< presses that wait for the first probe
     Ship ship_; ///< the ship of the frame requested last
     Effects effects_;

@@ -1,4 +1,5 @@
 #include "instruments.h"
+#include "config/model/angles.h"
 #include "runtime/world/clock.h"
 #include "runtime/world/eye_event.h"
 #include "runtime/world/instances.h"
@@ -230,6 +231,10 @@ SpotReading read_spot(const MeasuringObserver& observer, const Spot& spot, const
         reading.from_motion_rad = angle_between(reading.ray.ship, observer.u);
         reading.from_motion_world_rad = angle_between(reading.ray.world, observer.u);
     }
+    const There relative = in_frame_of(observer, world, spot.sky ? 0 : spot.frame);
+    reading.relative_u = glm::length(relative.observer.u);
+    if (reading.relative_u > 0)
+        reading.from_relative_motion_rad = angle_between(relative.turn * reading.ray.ship, relative.observer.u);
     if (spot.sky)
         return reading;
     const MeasuringObserver there = looking_from(observer, world, spot.frame).observer;
@@ -265,6 +270,14 @@ PairReading read_pair(const MeasuringObserver& observer, const Spot& first, cons
         pair.apparent_s = glm::distance(left_from(a), left_from(b));
     if (!first.sky && !second.sky && first.frame == second.frame)
         pair.rest_s = glm::distance(first.at, second.at) * seconds_per_time_unit;
+    if (pair.rest_s) {
+        const glm::dvec3 apart = second.at - first.at, u = in_frame_of(observer, world, first.frame).observer.u;
+        pair.relative_u = glm::length(u);
+        if (*pair.relative_u > 0 && glm::length(apart) > 0) {
+            const double angle = angle_between(apart, u);
+            pair.from_motion_at_rest_rad = std::min(angle, glm::pi<double>() - angle);
+        }
+    }
     if (pair.rest_s && !is_galilean(observer)) {
         // Only the component along the motion is contracted, by 1 / gamma.
         const glm::dvec3 apart = (second.at - first.at) * seconds_per_time_unit,

@@ -61,6 +61,8 @@ struct SpotReading {
     Ray ray;
     std::optional<double> from_motion_rad, from_motion_world_rad; ///< angle from the motion, as seen and in the world;
                                                                   ///< nullopt at rest
+    double relative_u = 0; ///< proper velocity of the ship past the spot: gamma beta in the spot's rest frame
+    std::optional<double> from_relative_motion_rad; ///< angle from that motion, as seen; nullopt at rest beside the spot
     double seen_nm = example_nm; ///< the seen wavelength of example_nm
     std::optional<double> distance_s; ///< in the world, to the retarded position; nullopt for the sky. Without light
                                       ///< delay in the ship, to the place at its present
@@ -82,6 +84,9 @@ struct PairReading {
                                       ///< simply add
     std::optional<double> rest_s; ///< the distance between them where both rest; nullopt where they move against each other
     std::optional<double> contracted_s; ///< the distance in the ship's frame, both at one time there; nullopt as above
+    std::optional<double> relative_u; ///< proper velocity of the ship past both, in their rest frame; nullopt as rest_s
+    std::optional<double> from_motion_at_rest_rad; ///< angle between that motion and the line through both, where they
+                                                   ///< rest, up to a right angle; nullopt at rest beside them too
     std::optional<double> clocks_s; ///< the second's reading minus the first's
 };
 PairReading read_pair(const MeasuringObserver& observer, const Spot& first, const Spot& second, const World& world,

@@ -44,6 +44,8 @@ void add_spot(Columns& columns, const std::string& name, const std::optional<Spo
     columns.insert(columns.end(),
         {{name + "_from_motion_deg", csv_number(s.from_motion_rad, degree)},
             {name + "_from_motion_in_world_deg", csv_number(s.from_motion_world_rad, degree)},
+            {name + "_relative_gamma_beta", known(csv_number(s.relative_u))},
+            {name + "_from_relative_motion_deg", csv_number(s.from_relative_motion_rad, degree)},
             {name + "_doppler", known(csv_number(s.ray.D))}, {name + "_550_nm_seen_as_nm", known(csv_number(s.seen_nm))},
             {name + "_distance_light_s", csv_number(s.distance_s)},
             {name + "_distance_in_ship_light_s", csv_number(s.ship_distance_s)},
@@ -70,13 +72,20 @@ Columns columns_of(const Measured& m, const std::string& overlay, const std::str
             {"doppler_1_from_motion_deg", csv_number(unshifted_angle(o), degree)}});
     add_spot(all, "aim", m.aim);
     all.emplace_back("aim_light", csv_number(m.aim.light));
-    add_spot(all, "mark_1", m.marks[0]);
-    add_spot(all, "mark_2", m.marks[1]);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::string name = "mark_" + std::to_string(i + 1);
+        all.emplace_back(name + "_number", m.mark_numbers[i] > 0 ? std::to_string(m.mark_numbers[i]) : "");
+        add_spot(all, name, m.marks[i]);
+    }
     const PairReading pair = m.pair.value_or(PairReading{});
     all.insert(all.end(),
         {{"marks_angle_deg", m.pair ? csv_number(pair.angle_rad / degree) : ""},
             {"marks_apparent_length_light_s", csv_number(pair.apparent_s)},
-            {"marks_rest_length_light_s", csv_number(pair.rest_s)}, {"marks_clock_2_minus_1_s", csv_number(pair.clocks_s)}});
+            {"marks_rest_length_light_s", csv_number(pair.rest_s)},
+            {"marks_contracted_length_light_s", csv_number(pair.contracted_s)},
+            {"marks_relative_gamma_beta", csv_number(pair.relative_u)},
+            {"marks_from_motion_at_rest_deg", csv_number(pair.from_motion_at_rest_rad, degree)},
+            {"marks_clock_2_minus_1_s", csv_number(pair.clocks_s)}});
     return all;
 }
 
@@ -140,8 +149,10 @@ LabLog::~LabLog() { close(stream_); }
 
 bool LabLog::write(const Measured& measured, const std::string& overlay)
 {
-    if (!write_out(log_line(measured, overlay, utc_now()) + line_end))
+    std::string line = log_line(measured, overlay, utc_now());
+    if (!write_out(line + line_end))
         return false;
+    last_ = std::move(line);
     ++lines_;
     return true;
 }

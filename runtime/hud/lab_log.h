@@ -20,12 +20,14 @@ public:
     /// Appends a line. Returns false if the disk refuses it; later lines are lost then.
     bool write(const Measured& measured, const std::string& overlay);
     long lines() const { return lines_; } ///< in the file, without the first
+    const std::string& last() const { return last_; } ///< the last line written, without its end
     const std::filesystem::path& file() const { return file_; }
 
 private:
     bool write_out(const std::string& text);
 
     std::filesystem::path file_;
+    std::string last_;
     LogTo log_;
     int stream_ = -1;
     long lines_ = 0;

@@ -51,6 +51,26 @@ struct Formatter {
 
 } // namespace
 
+Measured measured_of(const MeasuringObserver& observer, const Ship& ship, const SceneFile& scene, const World& world,
+    const Effects& effects, const Spot& aim, double light, const std::array<std::optional<Spot>, 2>& marks)
+{
+    const double seconds = scene.seconds_per_time_unit();
+    Measured m{.observer = observer,
+        .ship_s = ship.proper_time.total() * seconds,
+        .world_s = observer.time * seconds,
+        .light_speed_m_s = scene.light_speed_m_s,
+        .seconds_per_time_unit = seconds,
+        .effects = effects,
+        .aim = read_spot(observer, aim, world, seconds)};
+    m.aim.light = light;
+    for (std::size_t i = 0; i < 2; ++i)
+        if (marks[i])
+            m.marks[i] = read_spot(observer, *marks[i], world, seconds);
+    if (marks[0] && marks[1])
+        m.pair = read_pair(observer, *marks[0], *marks[1], world, seconds);
+    return m;
+}
+
 WhyPage why_page(Why why, const Measured& m, const Words& words)
 {
     if (why == Why::none)

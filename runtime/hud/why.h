@@ -1,4 +1,5 @@
 #pragma once
+#include "config/model/scene_file.h"
 #include "config/model/words.h"
 #include "instruments.h"
 #include "runtime/flight/ship.h"
@@ -21,8 +22,13 @@ struct Measured {
     Effects effects;
     SpotReading aim;
     std::array<std::optional<SpotReading>, 2> marks;
+    std::array<long, 2> mark_numbers{}; ///< which mark each is since the start of the program, from 1; 0: none
     std::optional<PairReading> pair;
 };
+
+/// The instruments' readings at one instant. aim: the spot at the crosshair; light: its light, as Probed::light.
+Measured measured_of(const MeasuringObserver& observer, const Ship& ship, const SceneFile& scene, const World& world,
+    const Effects& effects, const Spot& aim, double light, const std::array<std::optional<Spot>, 2>& marks);
 
 /// A page: the effect in a sentence or two, its formula in the field's symbols, and the formula with the numbers on screen.
 struct WhyPage {

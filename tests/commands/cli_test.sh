@@ -255,7 +255,7 @@ begins_with() { # TEXT ARGUMENTS...
     said=$("$program" "$@" 2>&1 >/dev/null)
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == "starbow: $text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not begin with '$text': $said"; fi
 }
-begins_with 'fly is no command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench, measure, report, soak and tell are' fly
+begins_with 'fly is no command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench, measure, report, soak, tell, challenges and class are' fly
 begins_with 'look is no command; inspect and convert are' warp look
 begins_with "--ouput is no option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
 begins_with "--sizes is no option of 'starbow warp inspect'; " warp inspect x --sizes 3

@@ -98,7 +98,7 @@ until_true 10 saver_is_on || fail "the screen saver stays off after the exhibit"
 ok
 xset s 0 0 s reset
 
-# The instruments: marks, log, explanation and overlays. Each K writes a line to the log.
+# The instruments: marks, log, explanation, plots and overlays. Each K writes a line to the log.
 fly desk --scene clocks --log "$folder/lab.csv"
 lines() { [ "$(wc -l <"$folder/lab.csv")" -ge "$1" ]; }
 xdotool key o x
@@ -106,7 +106,7 @@ began=${EPOCHREALTIME/./}
 xdotool key k
 until_true 30 lines 2 || fail "instruments: no line in the log"
 pace=$(awk -v us=$((${EPOCHREALTIME/./} - began)) 'BEGIN { print 0.1 + 2e-6 * us }') # a frame lies between two keys
-for key in x k F1 o o k o o F1 o; do
+for key in x k F1 o o g k g o o g F1 o g; do
     xdotool key $key
     sleep "$pace"
 done

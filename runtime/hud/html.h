@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+
+namespace starbow {
+
+/// A foreign text as text or an attribute of HTML and SVG.
+inline std::string escaped_html(const std::string& text)
+{
+    std::string out;
+    for (char c : text)
+        out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
+    return out;
+}
+
+/// The style of all written pages.
+inline constexpr const char* page_style
+    = "body{font:16px/1.5 sans-serif;color:#1a1a1a;background:#fff;max-width:56rem;margin:2rem auto;padding:0 1rem}"
+      "h1{font-size:1.5rem}h2{font-size:1.1rem;margin-top:2rem}table{border-collapse:collapse}"
+      "td,th{padding:.2rem .8rem;text-align:right;border-bottom:1px solid "
+      "#ddd}td:first-child,th:first-child{text-align:left}"
+      "svg{width:100%;height:auto}text{font:12px sans-serif;fill:#333}";
+
+/// The beginning of a page up to its heading, which is the title. style: added to page_style.
+inline std::string page_begin(const std::string& language, const std::string& title, const std::string& style = "")
+{
+    return "<!doctype html>\n<html lang=\"" + language
+        + "\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>"
+        + escaped_html(title) + "</title><style>" + page_style + style + "</style></head><body>\n";
+}
+
+} // namespace starbow
