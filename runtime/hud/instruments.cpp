@@ -1,4 +1,5 @@
 #include "instruments.h"
+#include "config/model/angles.h"
 #include "runtime/world/clock.h"
 #include "runtime/world/eye_event.h"
 #include "runtime/world/instances.h"
