@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
 #include "view.glsl"
+#include "physics/real.glsl"
 #include "scale.glsl"
 // The head-up display: a panel at infinity in the cockpit, seen through the same directions as the world.
 

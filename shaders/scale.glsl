@@ -1,10 +1,11 @@
-// The colours of a scale from near (0) to far (1): bright yellow over green to deep violet, even in lightness, so that it
-// reads the same to most people with another colour vision. After viridis (Smith and van der Walt 2015), linear light.
-vec3 scale_colour(float t)
+// The colours of a scale from near (0) to far (1): bright yellow over green to deep violet, ever darker, so that neighbouring
+// steps differ by CIEDE2000 of at least 10 to every colour vision: tests/light/false_colours_test.cpp compiles them as C++ too.
+// After viridis (Smith and van der Walt 2015), with its first two steps farther apart and its last one darker. Linear light.
+FN rvec3 scale_colour(real t)
 {
-    const vec3 steps[7] = vec3[7](vec3(0.983, 0.799, 0.018), vec3(0.411, 0.638, 0.093), vec3(0.060, 0.462, 0.184),
-        vec3(0.014, 0.280, 0.263), vec3(0.029, 0.145, 0.268), vec3(0.059, 0.042, 0.207), vec3(0.058, 0.002, 0.089));
-    float at = clamp(t, 0.0, 1.0) * 5.9999;
+    const rvec3 steps[7] = {rvec3(0.990, 0.860, 0.030), rvec3(0.370, 0.580, 0.075), rvec3(0.055, 0.440, 0.150),
+        rvec3(0.012, 0.255, 0.260), rvec3(0.029, 0.135, 0.268), rvec3(0.055, 0.037, 0.200), rvec3(0.040, 0.001, 0.055)};
+    real at = clamp(t, real(0.0), real(1.0)) * real(5.9999);
     int i = int(at);
-    return mix(steps[i], steps[i + 1], at - float(i));
+    return mix(steps[i], steps[i + 1], at - real(i));
 }

@@ -93,7 +93,7 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     reject_unknown_members(top,
         {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "frame_budget_ms",
-            "ladder", "flying", "exposure", "textfile", "remote", "visit", "menu"});
+            "ladder", "flying", "exposure", "textfile", "remote", "visit", "menu", "calm"});
     Exhibit exhibit;
     for (const auto& [name, value] :
         {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}, {"tour", &exhibit.tour},
@@ -117,6 +117,7 @@ Exhibit load_exhibit(const std::filesystem::path& file)
         exhibit.flying = read_flying(*p, exhibit.paced);
     if (auto p = find_member(top, "exposure"))
         exhibit.exposure = read_exposing(*p);
+    take(top, "calm", exhibit.exposure.calm);
     if (auto p = find_member(top, "remote"))
         exhibit.remote = read_remote(*p, folder);
     if (auto p = find_member(top, "visit"))

@@ -10,6 +10,7 @@ struct Exposing {
     /// times 92.0 lm/W over pi, are 39,900 cd/m^2; log2(0.18 * 39,900 / 1e-6) = 32.7.
     double min_ev = -60, max_ev = 33;
     double bloom = 0; ///< the share of the light that glows around bright things, as in an eye or a lens
+    bool calm = false; ///< whatever the visitor does, switches and exposure make no more than three flashes in a second
 };
 
 } // namespace starbow

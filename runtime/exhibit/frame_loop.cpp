@@ -292,9 +292,7 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
     frame_->move_head(controls.head);
     frame_->meter(session_.options.exposure.automatic);
     frame_->bloom(session_.options.exposure.bloom);
-    const double black
-        = std::max({session_.directions.fade, session_.home_black, blackness(session_.visit, session_.visiting)});
-    frame_->fade(glm::smoothstep(0.0, 1.0, black));
+    frame_->fade(glm::smoothstep(0.0, 1.0, session_.black));
     Shot shot = shot_of(session_.flight, session_.programme.start.scene);
     shot.exposure_ev = ev_of(session_);
     session_.lab.request(*frame_, shot, session_.flight, context_.world, hud_.typesetter);

@@ -15,11 +15,14 @@ ReplayRenderer::ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, con
     renderer_.frame().show(pattern);
 }
 
-void ReplayRenderer::take(const RecordEntry& entry)
+void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
 {
     Controls controls = entry.controls;
     exposure_.locked ^= controls.lock_exposure;
     exposure_ = adapted_to(exposure_, entry.exposure_ev, exposing_, start_ev_);
+    if (exposing_.calm && (exposure_.ev || !exposing_.automatic))
+        calm_ev_
+            = calmed_ev(calm_ev_, shown_ev(exposure_, exposing_, flight.exposure_ev, start_ev_), 1e-9 * double(entry.dt_ns));
     controls.save = false;
     Layout layout = layout_;
     if (alignment_.apply(controls, layout)) {
@@ -38,7 +41,7 @@ std::vector<std::vector<std::uint8_t>> ReplayRenderer::picture(
     const Flight& flight, const std::string& scene, const Panel* hud)
 {
     Shot shot = shot_of(flight, scene);
-    shot.exposure_ev = shown_ev(exposure_, exposing_, shot.exposure_ev, start_ev_);
+    shot.exposure_ev = calm_ev_.value.value_or(shown_ev(exposure_, exposing_, shot.exposure_ev, start_ev_));
     return renderer_.picture(shot, hud);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "alignment_mode.h"
+#include "input/calm.h"
 #include "runtime/flight/flight.h"
 #include "runtime/flight/record.h"
 #include "runtime/light/exposure.h"
@@ -14,8 +15,8 @@ public:
     ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev);
 
     /// Applies a frame's controls to the pictures: head, test patterns, the builder's changes, exposure. Changes add up,
-    /// so every frame must be applied. Writes no layout.
-    void take(const RecordEntry& entry);
+    /// so every frame must be applied. flight: after the frame. Writes no layout.
+    void take(const RecordEntry& entry, const Flight& flight);
 
     /// Each output as RGBA8, rows from the top.
     std::vector<std::vector<std::uint8_t>> picture(const Flight& flight, const std::string& scene, const Panel* hud);
@@ -27,6 +28,7 @@ private:
     Exposing exposing_;
     double start_ev_;
     Exposure exposure_;
+    SlowTurns calm_ev_; ///< the shown EV of a calm exhibit
 };
 
 } // namespace starbow

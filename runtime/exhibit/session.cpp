@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdio>
 #include <ctime>
+#include <utility>
 
 namespace starbow {
 namespace {
@@ -215,6 +216,8 @@ std::string notice_of(const Session& session)
 double ev_of(const Session& session)
 {
     const Exposing& rules = session.options.exposure;
+    if (session.calm_ev.value)
+        return *session.calm_ev.value;
     return session.guide
         ? session.guide->shown_ev(session.exposure, rules)
         : shown_ev(session.exposure, rules, session.flight.exposure_ev, session.programme.start.exposure_ev);
@@ -229,6 +232,8 @@ bool is_over(const Session& session)
 
 /// Duration of a fade to black, s.
 constexpr double to_black_s = 1.5;
+/// A calm exhibit's fastest way to black and back, its part in a second.
+constexpr double black_per_s = 2;
 
 bool read_controls(Session& session, std::span<GLFWwindow* const> windows, RecordEntry& entry)
 {
@@ -254,6 +259,8 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     const bool quits = controls.quit;
     if (session.directions.holds || (session.options.visiting && !in_hand(session.visit)))
         hold(controls);
+    if (session.options.exposure.calm)
+        controls = session.calm_hands.let_through(controls, dt_s);
     return !quits;
 }
 
@@ -294,6 +301,17 @@ bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelin
             .version = session.options.version});
 }
 
+/// Limits the turns of a calm exhibit's exposure and of its way to black.
+void keep_calm(Session& session, double dt_s)
+{
+    session.calm_black = followed(session.calm_black, session.black, dt_s, black_per_s, 0);
+    session.black = *session.calm_black.value;
+    const SlowTurns before = std::exchange(session.calm_ev, {});
+    // A tour shows its own exposures; the first view of a world is exposed at once.
+    if ((session.exposure.ev || !session.options.exposure.automatic) && !(session.guide && !session.guide->flies()))
+        session.calm_ev = calmed_ev(before, ev_of(session), dt_s);
+}
+
 void step(Session& session, RecordEntry& entry, const std::optional<double>& metered, double seconds_per_time_unit)
 {
     const Exposing& exposing = session.options.exposure;
@@ -316,6 +334,9 @@ void step(Session& session, RecordEntry& entry, const std::optional<double>& met
         session.diary.count([](Tally& tally) { ++tally.tours_finished; });
     Directions& directions = session.directions;
     directions.fade = std::clamp(directions.fade + (directions.fades ? dt_s : -dt_s) / to_black_s, 0.0, 1.0);
+    session.black = std::max({directions.fade, session.home_black, blackness(session.visit, session.visiting)});
+    if (exposing.calm)
+        keep_calm(session, dt_s);
 }
 
 } // namespace starbow

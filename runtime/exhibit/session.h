@@ -2,6 +2,7 @@
 #include "alignment_mode.h"
 #include "display_hold.h"
 #include "exhibit.h"
+#include "input/calm.h"
 #include "input/head_tracker.h"
 #include "input/hid.h"
 #include "input/keyboard.h"
@@ -69,6 +70,9 @@ struct Session {
     Flight flight;
     History history{};
     Exposure exposure{};
+    CalmHands calm_hands{}; ///< of a calm exhibit, as the next two
+    SlowTurns calm_ev{}, calm_black{};
+    double black = 0; ///< the part of black over the picture
     Tutorial tutorial;
     RecordReplay record_replay;
     DisplayHold display{};

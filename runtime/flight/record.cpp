@@ -39,7 +39,7 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
     [[maybe_unused]] const auto& [mode, max_gamma, turn_deg_per_s, roll_deg_per_s, turn_jerk_deg_per_s3, rapidity_per_s,
         rapidity_jerk_per_s2, boundary, pace]
         = f;
-    [[maybe_unused]] const auto& [automatic, min_ev, max_ev, bloom] = e;
+    [[maybe_unused]] const auto& [automatic, min_ev, max_ev, bloom, calm] = e;
     [[maybe_unused]] const auto& [ship, flight_mode, flight_lever, coasting, lever_waits, lever_rest, frozen, slowness,
         homeward, thrust_inhibited, rate, thrust, turn_rad_s, turn_lead_rad_s, homing, flight_look_rad, effects, exposure_ev,
         flight_hud, ticks, left_ns]
@@ -286,6 +286,8 @@ std::string text_of(const RecordHeader& header)
     }
     json["exposure"] = {{"automatic", header.exposing.automatic}, {"min_ev", header.exposing.min_ev},
         {"max_ev", header.exposing.max_ev}, {"bloom", header.exposing.bloom}};
+    if (header.exposing.calm)
+        json["calm"] = true;
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -341,7 +343,7 @@ RecordHeader parse_record_header(const std::string& file, std::string line)
         complain(version, "is a version of records that is not known here; " + std::to_string(record_version) + " is right");
     reject_unknown_members(top,
         {"starbow_record", "scene", "scene_digest", "layout", "layout_digest", "pattern", "seconds_per_time_unit", "start",
-            "flying", "exposure"});
+            "flying", "exposure", "calm"});
     RecordHeader header;
     header.scene = text(member(top, "scene"));
     header.scene_digest = read_digest(member(top, "scene_digest"));
@@ -353,6 +355,7 @@ RecordHeader parse_record_header(const std::string& file, std::string line)
     header.start.scene = header.scene;
     header.rules = read_rules(member(top, "flying"));
     header.exposing = read_exposing(member(top, "exposure"));
+    take(top, "calm", header.exposing.calm);
     return header;
 }
 

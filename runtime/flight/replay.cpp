@@ -1,6 +1,7 @@
 #include "replay.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
+#include "history.h"
 #include <algorithm>
 
 namespace starbow {
@@ -102,6 +103,26 @@ std::string Replay::verdict() const
     else if (!whole_)
         text += "; the record has no last line: its flight was cut off";
     return text;
+}
+
+void fly_again(Replay& replay, const std::function<bool(const RecordEntry&, const Flight&)>& each)
+{
+    const RecordHeader& header = replay.header();
+    Flight flight = flight_at(header.start, header.rules);
+    History history;
+    long shown = 0;
+    while (const auto entry = replay.next()) {
+        if (!entry->controls.commands.empty())
+            throw InputError(replay.file() + ": frame " + std::to_string(shown) + " has a remote's command, "
+                + one_line(words_of(entry->controls.commands[0])[0])
+                + ", that only an exhibit carries out; starbow run --replay is right");
+        flight = flown(
+            flight, history, entry->controls, entry->dt_ns, header.rules, header.seconds_per_time_unit, header.start);
+        replay.compare(flight);
+        if (!each(*entry, flight))
+            return;
+        shown += entry->shown;
+    }
 }
 
 } // namespace starbow

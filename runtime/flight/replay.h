@@ -3,6 +3,7 @@
 #include "record.h"
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,7 @@ public:
     explicit Replay(const std::filesystem::path& file);
 
     const RecordHeader& header() const { return header_; }
+    const std::string& file() const { return file_; }
 
     /// The next frame, its controls' time counted from the record's beginning; nullopt after the last. Throws InputError
     /// with file and line.
@@ -53,5 +55,10 @@ private:
     bool cut_ = false; ///< an incomplete last line was left out
     std::string differs_; ///< the first difference
 };
+
+/// Flies a record again to its end, and compares the flight with the record's checks. each: is called after each frame, also
+/// after those that were on no screen; it returns false to end before. Throws InputError also where the record has a
+/// remote's command, which only an exhibit carries out.
+void fly_again(Replay& replay, const std::function<bool(const RecordEntry&, const Flight&)>& each);
 
 } // namespace starbow

@@ -119,6 +119,9 @@ TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
     EXPECT_EQ(from_schema.exposure.min_ev, from_reader.exposure.min_ev);
     EXPECT_EQ(from_schema.exposure.max_ev, from_reader.exposure.max_ev);
     EXPECT_EQ(from_schema.exposure.bloom, from_reader.exposure.bloom);
+    EXPECT_EQ(from_schema.exposure.calm, from_reader.exposure.calm);
+    EXPECT_FALSE(from_reader.exposure.calm);
+    EXPECT_TRUE(load_exhibit(write_text("calm.json", R"({ "calm": true })")).exposure.calm);
     const Visiting usual;
     EXPECT_EQ(from_schema.visiting->idle_s, usual.idle_s);
     EXPECT_EQ(from_schema.visiting->ask_s, usual.ask_s);
@@ -137,6 +140,7 @@ TEST(ExhibitFileTest, WrongExhibitsAreRefusedByReaderAndSchema)
              {R"({ "flying": { "max_gamma": 1e7 } })", "/flying/max_gamma: 10000000"},
              {R"({ "flying": { "turn_deg_per_s": 0 } })", "/flying/turn_deg_per_s: 0"},
              {R"({ "flying": { "turn_jerk_deg_per_s3": -1 } })", "/flying/turn_jerk_deg_per_s3: -1"},
+             {R"({ "calm": 1 })", "/calm: 1"}, {R"({ "exposure": { "calm": true } })", "calm"},
              {R"({ "exposure": { "bloom": 1.5 } })", "/exposure/bloom: 1.5 is too large"},
              {R"({ "exposure": { "min_ev": -61 } })", "/exposure/min_ev: -61"},
              {R"({ "exposure": { "ev": 0 } })", "/exposure"},

@@ -188,6 +188,10 @@ TEST(Record, TheHeaderIsReadBackToTheBit)
     EXPECT_EQ(read.rules.boundary->centre, header.rules.boundary->centre);
     EXPECT_EQ(read.rules.boundary->radius, header.rules.boundary->radius);
     EXPECT_EQ(text_of(read), text_of(header));
+    RecordHeader calm = header;
+    calm.exposing.calm = true;
+    EXPECT_TRUE(parse_record_header("f", text_of(calm)).exposing.calm);
+    EXPECT_FALSE(read.exposing.calm);
 }
 
 // FNV-1a's published test vectors (Fowler, Noll, Vo: test_fnv.c).

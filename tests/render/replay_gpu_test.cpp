@@ -53,7 +53,7 @@ TEST(ReplayFrames, AreTheSameToTheByte)
             flight = flown(
                 flight, history, entry.controls, entry.dt_ns, header.rules, header.seconds_per_time_unit, header.start);
             recorder.keep(entry, flight);
-            replay_renderer.take(entry);
+            replay_renderer.take(entry, flight);
             live.push_back(replay_renderer.picture(flight, scene, nullptr));
         }
         recorder.end(flight);
@@ -69,7 +69,7 @@ TEST(ReplayFrames, AreTheSameToTheByte)
         flight = flown(flight, history, entry->controls, entry->dt_ns, replay.header().rules,
             replay.header().seconds_per_time_unit, replay.header().start);
         replay.compare(flight);
-        replay_renderer.take(*entry);
+        replay_renderer.take(*entry, flight);
         ASSERT_LT(frame, live.size());
         ASSERT_EQ(replay_renderer.picture(flight, scene, nullptr), live[frame]) << frame;
         changed += frame > 0 && live[frame] != live[frame - 1];

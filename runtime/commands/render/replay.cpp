@@ -4,7 +4,6 @@
 #include "config/model/shipped.h"
 #include "runtime/commands/options/size.h"
 #include "runtime/exhibit/replay_renderer.h"
-#include "runtime/flight/history.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/flight/replay.h"
 #include "runtime/operation/log.h"
@@ -61,25 +60,16 @@ int render_replay(const ReplayOptions& options)
     std::error_code error; // write_png reports it
     std::filesystem::create_directories(folder, error);
 
-    Flight flight = flight_at(header.start, header.rules);
-    History history;
     long frame = 0, drawn = 0; // of the frames that were on a screen
     Progress progress;
-    while (const auto entry = replay.next()) {
-        if (!entry->controls.commands.empty())
-            throw InputError(one_line(options.replay) + ": frame " + std::to_string(frame) + " has a remote's command, "
-                + one_line(words_of(entry->controls.commands[0])[0])
-                + ", that only an exhibit carries out; starbow run --replay is right");
-        flight = flown(
-            flight, history, entry->controls, entry->dt_ns, header.rules, header.seconds_per_time_unit, header.start);
-        replay.compare(flight);
-        replay_renderer.take(*entry);
-        if (!entry->shown)
-            continue;
+    fly_again(replay, [&](const RecordEntry& entry, const Flight& flight) {
+        replay_renderer.take(entry, flight);
+        if (!entry.shown)
+            return true;
         const long number = frame++;
         progress.show("frame " + std::to_string(number) + ", " + std::to_string(drawn) + " drawn", replay.part_read());
         if (number < first || number > last || (number - first) % options.every != 0)
-            continue;
+            return true;
         std::optional<Panel> panel;
         if (options.hud && flight.hud)
             panel
@@ -90,7 +80,8 @@ int render_replay(const ReplayOptions& options)
         for (std::size_t i = 0; i < pictures.size(); ++i)
             write_png(folder / (from.layout.outputs[i].name + name), from.layout.outputs[i].size, pictures[i]);
         ++drawn;
-    }
+        return true;
+    });
     std::printf("%ld of %ld frames drawn into %s; %s\n", drawn, frame, options.out.c_str(), replay.verdict().c_str());
     return replay.differs() || !context.device.complaints.empty() ? 1 : 0;
 }

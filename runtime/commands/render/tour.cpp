@@ -4,9 +4,9 @@
 #include "config/model/shipped.h"
 #include "runtime/commands/interrupt.h"
 #include "runtime/commands/options/size.h"
+#include "runtime/exhibit/tour_renderer.h"
 #include "runtime/flight/record_files.h"
-#include "runtime/flight/tour.h"
-#include "runtime/hud/caption.h"
+#include "runtime/flight/tour_film.h"
 #include "runtime/images/movie.h"
 #include "runtime/operation/progress.h"
 #include "runtime/render/offscreen.h"
@@ -29,9 +29,6 @@ int report_interruption(const std::string& movie, long drawn, long frames)
     return 130;
 }
 
-/// A frame's time since the tour's start.
-std::int64_t frame_ns(long frame, long frames_per_s) { return std::llround(double(frame) * 1e9 / double(frames_per_s)); }
-
 /// The text that a frame shows over the world.
 std::string text_of(const Caption& caption)
 {
@@ -49,38 +46,14 @@ fs::path movie_of(const fs::path& movie, const Layout& layout, const std::string
     return movie.parent_path() / (movie.stem().string() + "-" + output + movie.extension().string());
 }
 
-/// Plays a tour without a visitor.
-class Player {
-public:
-    Player(const Show& show, long frames_per_s)
-        : show_(show)
-        , frames_per_s_(frames_per_s)
-        , touring_(touring_at(show))
-    {
-    }
-    const Touring& at(long frame)
-    {
-        while (frame_ < frame) {
-            const std::int64_t before = frame_ns(frame_, frames_per_s_), after = frame_ns(++frame_, frames_per_s_);
-            touring_ = advance(std::move(touring_), show_, {}, after - before);
-        }
-        return touring_;
-    }
-
-private:
-    const Show& show_;
-    long frames_per_s_, frame_ = 0;
-    Touring touring_;
-};
-
 /// A digest of everything that the frames depend on: equal digests mean equal frames.
 std::string made_from(const TourOptions& options, const Show& show, const Words& words, const fs::path& scene,
-    const Layout& layout, const std::string& device, long frames)
+    const Layout& layout, const std::string& device)
 {
     std::uint64_t shown = digest(std::string_view());
-    Player player(show, options.frames_per_s);
-    for (long i = 0; i < frames; ++i) {
-        const Touring& touring = player.at(i);
+    TourFilm film(show, options.frames_per_s);
+    for (long i = 0; i < film.frames(); ++i) {
+        const Touring& touring = film.at(i);
         const std::uint64_t flight = digest(touring.flight);
         shown = digest({reinterpret_cast<const char*>(&flight), sizeof flight}, shown);
         shown = digest(text_of(caption_of(touring, show, words, {})), shown);
@@ -89,7 +62,7 @@ std::string made_from(const TourOptions& options, const Show& show, const Words&
     nlohmann::ordered_json json;
     json["tour"] = show.tour.file.stem().string();
     json["language"] = words.language;
-    json["frames"] = frames;
+    json["frames"] = film.frames();
     json["frames_per_s"] = options.frames_per_s;
     json["states"] = shown_digest(shown);
     json["words"] = shown_digest(digest_of({words.file}));
@@ -125,17 +98,17 @@ int render_tour(const TourOptions& options)
         check_writable(movie_of(movie, layout, output.name));
     check_ffmpeg();
     const Show show{tour, {}, load_scene_file(scene).seconds_per_time_unit(), false};
-    const long frames = std::lround(std::ceil(length_s(tour) * double(options.frames_per_s) - 1e-6));
+    TourFilm film(show, options.frames_per_s);
+    const long frames = film.frames();
     RenderContext context(scene, device_options(false));
     const std::string device = context.device.name();
-    const MovieFrames kept(movie, made_from(options, show, words, scene, layout, device, frames), print_line);
+    const MovieFrames kept(movie, made_from(options, show, words, scene, layout, device), print_line);
 
     catch_interrupts();
     OffscreenRenderer renderer(
         context.device, context.pipelines, context.world, layout, default_quality(context.device, true), false);
     renderer.frame().bloom(options.bloom);
-    const Typesetter typesetter;
-    Player player(show, options.frames_per_s);
+    TourRenderer tour_renderer(renderer, show, context.world.scene, words);
     long drawn = 0, found = 0;
     {
         Progress progress;
@@ -150,13 +123,7 @@ int render_tour(const TourOptions& options)
             progress.show("frame " + std::to_string(i) + " of " + std::to_string(frames), double(i) / double(frames));
             if (interrupted())
                 return report_interruption(options.movie, i, frames);
-            const Touring& touring = player.at(i);
-            Readings shown = readings(touring.flight.ship, context.world.scene, touring.flight.effects);
-            shown.exposure_ev = touring.flight.exposure_ev;
-            shown.caption = caption_of(touring, show, words, {});
-            const Panel panel = typesetter.draw(shown, words, renderer.frame().views().hud_width());
-            const auto pictures
-                = renderer.picture(shot_of(touring.flight, tour.scene), shown.caption->text.empty() ? nullptr : &panel);
+            const auto pictures = tour_renderer.picture(film.at(i));
             for (std::size_t k = 0; k < pictures.size(); ++k)
                 write_png(kept.file(layout.outputs[k].name, i), layout.outputs[k].size, pictures[k]);
             ++drawn;

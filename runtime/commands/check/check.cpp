@@ -1,4 +1,3 @@
-#include "commands.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
@@ -8,6 +7,8 @@
 #include "displays/check/lint.h"
 #include "displays/compile/compiled_view.h"
 #include "displays/finish/shade.h"
+#include "flashes.h"
+#include "runtime/commands/commands.h"
 #include "runtime/images/capture.h"
 #include "runtime/world/spectral_errors.h"
 #include "runtime/world/worldline.h"
@@ -24,6 +25,7 @@ constexpr double most_difference = 3, most_luminance = 0.03;
 
 struct CheckOptions {
     std::string layout, svg, scene;
+    FlashOptions flashes;
 };
 
 /// The directions of warped viewports' pixels, from their compiled maps; adds the warnings about their meshes. Throws
@@ -109,18 +111,37 @@ void add_check(CLI::App& app, std::function<int()>& chosen)
     auto options = std::make_shared<CheckOptions>();
     CLI::App* command = app.add_subcommand("check",
         "Read a layout, print what each viewport shows, and draw the floor plan; or a scene, and say how exact its light "
-        "is.");
+        "is; or a tour or a flight, and count its flashes.");
     CLI::Option* layout
         = command->add_option("FILE", options->layout, "A layout file, or the name of one in config/layouts");
     CLI::Option* scene = command->add_option("--scene", options->scene,
         "A scene file, or the name of one in config/scenes: how its light is represented, and the worst error of a colour");
     scene->excludes(layout);
-    command->add_option("--svg", options->svg, "The drawing; without it LAYOUT-plan.svg in the current folder");
-    command->footer("Example:\n  starbow check dome --svg out/dome.svg\n  starbow check --scene chart");
-    command->callback([options, layout, scene, &chosen] {
-        if (layout->empty() && scene->empty())
-            throw CLI::RequiredError("FILE or --scene");
-        chosen = [options] { return options->scene.empty() ? check(*options) : check_scene(options->scene); };
+    CLI::Option* flashes = command->add_option("--flashes", options->flashes.film,
+        "A tour file, the name of one in config/tours, or a record of starbow run --record (.jsonl): the flashes that an "
+        "eye "
+        "sees, by WCAG 2.3.1; exit status 1 where there are more than three in a second");
+    flashes->excludes(layout)->excludes(scene);
+    command
+        ->add_option("--layout", options->flashes.layout,
+            "With --flashes: a layout file, or the name of one in config/layouts [desk; for a record its own]")
+        ->needs(flashes);
+    command
+        ->add_option(
+            "--out", options->flashes.out, "With --flashes: the picture; without it NAME-flashes.png in the current folder")
+        ->needs(flashes);
+    command->add_option("--svg", options->svg, "The drawing; without it LAYOUT-plan.svg in the current folder")
+        ->excludes(flashes);
+    command->footer("Examples:\n  starbow check dome --svg out/dome.svg\n  starbow check --scene chart\n"
+                    "  starbow check --flashes first-minute --layout dome --out out/flashes.png");
+    command->callback([options, layout, scene, flashes, &chosen] {
+        if (layout->empty() && scene->empty() && flashes->empty())
+            throw CLI::RequiredError("FILE, --scene or --flashes");
+        chosen = [options] {
+            if (!options->flashes.film.empty())
+                return check_flashes(options->flashes);
+            return options->scene.empty() ? check(*options) : check_scene(options->scene);
+        };
     });
 }
 

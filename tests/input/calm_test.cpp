@@ -1,0 +1,242 @@
+// A calm exhibit's limits, against hands that do their worst; and the flashes that these hands make, by WCAG 2.3.1.
+#include "input/calm.h"
+#include "runtime/flight/history.h"
+#include "runtime/images/flashes.h"
+#include "runtime/light/exposure.h"
+#include "shaders/physics/physics.h"
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace shader {
+using namespace glm;
+using real = float;
+using rvec3 = glm::vec3;
+#define FN inline
+#include "shaders/tone.glsl"
+#undef FN
+} // namespace shader
+
+namespace calm_test {
+
+using namespace starbow;
+
+namespace {
+
+constexpr double dt_s = 1.0 / 60;
+constexpr std::int64_t frame_ns = 1'000'000'000 / 60;
+
+/// The most turns of a series within any one second.
+int most_turns(const std::vector<double>& values)
+{
+    std::vector<std::size_t> turns;
+    int way = 0;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+        const int now = (values[i] > values[i - 1]) - (values[i] < values[i - 1]);
+        if (now != 0 && way != 0 && now != way)
+            turns.push_back(i);
+        way = now != 0 ? now : way;
+    }
+    int most = 0;
+    for (std::size_t first = 0; first < turns.size(); ++first)
+        most = std::max(most, int(std::count_if(turns.begin() + std::ptrdiff_t(first), turns.end(), [&](std::size_t i) {
+            return i < turns[first] + 60;
+        })));
+    return most;
+}
+
+/// What a visitor sees in a row of directions 5 degrees apart, from straight ahead to abreast, in front of a grey world.
+struct View {
+    static constexpr int directions = 19;
+
+    /// Luminances before the exposure.
+    static std::vector<LuminanceSample> light(const Flight& flight)
+    {
+        const double E = physics::exp_rapidity(glm::length(flight.ship.u.total()));
+        std::vector<LuminanceSample> all;
+        for (int i = 0; i < directions; ++i) {
+            const double angle = 5 * i * 3.14159265358979324 / 180;
+            const double D = 2 / (E * (1 - std::cos(angle)) + (1 + std::cos(angle)) / E); // 1 / (gamma (1 - beta cos))
+            const double own = 0.2 + 0.05 * (i % 3);
+            all.push_back({float(flight.effects.headlight ? own * D * D * D : own), 0.01f});
+        }
+        return all;
+    }
+};
+
+struct Worst {
+    int general = 0; ///< changes in a second
+    Flight last;
+};
+
+/// Flies at gamma 4 with a script of controls, with the automatic exposure, in a calm exhibit or in another, and counts the
+/// flashes of a field of 10 degrees in each direction.
+Worst flown_by(const std::function<Controls(int frame)>& script, bool calm, double seconds, double max_gamma = 4)
+{
+    Shot start;
+    start.u = {0, 0, -std::sqrt(15.0)};
+    start.exposure_ev = -3;
+    start.effects.headlight = false;
+    Flying rules;
+    rules.max_gamma = max_gamma;
+    const Exposing exposing{.calm = calm};
+    Flight flight = flight_at(start, rules);
+    History history;
+    Exposure exposure;
+    SlowTurns ev;
+    CalmHands hands;
+    // Each direction is a field of its own, far from the others.
+    std::vector<SeenPixel> pixels;
+    for (int i = 0; i < View::directions; ++i)
+        pixels.push_back({glm::vec3(std::sin(0.3 * i), 0, std::cos(0.3 * i)), 0.01f, 0});
+    FlashCounter counter(pixels, 1);
+    for (int frame = 0; frame < int(seconds * 60); ++frame) {
+        Controls controls = script(frame);
+        if (calm)
+            controls = hands.let_through(controls, dt_s);
+        flight = flown(flight, history, controls, frame_ns, rules, 1, start);
+        const std::vector<LuminanceSample> light = View::light(flight);
+        exposure = adapted(exposure, metered_ev(light), dt_s, exposing, start.exposure_ev);
+        double shown = shown_ev(exposure, exposing, flight.exposure_ev, start.exposure_ev);
+        if (calm)
+            shown = *(ev = calmed_ev(ev, shown, dt_s)).value;
+        std::vector<glm::vec3> picture;
+        for (const LuminanceSample& sample : light)
+            picture.push_back(shader::tone_map(glm::vec3(float(sample.luminance * std::exp2(shown)))));
+        counter.take(frame * frame_ns, picture);
+    }
+    return {counter.worst(FlashKind::general, 0).changes, flight};
+}
+
+} // namespace
+
+TEST(CalmTest, ANumberTurnsAtMostOnceASecondAndArrives)
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> any(0, 1);
+    for (int trial = 0; trial < 50; ++trial) {
+        SlowTurns number;
+        std::vector<double> values;
+        double wanted = 0;
+        const double restless = any(random), far = any(random) * 10;
+        for (int frame = 0; frame < 600; ++frame) {
+            if (any(random) < restless)
+                wanted = far * any(random);
+            const double before = number.value.value_or(wanted);
+            number = followed(number, wanted, dt_s, 6, 0.05);
+            values.push_back(*number.value);
+            ASSERT_LE(std::abs(values.back() - before), 6 * dt_s + 1e-12);
+        }
+        EXPECT_LE(most_turns(values), 1) << trial;
+        for (int frame = 0; frame < 240; ++frame)
+            number = followed(number, wanted, dt_s, 6, 0.05);
+        EXPECT_NEAR(*number.value, wanted, 0.05) << trial;
+    }
+}
+
+TEST(CalmTest, AnUndisturbedWayIsNotDelayed)
+{
+    SlowTurns number = followed({}, 0, dt_s, 6, 0.05);
+    for (int frame = 0; frame < 60; ++frame)
+        number = followed(number, 0.1 * frame * dt_s, dt_s, 6, 0.05);
+    EXPECT_NEAR(*number.value, 0.1 * 59 * dt_s, 1e-12);
+}
+
+TEST(CalmTest, TheFirstPressActsAtOnceAndTheOthersTogetherASecondLater)
+{
+    CalmHands hands;
+    std::vector<int> headlight, doppler, stop;
+    for (int frame = 0; frame < 180; ++frame) {
+        Controls controls;
+        controls.headlight = frame == 10 || frame == 20 || frame == 30 || frame == 40; // three more: one is left
+        controls.doppler = frame == 25 || frame == 35; // two: none is left
+        controls.stop = frame == 50;
+        controls.freeze = frame == 15; // changes no picture
+        controls = hands.let_through(controls, dt_s);
+        if (controls.headlight)
+            headlight.push_back(frame);
+        if (controls.doppler)
+            doppler.push_back(frame);
+        if (controls.stop)
+            stop.push_back(frame);
+        EXPECT_EQ(controls.freeze, frame == 15);
+    }
+    EXPECT_EQ(headlight, (std::vector{10, 70}));
+    EXPECT_TRUE(doppler.empty());
+    EXPECT_EQ(stop, (std::vector{70}));
+}
+
+TEST(CalmTest, AThrottleTurnsAtMostOnceASecond)
+{
+    CalmHands hands;
+    std::vector<double> lever, speed{0};
+    for (int frame = 0; frame < 600; ++frame) {
+        Controls controls;
+        controls.lever = 0.5 + 0.5 * std::sin(frame * 0.7);
+        controls.throttle_rate = frame / 5 % 2 == 0 ? 1 : -1;
+        controls = hands.let_through(controls, dt_s);
+        lever.push_back(*controls.lever);
+        speed.push_back(speed.back() + controls.throttle_rate * dt_s);
+    }
+    EXPECT_LE(most_turns(lever), 1);
+    EXPECT_LE(most_turns(speed), 1);
+}
+
+TEST(CalmTest, AHeadlightSwitchPressedTenTimesASecondFlickersOnlyWithoutCalm)
+{
+    const auto mash = [](int frame) {
+        Controls controls;
+        controls.headlight = frame % 6 == 0;
+        return controls;
+    };
+    EXPECT_GE(flown_by(mash, false, 5).general, 10);
+    EXPECT_LE(flown_by(mash, true, 5).general, 2 * most_flashes);
+    EXPECT_GT(flown_by(mash, true, 5).general, 0); // it still is a switch
+    // After an odd number of presses it is on.
+    const auto presses = [](int number) {
+        return [number](int frame) {
+            Controls controls;
+            controls.headlight = frame % 6 == 0 && frame < 6 * number;
+            return controls;
+        };
+    };
+    EXPECT_TRUE(flown_by(presses(7), true, 5).last.effects.headlight);
+    EXPECT_FALSE(flown_by(presses(8), true, 5).last.effects.headlight);
+}
+
+TEST(CalmTest, NoHandsMakeMoreThanThreeFlashesInASecond)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> any(0, 1);
+    int most_without = 0, most_with = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+        const double restless = std::pow(any(random), 2);
+        std::vector<Controls> script(480);
+        double lever = 0.5, exposure = 0, rate = 0;
+        for (Controls& controls : script) {
+            controls.headlight = any(random) < restless;
+            controls.aberration = any(random) < restless;
+            controls.stop = any(random) < 0.1 * restless;
+            controls.reset = any(random) < 0.1 * restless;
+            controls.undo = any(random) < 0.1 * restless;
+            controls.next_mode = any(random) < 0.1 * restless;
+            controls.lock_exposure = any(random) < 0.1 * restless;
+            if (any(random) < restless)
+                lever = any(random), exposure = std::round(2 * any(random) - 1), rate = std::round(2 * any(random) - 1);
+            if (trial % 2 == 0)
+                controls.lever = lever;
+            controls.throttle_rate = rate;
+            controls.exposure = exposure;
+        }
+        const auto play = [&](int frame) { return script[std::size_t(frame)]; };
+        most_without = std::max(most_without, flown_by(play, false, 8).general);
+        most_with = std::max(most_with, flown_by(play, true, 8).general);
+        ASSERT_LE(flown_by(play, true, 8).general, 2 * most_flashes) << trial;
+    }
+    EXPECT_GT(most_without, 20);
+    EXPECT_GT(most_with, 1);
+}
+
+} // namespace calm_test
