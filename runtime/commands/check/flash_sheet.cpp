@@ -5,26 +5,27 @@
 #include <cmath>
 
 namespace starbow {
+namespace flash_sheet {
 namespace {
 
-using Colour = std::array<std::uint8_t, 3>;
-constexpr Colour ground{22, 22, 26}, chart_ground{34, 34, 40}, line{90, 90, 98}, text{225, 225, 225}, limit{255, 255, 255},
+using Ink = std::array<std::uint8_t, 3>;
+constexpr Ink ground{22, 22, 26}, chart_ground{34, 34, 40}, line{90, 90, 98}, text_ink{225, 225, 225}, limit{255, 255, 255},
     general{86, 180, 233}, red{230, 97, 40}, marked{255, 220, 60};
 constexpr int width = 1200, chart_left = 48, chart_width = 700, chart_height = 200, picture_left = 788, picture_width = 392,
               title_height = 34, foot_height = 62, text_px = 17;
 
 /// RGBA8 in sRGB.
-struct Sheet {
+struct FlashPaper {
     glm::ivec2 size;
     std::vector<std::uint8_t> rgba;
 
-    explicit Sheet(glm::ivec2 s)
+    explicit FlashPaper(glm::ivec2 s)
         : size(s)
         , rgba(std::size_t(s.x) * std::size_t(s.y) * 4)
     {
         fill({0, 0}, s, ground);
     }
-    void put(glm::ivec2 p, const Colour& colour)
+    void put(glm::ivec2 p, const Ink& colour)
     {
         if (p.x < 0 || p.y < 0 || p.x >= size.x || p.y >= size.y)
             return;
@@ -32,13 +33,13 @@ struct Sheet {
         std::copy(colour.begin(), colour.end(), at);
         at[3] = 255;
     }
-    void fill(glm::ivec2 from, glm::ivec2 extent, const Colour& colour)
+    void fill(glm::ivec2 from, glm::ivec2 extent, const Ink& colour)
     {
         for (int y = 0; y < extent.y; ++y)
             for (int x = 0; x < extent.x; ++x)
                 put(from + glm::ivec2(x, y), colour);
     }
-    void write(const Typesetter& typesetter, const std::string& words, glm::ivec2 baseline, const Colour& colour)
+    void write(const Typesetter& typesetter, const std::string& words, glm::ivec2 baseline, const Ink& colour)
     {
         Panel panel;
         panel.size = {int(std::ceil(typesetter.width_of(words, text_px))) + 4, 2 * text_px};
@@ -52,7 +53,7 @@ struct Sheet {
                     if (p.x < 0 || p.y < 0 || p.x >= size.x || p.y >= size.y)
                         continue;
                     const std::uint8_t* under = &rgba[4 * (std::size_t(p.y) * std::size_t(size.x) + std::size_t(p.x))];
-                    Colour mixed;
+                    Ink mixed;
                     for (std::size_t k = 0; k < 3; ++k)
                         mixed[k] = std::uint8_t((under[k] * (255 - part) + colour[k] * part) / 255);
                     put(p, mixed);
@@ -68,7 +69,7 @@ int height_of(const FlashStrip& strip)
 }
 
 /// Flashes in a second over time: an area for the general ones, a line over it for the red ones.
-void draw_chart(Sheet& sheet, const Typesetter& typesetter, const FlashStrip& strip, glm::ivec2 corner)
+void draw_chart(FlashPaper& sheet, const Typesetter& typesetter, const FlashStrip& strip, glm::ivec2 corner)
 {
     int most = 2 * (most_flashes + 1);
     for (const std::vector<int>& changes : strip.changes)
@@ -78,7 +79,7 @@ void draw_chart(Sheet& sheet, const Typesetter& typesetter, const FlashStrip& st
     sheet.fill(corner, {chart_width, chart_height}, chart_ground);
     for (int flashes = 0; 2 * flashes <= most; flashes += most > 16 ? 5 : 1) {
         sheet.fill({corner.x, y_of(2 * flashes)}, {chart_width, 1}, line);
-        sheet.write(typesetter, std::to_string(flashes), {corner.x - 28, y_of(2 * flashes) + 6}, text);
+        sheet.write(typesetter, std::to_string(flashes), {corner.x - 28, y_of(2 * flashes) + 6}, text_ink);
     }
     const double end_s = strip.times_s.empty() ? 1 : std::max(strip.times_s.back(), 1e-9);
     for (std::size_t kind = 0; kind < flash_kinds; ++kind) {
@@ -102,14 +103,14 @@ void draw_chart(Sheet& sheet, const Typesetter& typesetter, const FlashStrip& st
         sheet.fill({x, corner.y + chart_height}, {1, 5}, line);
         char seconds[32];
         std::snprintf(seconds, sizeof seconds, mark == 4 ? "%.1f s" : "%.1f", end_s * mark / 4);
-        sheet.write(typesetter, seconds, {x - (mark == 4 ? 44 : 10), corner.y + chart_height + 24}, text);
+        sheet.write(typesetter, seconds, {x - (mark == 4 ? 44 : 10), corner.y + chart_height + 24}, text_ink);
     }
     sheet.write(typesetter, "general flashes", {corner.x, corner.y + chart_height + 46}, general);
     sheet.write(typesetter, "red flashes", {corner.x + 190, corner.y + chart_height + 46}, red);
     sheet.write(typesetter, "- - the most that may be in a second", {corner.x + 330, corner.y + chart_height + 46}, limit);
 }
 
-void draw_frame(Sheet& sheet, const FlashStrip& strip, glm::ivec2 corner, int most_height)
+void draw_frame(FlashPaper& sheet, const FlashStrip& strip, glm::ivec2 corner, int most_height)
 {
     if (strip.size.x == 0)
         return;
@@ -129,22 +130,24 @@ void draw_frame(Sheet& sheet, const FlashStrip& strip, glm::ivec2 corner, int mo
             bool edge = false;
             for (const glm::ivec2 way : {glm::ivec2(2, 0), glm::ivec2(-2, 0), glm::ivec2(0, 2), glm::ivec2(0, -2)})
                 edge = edge || (flashes(p) && !flashes(p + way));
-            sheet.put(corner + p, edge ? marked : Colour{from[0], from[1], from[2]});
+            sheet.put(corner + p, edge ? marked : Ink{from[0], from[1], from[2]});
         }
 }
 
 } // namespace
+} // namespace flash_sheet
 
 void write_flash_sheet(const std::filesystem::path& file, const std::vector<FlashStrip>& strips)
 {
+    using namespace flash_sheet; // names as short as these would meet others
     int height = 16;
     for (const FlashStrip& strip : strips)
         height += height_of(strip);
-    Sheet sheet({width, height});
+    FlashPaper sheet({width, height});
     const Typesetter typesetter;
     int y = 8;
     for (const FlashStrip& strip : strips) {
-        sheet.write(typesetter, strip.title, {chart_left, y + 22}, text);
+        sheet.write(typesetter, strip.title, {chart_left, y + 22}, text_ink);
         draw_chart(sheet, typesetter, strip, {chart_left, y + title_height});
         draw_frame(sheet, strip, {picture_left, y + title_height}, height_of(strip) - title_height - foot_height);
         y += height_of(strip);
