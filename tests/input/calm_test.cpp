@@ -10,14 +10,14 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace shader {
+namespace calm_shader {
 using namespace glm;
 using real = float;
 using rvec3 = glm::vec3;
 #define FN inline
 #include "shaders/tone.glsl"
 #undef FN
-} // namespace shader
+} // namespace calm_shader
 
 namespace calm_test {
 
@@ -104,7 +104,7 @@ Worst flown_by(const std::function<Controls(int frame)>& script, bool calm, doub
             shown = *(ev = calmed_ev(ev, shown, dt_s)).value;
         std::vector<glm::vec3> picture;
         for (const LuminanceSample& sample : light)
-            picture.push_back(shader::tone_map(glm::vec3(float(sample.luminance * std::exp2(shown)))));
+            picture.push_back(calm_shader::tone_map(glm::vec3(float(sample.luminance * std::exp2(shown)))));
         counter.take(frame * frame_ns, picture);
     }
     return {counter.worst(FlashKind::general, 0).changes, flight};

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #define FN inline
-namespace shader {
+namespace scale_shader {
 using namespace glm;
 using real = double;
 using rvec3 = glm::dvec3;
 #include "shaders/scale.glsl"
-} // namespace shader
+} // namespace scale_shader
 #undef FN
 
 namespace false_colours_test {
@@ -77,8 +77,9 @@ TEST(FalseColoursTest, EverybodyTellsNeighbouringStepsOfTheScaleApart)
 {
     for (const Vision& vision : visions())
         for (int i = 0; i < steps; ++i) {
-            const auto seen
-                = [&](int at) { return lab(glm::clamp(vision.seen * shader::scale_colour(double(at) / steps), 0.0, 1.0)); };
+            const auto seen = [&](int at) {
+                return lab(glm::clamp(vision.seen * scale_shader::scale_colour(double(at) / steps), 0.0, 1.0));
+            };
             EXPECT_GE(ciede2000(seen(i), seen(i + 1)), 10) << vision.name << ", steps " << i << " and " << i + 1;
             EXPECT_LT(seen(i + 1).x, seen(i).x - 5)
                 << vision.name << ": farther is darker"; // L*, to a screen without colours
@@ -88,9 +89,10 @@ TEST(FalseColoursTest, EverybodyTellsNeighbouringStepsOfTheScaleApart)
 TEST(FalseColoursTest, TheScaleHasNoBreaks)
 {
     for (int i = 0; i < 600; ++i)
-        EXPECT_LT(ciede2000(lab(shader::scale_colour(i / 600.0)), lab(shader::scale_colour((i + 1) / 600.0))), 1) << i;
-    EXPECT_EQ(shader::scale_colour(-1), shader::scale_colour(0));
-    EXPECT_NEAR(glm::distance(shader::scale_colour(2), shader::scale_colour(1)), 0, 1e-12);
+        EXPECT_LT(ciede2000(lab(scale_shader::scale_colour(i / 600.0)), lab(scale_shader::scale_colour((i + 1) / 600.0))), 1)
+            << i;
+    EXPECT_EQ(scale_shader::scale_colour(-1), scale_shader::scale_colour(0));
+    EXPECT_NEAR(glm::distance(scale_shader::scale_colour(2), scale_shader::scale_colour(1)), 0, 1e-12);
 }
 
 } // namespace false_colours_test
