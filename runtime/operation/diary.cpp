@@ -172,23 +172,37 @@ bool Diary::turn(std::time_t now, const Gauges& gauges)
     return true;
 }
 
+/// Takes the result of the write on the other thread, which may still have to end. A failed write is told once.
+void Diary::finish()
+{
+    if (!writing_.valid())
+        return;
+    try {
+        const std::vector<EndedDay> written = writing_.get();
+        std::erase_if(ended_, [&](const EndedDay& day) { return std::ranges::find(written, day) != written.end(); });
+        failed_ = false;
+    } catch (const InputError& error) {
+        fail(one_line(error.what()));
+    } catch (const std::system_error& error) {
+        fail(error.what());
+    }
+}
+
+void Diary::fail(const std::string& reason)
+{
+    if (!std::exchange(failed_, true))
+        write_log(LogKind::diary_unwritten, reason + "; the counts are kept in memory and written later");
+}
+
 /// Writes the files on a thread of its own. waits: until they are written; otherwise a write that is still under way makes
 /// this one wait for its next turn.
 void Diary::write(bool waits)
 {
     using namespace std::chrono_literals;
-    const auto finish = [&] {
-        if (writing_.valid()) {
-            const std::vector<EndedDay> written = writing_.get();
-            std::erase_if(ended_, [&](const EndedDay& day) { return std::ranges::find(written, day) != written.end(); });
-            failed_ = false;
-        }
-    };
-    std::string failure;
+    if (writing_.valid() && !waits && writing_.wait_for(0s) != std::future_status::ready)
+        return;
+    finish(); // after a failed write, too, the newest counts are tried: the reason may be gone
     try {
-        if (writing_.valid() && !waits && writing_.wait_for(0s) != std::future_status::ready)
-            return;
-        finish();
         writing_ = std::async(std::launch::async,
             [state = state_, textfile = textfile_, exposition = exposition_, ended = ended_, day = day_] {
                 if (!state.empty()) {
@@ -200,16 +214,11 @@ void Diary::write(bool waits)
                     write_whole(textfile, exposition);
                 return ended;
             });
-        if (waits)
-            finish();
-        return;
-    } catch (const InputError& error) {
-        failure = one_line(error.what());
     } catch (const std::system_error& error) { // no thread can be made now
-        failure = error.what();
+        fail(error.what());
     }
-    if (!std::exchange(failed_, true))
-        write_log(LogKind::diary_unwritten, failure + "; the counts are kept in memory and written later");
+    if (waits)
+        finish();
 }
 
 } // namespace starbow

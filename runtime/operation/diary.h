@@ -55,6 +55,8 @@ private:
     void add_hour();
     Day day_of(const std::string& date);
     void write(bool waits);
+    void finish();
+    void fail(const std::string& reason);
 
     using EndedDay = std::shared_ptr<const Day>;
     std::filesystem::path state_, textfile_;

@@ -141,10 +141,10 @@ TEST(MenuTest, RandomHandsNeverLeaveTheMenusPages)
     Visitor visitor;
     int chosen = 0;
     for (int i = 0; i < 200'000; ++i) {
-        const auto rarely = [&] { return random() % 20 == 0; };
+        const auto once_in = [&](unsigned frames) { return random() % frames == 0; };
         const double turn = double(random() % 3) - 1;
-        Controls hands = controls_with(
-            Steering{.turn = {0, turn, 0}, .stop = rarely(), .home = rarely(), .undo = rarely(), .menu = rarely()});
+        Controls hands = controls_with(Steering{
+            .turn = {0, turn, 0}, .stop = once_in(10), .home = once_in(100), .undo = once_in(100), .menu = once_in(20)});
         if (i % 5000 == 0)
             visitor.pages[1].items.resize(1 + random() % 2, visitor.pages[1].items[0]); // a world goes, or comes
         chosen += advance(visitor.menu, visitor.pages, hands, frame_ns).has_value();

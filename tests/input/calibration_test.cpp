@@ -222,10 +222,10 @@ TEST(CalibrationTest, TheProfileHasTheChosenRolesAndMeasuredRanges)
     EXPECT_EQ(std::count_if(
                   profile.axes.begin(), profile.axes.end(), [](const AxisUse& u) { return u.role == AxisRole::throttle; }),
         1);
-    // In the usual profile button 1 stopped, 3 went ten seconds back and 4 was the Doppler effect.
+    // In the usual profile button 1 stopped, 3 went ten seconds back and 4 was the Doppler effect; 9 is still the menu.
     EXPECT_EQ(profile.buttons,
         (std::vector<ButtonUse>{{2, ButtonRole::home}, {4, ButtonRole::stop}, {5, ButtonRole::headlight},
-            {6, ButtonRole::aberration}, {7, ButtonRole::hud}, {8, ButtonRole::next_mode}}));
+            {6, ButtonRole::aberration}, {7, ButtonRole::hud}, {8, ButtonRole::next_mode}, {9, ButtonRole::menu}}));
     EXPECT_EQ(profile.hat_x, AxisRole::look_right);
     // Another calibration that keeps the roles gives the same.
     EXPECT_EQ(calibrated(profile, descriptor, axes, {}).axes, profile.axes);
