@@ -93,5 +93,25 @@ ok [ ! -e "$folder/broken.mp4" ]
 "$program" render --tour "$folder/tour.json" --movie "$folder/broken.mp4" --fps 2 --size 32x32 >/dev/null || fail "the movie can't be finished once ffmpeg works"
 ok [ "$(count "$folder/broken.mp4")" = 32,32,2/1,4 ]
 
+# Flashes are counted: five in a second are too many, and slow fades are none.
+flicker() { # SECONDS: of each step, bright and dark in turn
+    printf '{ "scene": "avenue", "steps": [ { "seconds": %s, "cut": { "exposure_ev": 0 } }' "$1"
+    for i in $(seq 15); do printf ', { "seconds": %s, "cut": { "exposure_ev": %s } }' "$1" $((i % 2 * -12)); done
+    printf ' ] }\n'
+}
+flicker 0.1 >"$folder/flicker.json"
+flicker 1 | sed 's/ "cut": { "exposure_ev": -12 }/ "exposure_ev": -12, "glide": { "look": [0, 0, -1] }/g' >"$folder/fades.json"
+said=$("$program" check --flashes "$folder/flicker.json" --layout stereo --out "$folder/flicker.png")
+ok [ $? = 1 ]
+ok eval '[ "$(printf "%s\n" "$said" | grep -c "^stereo, .* eye: most flashes in a second: general 5.0, over 0.02.* more than may be")" = 2 ]'
+ok eval 'file "$folder/flicker.png" | grep -q "PNG image data"'
+said=$("$program" check --flashes "$folder/fades.json" --out "$folder/fades.png")
+ok [ $? = 0 ]
+ok eval 'printf "%s\n" "$said" | grep -q "it keeps to that"'
+refused 'does not end in .png' "$program" check --flashes "$folder/flicker.json" --out "$folder/flicker.svg"
+refused 'there are: first-minute' "$program" check --flashes none
+refused 'none.jsonl' "$program" check --flashes "$folder/none.jsonl"
+refused '--flashes' "$program" check desk --flashes first-minute
+
 echo "$passed checks passed, $failed failed"
 [ $failed = 0 ]
