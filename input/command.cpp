@@ -22,10 +22,12 @@ constexpr std::array rules{CommandRule{fade, "fade", Role::docent, Value::on},
     CommandRule{false_colours, "false-colours", Role::docent, Value::on},
     CommandRule{slow_motion, "slow-motion", Role::docent, Value::on},
     CommandRule{comparison, "comparison", Role::docent, Value::name},
+    CommandRule{beside, "beside", Role::docent, Value::name},
+    CommandRule{information, "information", Role::docent, Value::name},
     CommandRule{language, "language", Role::docent, Value::name}, CommandRule{caption, "caption", Role::docent, Value::text},
     CommandRule{hold, "hold", Role::docent, Value::on}, CommandRule{layout, "layout", Role::engineer, Value::name},
     CommandRule{pattern, "pattern", Role::engineer, Value::name},
-    CommandRule{quality, "quality", Role::engineer, Value::name},
+    CommandRule{quality, "quality", Role::engineer, Value::name}, CommandRule{unlock, "unlock", Role::engineer, Value::none},
     CommandRule{restart, "restart", Role::engineer, Value::none}};
 
 constexpr bool in_order()

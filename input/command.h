@@ -27,12 +27,15 @@ enum class CommandKind : std::uint8_t {
     false_colours,
     slow_motion, ///< on: the time on board at a quarter
     comparison, ///< text: one of comparison_names
+    beside, ///< text: one of beside_names
+    information, ///< text: a name of `informations`
     language,
     caption, ///< text on the head-up display; empty: none
     hold, ///< on: the visitors' devices do nothing
     layout,
     pattern,
     quality,
+    unlock, ///< a builder's keys, for ten minutes
     restart, ///< ends the exhibit, so that the service manager starts it anew
 };
 

@@ -56,6 +56,8 @@ struct LabSwitches {
 
 struct WindowSwitches {
     bool hud = false, full_screen = false, quit = false;
+    bool information = false; ///< the next display of information
+    bool beside = false; ///< the next small picture beside the large one
 };
 
 /// For builders: the next test pattern; saving; the choice of one of the layout's numbers and its change in steps.

@@ -37,7 +37,9 @@ const char* keyboard_help()
            "X, K            mark what is at the crosshair (the first thing, the second); write a line of the log\n"
            "G               plots of the log against theory: D, length, clock, off\n"
            "F1              why? the next page, with the formula and its numbers\n"
-           "H               head-up display; F11 full screen; Esc leave\n"
+           "H, I            head-up display on and off; the next one: for visitors, guides, the laboratory\n"
+           "N               beside the picture: the same instant at rest, or with one effect alone, or none\n"
+           "F11, Esc        full screen; leave\n"
            "F2              for builders: the next test pattern\n"
            "F3, Page Up/Dn  choose a tilt, rotation, turn or blend of the layout; turn it (Shift: ten times as far)\n"
            "F5              keep what was turned: writes it into the layout's file\n"
@@ -138,6 +140,8 @@ void Keyboard::finish(Controls& controls)
     controls.why = pressed(GLFW_KEY_F1);
     controls.plot = pressed(GLFW_KEY_G);
     controls.hud = pressed(GLFW_KEY_H);
+    controls.information = pressed(GLFW_KEY_I);
+    controls.beside = pressed(GLFW_KEY_N);
     controls.full_screen = pressed(GLFW_KEY_F11);
     controls.quit = pressed(GLFW_KEY_ESCAPE);
     const bool shift = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);

@@ -58,12 +58,14 @@ constexpr std::size_t most_waiting = 255; ///< presses of one button or hat
 /// The switches of buttons. A frame's switch holds one press, so that a second one waits for the next frame.
 constexpr std::pair<ButtonRole, bool Controls::*> switches[] = {{ButtonRole::stop, &Controls::stop},
     {ButtonRole::home, &Controls::home}, {ButtonRole::undo, &Controls::undo}, {ButtonRole::next_mode, &Controls::next_mode},
-    {ButtonRole::freeze, &Controls::freeze}, {ButtonRole::menu, &Controls::menu}, {ButtonRole::slow_motion, &Controls::slow_motion},
-    {ButtonRole::look_ahead, &Controls::look_ahead}, {ButtonRole::aberration, &Controls::aberration},
-    {ButtonRole::doppler, &Controls::doppler}, {ButtonRole::headlight, &Controls::headlight},
-    {ButtonRole::false_colours, &Controls::false_colours}, {ButtonRole::comparison, &Controls::comparison},
-    {ButtonRole::hud, &Controls::hud}, {ButtonRole::overlay, &Controls::overlay}, {ButtonRole::mark, &Controls::mark},
-    {ButtonRole::log, &Controls::log}, {ButtonRole::why, &Controls::why}};
+    {ButtonRole::freeze, &Controls::freeze}, {ButtonRole::menu, &Controls::menu},
+    {ButtonRole::slow_motion, &Controls::slow_motion}, {ButtonRole::look_ahead, &Controls::look_ahead},
+    {ButtonRole::aberration, &Controls::aberration}, {ButtonRole::doppler, &Controls::doppler},
+    {ButtonRole::headlight, &Controls::headlight}, {ButtonRole::false_colours, &Controls::false_colours},
+    {ButtonRole::comparison, &Controls::comparison}, {ButtonRole::hud, &Controls::hud},
+    {ButtonRole::overlay, &Controls::overlay}, {ButtonRole::mark, &Controls::mark}, {ButtonRole::log, &Controls::log},
+    {ButtonRole::why, &Controls::why}, {ButtonRole::information, &Controls::information},
+    {ButtonRole::beside, &Controls::beside}, {ButtonRole::plot, &Controls::plot}};
 /// The rate of a button while it is held.
 struct Held {
     ButtonRole role;

@@ -8,6 +8,8 @@
 
 layout(constant_id = 1) const bool SCALE = false; // with the scale of false colours in the rectangle view.eye of the panel
 
+layout(constant_id = 2) const bool LIGHT = false; // the panel is a picture of light with a frame around it
+
 layout(set = 0, binding = 1) uniform sampler2D panel; // r: letters, g: the dark plate behind them
 layout(push_constant) uniform Push { ViewPush view; };
 layout(location = 0) out vec4 shown;
@@ -19,6 +21,12 @@ void main()
     vec2 at = n.xy / (n.z * view.boost.xy) * 0.5 + 0.5;
     if (n.z <= 0.0 || (MAP && pixel_angle == 0.0) || any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))))
         discard;
+    if (LIGHT) {
+        vec2 edge = min(at, 1.0 - at) * view.boost.xy; // a frame as wide on all sides
+        bool frame = min(edge.x, edge.y) < 0.012 * view.boost.x;
+        shown = vec4(frame ? vec3(0.55, 0.58, 0.62) : textureLod(panel, vec2(at.x, 1.0 - at.y), 0.0).rgb, 1.0);
+        return;
+    }
     vec2 covered = textureLod(panel, vec2(at.x, 1.0 - at.y), 0.0).rg;
     float plate = covered.g * 0.85; // the headlight effect makes bright skies
     if (SCALE && all(greaterThan(at, view.eye.xy)) && all(lessThan(at, view.eye.zw)) && covered.r < 0.02) {

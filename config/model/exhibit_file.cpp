@@ -29,7 +29,7 @@ Flying read_flying(const Place& place, bool& paced)
 std::string name_or_path(const Place& place, const std::filesystem::path& folder)
 {
     const std::string name = text(place);
-    const bool path = name.find('/') != name.npos || name.ends_with(".json");
+    const bool path = name.find('/') != name.npos || name.ends_with(".json") || name.ends_with(".jsonl");
     return path ? (folder / name).lexically_normal().string() : name;
 }
 
@@ -48,7 +48,7 @@ Visiting read_visiting(const Place& place, const std::filesystem::path& folder)
             complain(*unlock, "can't be typed blind; 4 to 32 small letters and digits are right");
     }
     if (auto attract = find_member(place, "attract"))
-        for (const Place& name : items(*attract, 0, 100, "tours"))
+        for (const Place& name : items(*attract, 0, 100, "tours and records"))
             visiting.attract.push_back(name_or_path(name, folder));
     return visiting;
 }
@@ -93,7 +93,7 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     reject_unknown_members(top,
         {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "frame_budget_ms",
-            "ladder", "flying", "exposure", "textfile", "remote", "visit", "menu", "calm"});
+            "ladder", "flying", "exposure", "textfile", "remote", "visit", "menu", "calm", "information", "speech"});
     Exhibit exhibit;
     for (const auto& [name, value] :
         {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}, {"tour", &exhibit.tour},
@@ -109,6 +109,9 @@ Exhibit load_exhibit(const std::filesystem::path& file)
         exhibit.textfile = (folder / text(*p)).lexically_normal();
     if (auto p = find_member(top, "profiles"))
         exhibit.profiles = folder / text(*p);
+    if (auto p = find_member(top, "information"))
+        exhibit.information = chosen(*p, informations);
+    take(top, "speech", exhibit.speech);
     take(top, "tutorial", exhibit.tutorial);
     take(top, "frame_budget_ms", exhibit.frame_budget_ms, {0, 1000});
     if (auto p = find_member(top, "quality"); p && exhibit.frame_budget_ms > 0)

@@ -1,6 +1,7 @@
 #pragma once
 #include "exposing.h"
 #include "flying.h"
+#include "information.h"
 #include "remote_file.h"
 #include "visiting.h"
 #include <filesystem>
@@ -18,6 +19,8 @@ struct Exhibit {
     std::string tour; ///< the shown tour, in its own scene; empty: none
     std::string language = "en"; ///< of the visitors' texts: a path, or the name of a shipped one
     std::vector<std::string> menu_scenes{}, menu_tours{}; ///< that visitors can choose: names of shipped ones; none: all
+    Information information = Information::laboratory; ///< the first display of information
+    bool speech = false; ///< captions, descriptions and goals are read aloud
     bool tutorial = true; ///< three prompts for the first minute
     std::string quality; ///< a path, or the name of a shipped one; empty: the device's default
     double frame_budget_ms = 0; ///< time of a whole frame, held by the ladder; 0: the quality stays

@@ -22,6 +22,7 @@ enum class LogKind : std::uint8_t {
     pattern_shown,
     world_note,
     level_no_room,
+    inset_no_room,
     pipelines_made,
     pipelines_ready,
     pipelines_unsaved,
@@ -57,6 +58,7 @@ enum class LogKind : std::uint8_t {
     lab_log_ended,
     lab_line_skipped,
     attraction_refused,
+    speech_fails,
 };
 
 struct LogRule {
@@ -78,6 +80,7 @@ inline constexpr auto log_rules = std::to_array<LogRule>({
     {"pattern-shown", "88fb6df0db614f5d8653bd181e56ec61", LogLevel::info, "exhibit"},
     {"world-note", "3403b4287e6a4c59a3db632aecb4d982", LogLevel::info, "world"},
     {"level-no-room", "ec6f6e48b8d8482cabf50517bf98aa76", LogLevel::warning, "quality"},
+    {"inset-no-room", "5a9b5b7c0ed44b44bfd8da56db0e28bb", LogLevel::warning, "quality"},
     {"pipelines-made", "91801205c29d4f9c9c97a58b511a0443", LogLevel::debug, "pipelines"},
     {"pipelines-ready", "cf796f9605b946c1bdb008bf7e219521", LogLevel::info, "pipelines"},
     {"pipelines-unsaved", "e0943825b19245fcabf8cef4011c46bc", LogLevel::debug, "pipelines"},
@@ -113,9 +116,10 @@ inline constexpr auto log_rules = std::to_array<LogRule>({
     {"lab-log-ended", "1623209b10c543b1956dc4cfd256c7cc", LogLevel::warning, "log"},
     {"lab-line-skipped", "d94e5b6f752842bbb85c59995a16581b", LogLevel::warning, "log"},
     {"attraction-refused", "672f0acf8a984782a9195c77537a2115", LogLevel::warning, "visit"},
+    {"speech-fails", "b33d6d43979e40a1baec537d8cbd4e05", LogLevel::warning, "visit"},
 });
 
-static_assert(log_rules.size() == std::size_t(LogKind::attraction_refused) + 1);
+static_assert(log_rules.size() == std::size_t(LogKind::speech_fails) + 1);
 
 constexpr const LogRule& rule_of(LogKind kind) { return log_rules[std::size_t(kind)]; }
 

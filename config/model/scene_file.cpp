@@ -1,4 +1,5 @@
 #include "scene_file.h"
+#include "goal_reader.h"
 #include "shot_reader.h"
 #include <algorithm>
 #include <cmath>
@@ -105,7 +106,8 @@ SceneFile load_scene_file(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     reject_unknown_members(top,
-        {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "bodies", "boundary", "flight", "start"});
+        {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "bodies", "boundary", "flight", "goals",
+            "start"});
     SceneFile scene;
     scene.name = file.stem().string();
     scene.file = document.file;
@@ -133,6 +135,8 @@ SceneFile load_scene_file(const std::filesystem::path& file)
         reject_unknown_members(*p, {"distance", "time_s"});
         scene.planned = {number(member(*p, "distance"), {0, 1e9, true}), number(member(*p, "time_s"), {1, 3600})};
     }
+    if (auto p = find_member(top, "goals"))
+        scene.goals = read_goals(*p);
     if (auto p = find_member(top, "start"))
         scene.start = read_shot(*p, false);
     scene.start.scene = scene.name;

@@ -2,6 +2,7 @@
 #include "body.h"
 #include "emission.h"
 #include "flying.h"
+#include "goal.h"
 #include "shot.h"
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -59,6 +60,7 @@ struct SceneFile {
     std::vector<Light> lights;
     std::vector<Body> bodies;
     std::optional<Boundary> boundary; ///< for exhibits that nobody attends to
+    std::vector<Goal> goals; ///< for visitors, one after the other
     std::optional<PlannedFlight> planned; ///< for exhibits with a pace
     Shot start; ///< the visitor's start; its `scene` is this file's name
 

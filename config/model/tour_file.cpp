@@ -1,4 +1,5 @@
 #include "tour_file.h"
+#include "measure_reader.h"
 #include "shot_reader.h"
 #include <algorithm>
 #include <cmath>
@@ -7,7 +8,6 @@
 namespace starbow {
 namespace {
 
-constexpr Range any_place{-1e15, 1e15};
 constexpr Range any_number{-1e12, 1e12};
 
 struct Reader {
@@ -36,21 +36,6 @@ struct Reader {
             return text(*own);
         const auto english = find_member(place, "en");
         return text(english ? *english : member(place, place.json->begin().key()));
-    }
-
-    Measure read_measure(const Place& place) const
-    {
-        reject_unknown_members(place, {"quantity", "at", "relative_to"});
-        Measure measure;
-        measure.quantity = chosen(member(place, "quantity"), measures);
-        const auto at = find_member(place, "at"), relative_to = find_member(place, "relative_to");
-        if (has_place(measure.quantity))
-            measure.at = vec3(member(place, "at"), any_place);
-        else if (at || relative_to)
-            complain(at ? *at : *relative_to, "is a place too many: this is measured on the ship alone; none is right");
-        if (relative_to)
-            measure.relative_to = vec3(*relative_to, any_place);
-        return measure;
     }
 
     /// Throws if a caption has {measured} without a measure, or another placeholder.
@@ -175,8 +160,8 @@ struct Reader {
     Step read_step(const Place& place, double usual_rate) const
     {
         reject_unknown_members(place,
-            {"seconds", "ship_s_per_s", "ease_s", "caption", "measure", "effects", "exposure_ev", "question", "cut", "glide",
-                "thrust", "turn", "try"});
+            {"seconds", "describe", "ship_s_per_s", "ease_s", "caption", "measure", "effects", "exposure_ev", "question",
+                "cut", "glide", "thrust", "turn", "try"});
         Step step{.seconds = number(member(place, "seconds"), {0.1, 3600})};
         step.ship_s_per_s = usual_rate;
         take(place, "ship_s_per_s", step.ship_s_per_s, {0, 1e12});
@@ -186,6 +171,8 @@ struct Reader {
             step.caption = read_text(*p);
             check_measured(*p, step.caption, step.measure.has_value());
         }
+        if (auto p = find_member(place, "describe"))
+            step.description = read_text(*p);
         if (auto p = find_member(place, "effects"))
             step.effects = read_effects(*p);
         if (auto p = find_member(place, "exposure_ev"))

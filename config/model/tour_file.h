@@ -1,5 +1,6 @@
 #pragma once
 #include "flying.h"
+#include "measure.h"
 #include "shot.h"
 #include "words.h"
 #include <filesystem>
@@ -11,41 +12,6 @@
 #include <vector>
 
 namespace starbow {
-
-/// A number that follows from the ship's state.
-struct Measure {
-    enum class Quantity {
-        gamma,
-        beta,
-        rapidity,
-        ship_s, ///< the ship's clock, seconds
-        world_s, ///< the world's, seconds
-        distance, ///< to `at` in the world, scene units
-        angle_deg, ///< between the motion and the seen direction of `at`; straight ahead 0
-        doppler, ///< D of light from `at`
-        doppler_ahead, ///< D straight along the motion
-        size, ///< the angular size of a small thing at `at`, over that at the tour's last cut
-        reading_s, ///< the seen reading of a clock at `at` that keeps the world's time, seconds
-        now_s, ///< that clock's reading at the ship's present, in the ship's frame, seconds
-        own_colour_deg, ///< angle from the motion at which D is 1
-    };
-    Quantity quantity = Quantity::gamma;
-    glm::dvec3 at{0}; ///< a place at rest in the world, scene units
-    std::optional<glm::dvec3> relative_to; ///< the quantity at this place is subtracted
-};
-inline const std::vector<std::pair<std::string_view, Measure::Quantity>> measures{{"gamma", Measure::Quantity::gamma},
-    {"beta", Measure::Quantity::beta}, {"rapidity", Measure::Quantity::rapidity}, {"ship_s", Measure::Quantity::ship_s},
-    {"world_s", Measure::Quantity::world_s}, {"distance", Measure::Quantity::distance},
-    {"angle_deg", Measure::Quantity::angle_deg}, {"doppler", Measure::Quantity::doppler},
-    {"doppler_ahead", Measure::Quantity::doppler_ahead}, {"size", Measure::Quantity::size},
-    {"reading_s", Measure::Quantity::reading_s}, {"now_s", Measure::Quantity::now_s},
-    {"own_colour_deg", Measure::Quantity::own_colour_deg}};
-constexpr bool has_place(Measure::Quantity quantity)
-{
-    using enum Measure::Quantity;
-    return quantity == distance || quantity == angle_deg || quantity == doppler || quantity == size || quantity == reading_s
-        || quantity == now_s;
-}
 
 /// A choice is right where the measured number is at least `from` and below `below`.
 struct Choice {
@@ -103,6 +69,7 @@ struct Step {
     glm::dvec2 ease_s{0}; ///< durations in which the ship's time starts at the step's beginning and stops at its end
     std::variant<Coast, Cut, Glide, Thrust, Turning, Try> motion;
     std::string caption; ///< or empty
+    std::string description; ///< of the picture, for who cannot see it; or empty
     std::optional<Measure> measure; ///< the value of {measured} in the caption
     std::optional<Effects> effects; ///< nullopt: as before
     std::optional<double> exposure_ev; ///< reached at once with a cut, else by the step's end; nullopt: as before

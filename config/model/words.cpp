@@ -9,6 +9,8 @@ namespace {
 
 /// The prefix of the tours' keys, which the tours define.
 constexpr std::string_view of_tours = "tour.";
+/// The prefix of the goals' keys, which the scenes define.
+constexpr std::string_view of_goals = "goal.";
 
 struct Known {
     std::string_view key;
@@ -41,6 +43,39 @@ const std::vector<Known> known{
     {"flight.free"},
     {"flight.newtonian"},
     {"flight.frozen"},
+    {"say.percent", {"number"}},
+    {"say.of_light"},
+    {"say.clock_board", {"time"}},
+    {"say.clock_world", {"time"}},
+    {"say.rest"},
+    {"say.slow"},
+    {"say.rain"},
+    {"say.colours"},
+    {"say.beam"},
+    {"say.limit"},
+    {"say.back"},
+    {"say.back_colours"},
+    {"say.no_aberration"},
+    {"say.no_effects"},
+    {"say.galilean"},
+    {"say.no_light_delay"},
+    {"say.false_colours"},
+    {"say.frozen"},
+    {"remote.display_visitor"},
+    {"remote.display_guide"},
+    {"remote.display_laboratory"},
+    {"menu.information"},
+    {"remote.information"},
+    {"sign.behind"},
+    {"sign.behind_light"},
+    {"sign.clock"},
+    {"sign.clock_light", {"time"}},
+    {"beside.none"},
+    {"beside.at-rest"},
+    {"beside.aberration"},
+    {"beside.doppler"},
+    {"beside.headlight"},
+    {"menu.beside"},
     {"light.seen"},
     {"light.without_headlight"},
     {"light.without_doppler"},
@@ -363,6 +398,7 @@ const std::vector<Known> known{
     {"remote.wedges"},
     {"remote.overlap"},
     {"remote.quality"},
+    {"remote.unlock"},
     {"remote.restart"},
     {"remote.restart_sure"},
     {"remote.no"},
@@ -446,7 +482,7 @@ Words load_words(const std::filesystem::path& file)
         complain(top, "is not an object; an object in { } is right");
     std::vector<std::string_view> keys = known_keys();
     for (const auto& [key, value] : top.json->items())
-        if (key.starts_with(of_tours))
+        if (key.starts_with(of_tours) || key.starts_with(of_goals))
             keys.push_back(key);
     reject_unknown_members(top, keys);
     Words words{.language = file.stem(), .file = file, .texts = {}};

@@ -86,6 +86,8 @@ ExhibitOptions open(const RunOptions& options)
     exhibit_options.exposure = exhibit.exposure;
     exhibit_options.profiles = known_profiles(exhibit.profiles);
     exhibit_options.tutorial = exhibit.tutorial;
+    exhibit_options.speech = exhibit.speech;
+    exhibit_options.information = exhibit.information;
     exhibit_options.menu_scenes = exhibit.menu_scenes.empty() ? shipped_names("scenes") : exhibit.menu_scenes;
     exhibit_options.menu_tours = exhibit.menu_tours.empty() ? shipped_names("tours") : exhibit.menu_tours;
     if (!options.quality.empty())

@@ -1,6 +1,7 @@
 #pragma once
 #include "config/model/exposing.h"
 #include "config/model/flying.h"
+#include "config/model/information.h"
 #include "config/model/layout.h"
 #include "config/model/profile.h"
 #include "config/model/remote_file.h"
@@ -28,6 +29,8 @@ struct ExhibitOptions {
     Exposing exposure{};
     std::vector<Profile> profiles{};
     bool tutorial = true;
+    bool speech = false; ///< captions, descriptions and goals are read aloud
+    Information information = Information::laboratory; ///< the first display of information
     std::vector<std::string> menu_scenes{}, menu_tours{}; ///< that visitors can choose, names of shipped ones
     std::optional<Visiting> visiting{}; ///< the exhibit attends to its visitors itself; none: somebody else does
     bool careful = false; ///< the exhibit starts with care after disorderly ends; for the service manager's status

@@ -7,6 +7,7 @@
 #include "runtime/operation/trace.h"
 #include "runtime/operation/waits.h"
 #include "runtime/render/debug.h"
+#include "spoken.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <cstdio>
@@ -39,6 +40,7 @@ FrameLoop::FrameLoop(Session& session, RemoteControl& remote, RenderContext& con
     , screens_(device_, session.layout)
     , cold_(session.options.warms_up.value_or(!device_.on_processor()))
     , most_pipelines_(device_.on_processor() ? most_pipelines_in_software : most_pipelines)
+    , placards_(device_, context.pipelines)
     , done_(device_.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
     , live_(device_)
     , commands_(device_.device, {*device_.pool, vk::CommandBufferLevel::ePrimary, 2})
@@ -101,6 +103,8 @@ bool FrameLoop::fly_frame()
     for (const Command& command : entry.controls.commands)
         carry_out(command, entry.controls);
     step(session_, entry, metered, context_.world.scene.seconds_per_time_unit());
+    seek_goals(session_, context_.world.scene, entry.dt_ns);
+    speak(session_, context_.world.scene);
     const Controls& controls = entry.controls;
     session_.lab.read(*frame_, controls, context_.world, 1e-9 * double(entry.dt_ns),
         [&](std::string line) { session_.alignment.say(std::move(line)); });
@@ -121,6 +125,8 @@ bool FrameLoop::fly_frame()
     const Panel* panel = hud_.update(session_, context_.world.scene, shot.exposure_ev, frame_->views().hud_width());
     const std::size_t pipelines = context_.pipelines.count();
     begin_commands();
+    placards_.prepare(
+        *commands_[0], session_, shot, context_.world, *frame_, quality_of(session_, device_), hud_.typesetter);
     frame_->draw(*commands_[0], *commands_[1], shot, panel, screens_.targets());
     end_commands();
     if (const std::size_t made = context_.pipelines.count() - pipelines; made > 0)

@@ -1,5 +1,6 @@
 #pragma once
 #include "hud_updater.h"
+#include "placards.h"
 #include "remote_control.h"
 #include "runtime/render/frame_timer.h"
 #include "runtime/render/live_copy.h"
@@ -39,8 +40,8 @@ private:
     void warm_up_at_rest(const Shot& shot);
     /// Null where a viewport is too narrow for a small picture. Throws NoRoom.
     std::unique_ptr<WarmUp> warm_up_in(const Quality& quality);
-    /// Begins the warm-up at rest anew, for another world, layout or quality.
-    void forget_warm_up() { at_rest_.reset(), rested_ = false; }
+    /// Another world, layout or quality: begins the warm-up at rest anew, and the placards.
+    void forget_warm_up() { at_rest_.reset(), rested_ = false, placards_.forget(); }
     void fit(std::size_t output);
     void watch_sizes(const std::vector<Target>& targets);
     /// Waits for the frame's turn and for the device. Returns the exposure for the frame before, if it was metered.
@@ -95,6 +96,7 @@ private:
     bool rested_ = false; ///< it is over, for the present world, layout and quality
     std::size_t most_pipelines_; ///< that are kept
     HudUpdater hud_;
+    Placards placards_;
     FramePace pace_;
     vk::raii::Fence done_;
     LiveCopy live_;

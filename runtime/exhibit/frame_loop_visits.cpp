@@ -16,7 +16,7 @@ VisitSigns signs_of(const Session& session)
     const std::optional<Guide>& guide = session.guide;
     return {.somebody = session.somebody,
         .watches = session.directions.holds || (guide && !guide->over() && !guide->paused()),
-        .attraction_over = guide && guide->over()};
+        .attraction_over = (guide && guide->over()) || (session.shown_record && session.shown_record->over())};
 }
 
 /// A throttle that is open at the start has no effect before it was at 0.

@@ -52,12 +52,15 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
     const InputCapabilities capabilities = session.hid.capabilities();
     Readings shown = readings(session.flight.ship, scene, session.flight.effects);
     shown.frames_per_s = rate_;
+    shown.information = session.information;
     shown.mode = session.flight.mode, shown.frozen = session.flight.frozen, shown.lever = session.flight.lever;
     if (session.guide) {
         shown.prompt = session.guide->prompt(words);
         shown.caption = session.guide->caption(words, capabilities);
     } else if (session.options.tutorial)
         shown.prompt = prompt(session.tutorial, capabilities, words);
+    if (shown.prompt.empty() && !session.guide && session.information != Information::laboratory)
+        shown.prompt = goal_line(session.goals, scene.goals, words);
     if (session.flight.slowness > 0) {
         const double board_s = time_rates[session.flight.slowness];
         shown.prompt = words("hud.slow_motion",

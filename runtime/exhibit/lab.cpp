@@ -122,7 +122,8 @@ void Lab::request(
 Panel Lab::draw_panel(const Typesetter& typesetter, int width) const
 {
     if (plot_ == Plot::none)
-        return draw_lab_panel(typesetter, words_, *measured_, overlay_, scale_, why_, width);
+        return draw_lab_panel(typesetter, words_, *measured_, overlay_, scale_, why_, width,
+            std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count());
     return draw_lab_plot(typesetter, words_, plot_, points_[std::size_t(plot_)], glm::length(measured_->observer.u), width);
 }
 

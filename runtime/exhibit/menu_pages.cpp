@@ -41,6 +41,13 @@ MenuPage switches_of(const Session& session)
     add("menu.aberration", CommandKind::aberration, on.aberration);
     add("menu.doppler", CommandKind::doppler, on.doppler);
     add("menu.headlight", CommandKind::headlight, on.headlight);
+    const auto step = [&](const char* key, const std::string& value, Command command) {
+        page.items.push_back({words(key) + ": " + value, std::move(command)});
+    };
+    step("menu.beside", words(std::string("beside.") + beside_names[std::size_t(session.beside)]),
+        {.kind = CommandKind::beside, .text = beside_names[(std::size_t(session.beside) + 1) % beside_names.size()]});
+    step("menu.information", words("remote.display_" + std::string(name_of(session.information))),
+        {.kind = CommandKind::information, .text = std::string(name_of(after(session.information)))});
     if (session.options.log.empty())
         add("menu.slow_motion", CommandKind::slow_motion, session.flight.slowness > 0);
     return page;

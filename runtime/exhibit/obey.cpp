@@ -27,6 +27,15 @@ void set_comparison(Session& session, const std::string& name)
     effects_of(session).comparison = Comparison(at - comparison_names.begin());
 }
 
+Beside beside_named(const std::string& name)
+{
+    const auto at = std::ranges::find(beside_names, name);
+    if (at == beside_names.end())
+        throw InputError(
+            "the small picture " + name + " is not known; none, at-rest, aberration, doppler or headlight is right");
+    return Beside(at - beside_names.begin());
+}
+
 /// The same tour in other words keeps its step and its time.
 void set_words(Session& session, Words words)
 {
@@ -100,6 +109,12 @@ void obey(Session& session, const Command& command, Controls& controls)
         set_words(session, words_in(command.text));
         keep_language(session.options.state, command.text);
         break;
+    case CommandKind::beside:
+        session.beside = beside_named(command.text);
+        break;
+    case CommandKind::information:
+        session.information = information_named(command.text);
+        break;
     case CommandKind::caption:
         session.directions.caption = command.text;
         break;
@@ -108,6 +123,11 @@ void obey(Session& session, const Command& command, Controls& controls)
         break;
     case CommandKind::pattern:
         session.alignment.show(pattern_named(command.text));
+        break;
+    case CommandKind::unlock:
+        if (!session.options.visiting)
+            throw InputError("no key is locked here; an exhibit with \"visit\" in its file is right");
+        unlock_builders_keys(session);
         break;
     case CommandKind::restart:
         session.directions.restarts = true;
@@ -145,15 +165,21 @@ void begin_programme(Session& session, Programme programme, bool visitors)
         session.guide.emplace(std::move(*guide));
     if (!session.options.visiting)
         session.visiting = counted_by(session.programme);
-    session.flight = flight_at(session.programme.start, session.rules);
+    session.shown_record
+        = session.programme.record.empty() || visitors ? nullptr : std::make_unique<ShownRecord>(session.programme.record);
+    session.flight
+        = session.shown_record ? session.shown_record->flight() : flight_at(session.programme.start, session.rules);
     session.history = {};
     session.tutorial = tutorial_at(session.flight);
+    session.goals = {};
     session.lab.forget();
 }
 
 void forget_visitor(Session& session)
 {
     session.words = session.options.words;
+    session.information = session.options.information;
+    session.beside = Beside::none;
     session.menu = {};
     forget_language(session.options.state);
     session.exposure = {};

@@ -1,6 +1,8 @@
 #include "programme.h"
 #include "config/model/scene_file.h"
 #include "config/model/shipped.h"
+#include "runtime/flight/record_files.h"
+#include "runtime/flight/shown_record.h"
 
 namespace starbow {
 
@@ -16,6 +18,16 @@ Programme programme_of_shot(const std::string& shot)
     Shot start = load_shot(file);
     const std::filesystem::path scene = scene_of(start, file);
     return {.scene = scene, .start = std::move(start), .shot = shot};
+}
+
+Programme programme_of_record(const std::filesystem::path& record)
+{
+    const ShownRecord flown(record);
+    const Replay replay(record);
+    const RecordHeader& header = replay.header();
+    return {.scene = find_flown(record, header, "desk", [](LogKind, const std::string&) {}).scene,
+        .start = header.start,
+        .record = record};
 }
 
 Programme programme_of_tour(const std::string& name, const Words& words)

@@ -15,11 +15,13 @@ struct Programme {
     std::string shot{}; ///< name or path of the start's shot; empty: the scene's own start, or the tour's
     std::string tour_name{}; ///< name or path; empty: no tour
     std::optional<Tour> tour{};
+    std::filesystem::path record{}; ///< a flight that is shown as it was flown; empty: none
 };
 
 /// Each reads and checks the files of a programme, by the name of a shipped one or a path. Throws InputError.
 Programme programme_of_scene(const std::string& scene);
 Programme programme_of_shot(const std::string& shot); ///< in the shot's own scene
+Programme programme_of_record(const std::filesystem::path& record); ///< in the record's own scene
 Programme programme_of_tour(const std::string& tour, const Words& words); ///< in the tour's own scene
 
 } // namespace starbow

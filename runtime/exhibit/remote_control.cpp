@@ -29,6 +29,7 @@ void describe(const Session& session, Snapshot& out)
     out.visit = session.options.visiting || knows_visitor(session) ? visit_phase_names[std::size_t(session.visit.phase)]
                                                                    : visit_phase_names[std::size_t(VisitPhase::attract)];
     out.effects = session.flight.effects, out.slow_motion = session.flight.slowness > 0;
+    out.information = session.information;
     const double rapidity = rapidity_of(session.flight.ship);
     out.speed = std::tanh(rapidity), out.gamma = std::cosh(rapidity);
     out.max_gamma = session.rules.max_gamma;

@@ -38,11 +38,8 @@ void hold(Controls& controls)
 /// In an exhibit that nobody attends to, visitors press every key there is.
 void lock_builders_keys(Session& session, Controls& controls)
 {
-    constexpr std::chrono::minutes unlocked_for(10);
-    if (session.keyboard.typed(session.options.visiting->unlock)) {
-        session.locked_from = session.last + unlocked_for;
-        session.alignment.say("The builder's keys are unlocked for ten minutes");
-    }
+    if (session.keyboard.typed(session.options.visiting->unlock))
+        unlock_builders_keys(session);
     if (session.last < session.locked_from)
         return;
     static_cast<AlignmentKeys&>(controls) = {};
@@ -50,6 +47,12 @@ void lock_builders_keys(Session& session, Controls& controls)
 }
 
 } // namespace
+
+void unlock_builders_keys(Session& session)
+{
+    session.locked_from = session.last + std::chrono::minutes(10);
+    session.alignment.say("The builder's keys are unlocked for ten minutes");
+}
 
 Visiting counted_by(const Programme& programme)
 {
@@ -69,7 +72,10 @@ void count_visit(Session& session, double length_s)
 Programme attraction_of(const ExhibitOptions& options, const Words& words, std::size_t number)
 {
     const std::vector<std::string>& attract = options.visiting->attract;
-    return attract.empty() ? options.programme : programme_of_tour(attract[number % attract.size()], words);
+    if (attract.empty())
+        return options.programme;
+    const std::string& name = attract[number % attract.size()];
+    return name.ends_with(".jsonl") ? programme_of_record(name) : programme_of_tour(name, words);
 }
 
 std::uint64_t digest(const Session& session)
@@ -78,7 +84,8 @@ std::uint64_t digest(const Session& session)
         + session.words("hud.speed") + '\n' + std::to_string(int(session.alignment.pattern()))
         + std::to_string(session.tutorial.lesson) + std::to_string(session.exposure.locked)
         + std::to_string(session.history.empty()) + std::to_string(session.lab.shows_anything())
-        + std::to_string(session.menu.open);
+        + std::to_string(session.menu.open) + std::to_string(int(session.information)) + std::to_string(int(session.beside))
+        + std::to_string(session.goals.current);
     return digest(text, digest(session.flight));
 }
 
@@ -112,6 +119,7 @@ Session::Session(const ExhibitOptions& given)
     , visit(given.visiting ? Visit{} : begun({}))
     , programme(given.visiting ? attraction_of(given, given.words, 0) : given.programme)
     , words(given.words)
+    , information(given.information)
     , rules(given.replay.empty() ? rules_in(given, given.rules, programme) : given.rules)
     , quality(given.quality)
     , quality_name(given.quality_name)
@@ -119,6 +127,7 @@ Session::Session(const ExhibitOptions& given)
     , kept(layout)
     , loader(layout)
     , guide(guide_of(programme, rules, !given.visiting))
+    , shown_record(programme.record.empty() ? nullptr : std::make_unique<ShownRecord>(programme.record))
     , flight(flight_at(programme.start, rules))
     , tutorial(tutorial_at(flight))
     , record_replay(record_replay_of(given, rules))
@@ -126,6 +135,7 @@ Session::Session(const ExhibitOptions& given)
     , tracker(tracker_of(layout))
     , alignment(given.pattern)
     , lab(given.log, given.log_every_s, words)
+    , speaker(given.speech ? std::make_unique<Speaker>() : nullptr)
     , diary(given.state, given.textfile)
     , governor(governor_of(given))
 {
@@ -312,6 +322,14 @@ void keep_calm(Session& session, double dt_s)
         session.calm_ev = calmed_ev(before, ev_of(session), dt_s);
 }
 
+void seek_goals(Session& session, const SceneFile& scene, std::int64_t dt_ns)
+{
+    const bool seeks = session.information != Information::laboratory && in_hand(session.visit) && !session.guide;
+    if (seeks && !session.flight.frozen)
+        session.goals = advance(session.goals, scene.goals, session.flight.ship, ship_at(session.programme.start),
+            scene.seconds_per_time_unit(), dt_ns);
+}
+
 void step(Session& session, RecordEntry& entry, const std::optional<double>& metered, double seconds_per_time_unit)
 {
     const Exposing& exposing = session.options.exposure;
@@ -319,10 +337,15 @@ void step(Session& session, RecordEntry& entry, const std::optional<double>& met
     const Controls& controls = entry.controls;
     const double dt_s = 1e-9 * double(entry.dt_ns);
     const bool toured = session.guide && !session.guide->over();
-    session.flight = session.guide
-        ? session.guide->flown(controls, entry.dt_ns)
+    session.flight = session.guide ? session.guide->flown(controls, entry.dt_ns)
+        : session.shown_record
+        ? session.shown_record->flown(entry.dt_ns)
         : flown(session.flight, session.history, controls, entry.dt_ns, session.rules, seconds_per_time_unit, start);
     session.exposure.locked ^= controls.lock_exposure;
+    if (controls.information)
+        session.information = after(session.information);
+    if (controls.beside)
+        session.beside = Beside((std::size_t(session.beside) + 1) % beside_names.size());
     if (session.record_replay.replays())
         session.exposure = adapted_to(session.exposure, entry.exposure_ev, exposing, start.exposure_ev);
     else

@@ -1,5 +1,6 @@
 #pragma once
 #include "alignment_mode.h"
+#include "config/model/beside.h"
 #include "display_hold.h"
 #include "exhibit.h"
 #include "input/calm.h"
@@ -10,9 +11,11 @@
 #include "lab.h"
 #include "layout_loader.h"
 #include "runtime/flight/flight.h"
+#include "runtime/flight/goals.h"
 #include "runtime/flight/history.h"
 #include "runtime/flight/menu.h"
 #include "runtime/flight/record_replay.h"
+#include "runtime/flight/shown_record.h"
 #include "runtime/flight/tutorial.h"
 #include "runtime/flight/visit.h"
 #include "runtime/light/exposure.h"
@@ -21,6 +24,7 @@
 #include "runtime/operation/guide.h"
 #include "runtime/operation/service.h"
 #include "runtime/operation/skew.h"
+#include "runtime/operation/speaker.h"
 #include <chrono>
 #include <memory>
 
@@ -57,6 +61,9 @@ struct Session {
     std::string coming{}; ///< the visitors' name of a world that is being read; empty: none
     Programme programme; ///< the shown one
     Words words; ///< for the visitors' texts
+    Information information; ///< the shown display
+    Beside beside = Beside::none; ///< the small picture
+    GoalState goals{}; ///< the visitor's, in this world
     Flying rules; ///< of the visitors' flight
     std::optional<Quality> quality; ///< a fixed one, where no governor chooses
     std::string quality_name;
@@ -67,6 +74,7 @@ struct Session {
     LayoutLoader loader; ///< follows the files of `layout`
     std::string refused; ///< the reason why a changed layout was not applied, for the head-up display
     std::optional<Guide> guide;
+    std::unique_ptr<ShownRecord> shown_record; ///< the attraction's; null: none
     Flight flight;
     History history{};
     Exposure exposure{};
@@ -81,6 +89,8 @@ struct Session {
     std::unique_ptr<HeadTracker> tracker;
     AlignmentMode alignment;
     Lab lab;
+    std::unique_ptr<Speaker> speaker; ///< null where the exhibit does not speak
+    std::string spoken{}; ///< the moment of the last text
     double frame_s = 0; ///< the mean time of the last frames, s
     Diary diary;
     double visited_s = 0; ///< time with a visitor that the diary lacks
@@ -101,6 +111,8 @@ double wait_limit_s(const Service& service);
 
 inline double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
+/// Gives a builder's keys back for ten minutes.
+void unlock_builders_keys(Session& session);
 /// The rules by which visits are counted where somebody else attends to them.
 Visiting counted_by(const Programme& programme);
 /// True while somebody's visit goes on.
@@ -146,6 +158,9 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
 void count_frame(Session& session, double frame_s, double refresh_hz);
 /// Turns the diary once a second; call it each frame. Returns true when the exposition of the counts is a new one.
 bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelines);
+
+/// Follows the visitor's way through the world's goals, where the display is for visitors or guides.
+void seek_goals(Session& session, const SceneFile& scene, std::int64_t dt_ns);
 
 /// Steps flight, exposure, record and tutorial by the entry, whose commands are carried out already. metered: the exposure
 /// for the frame before, EV.

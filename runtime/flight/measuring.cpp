@@ -63,6 +63,9 @@ double measured(const Measure& measure, const Ship& ship, const Ship& since, dou
         return ship.proper_time.total() * seconds_per_time_unit;
     case Measure::Quantity::world_s:
         return ship.time.total() * seconds_per_time_unit;
+    case Measure::Quantity::younger_s:
+        return (ship.time.total() - since.time.total() - (ship.proper_time.total() - since.proper_time.total()))
+            * seconds_per_time_unit;
     case Measure::Quantity::doppler_ahead:
         return E;
     case Measure::Quantity::own_colour_deg:

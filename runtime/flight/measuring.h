@@ -1,5 +1,5 @@
 #pragma once
-#include "config/model/tour_file.h"
+#include "config/model/measure.h"
 #include "ship.h"
 
 namespace starbow {

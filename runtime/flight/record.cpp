@@ -31,7 +31,7 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
     [[maybe_unused]] const auto& [aberration, doppler, headlight, false_colours, comparison]
         = static_cast<const EffectSwitches&>(c);
     [[maybe_unused]] const auto& [overlay, mark, log, why, plot] = static_cast<const LabSwitches&>(c);
-    [[maybe_unused]] const auto& [hud, full_screen, quit] = static_cast<const WindowSwitches&>(c);
+    [[maybe_unused]] const auto& [hud, full_screen, quit, information, beside] = static_cast<const WindowSwitches&>(c);
     [[maybe_unused]] const auto& [aberration_on, doppler_on, headlight_on, comparison_shown, false_colours_on] = s.effects;
     [[maybe_unused]] const auto& [pattern, save, choose, turn_by] = static_cast<const AlignmentKeys&>(c);
     [[maybe_unused]] const auto& [key_pressed] = static_cast<const Touches&>(c); // not kept: a record is one visit
@@ -58,8 +58,8 @@ constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", 
     {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours}, {"comparison", &Controls::comparison},
     {"lock_exposure", &Controls::lock_exposure}, {"overlay", &Controls::overlay}, {"mark", &Controls::mark},
     {"log", &Controls::log}, {"why", &Controls::why}, {"plot", &Controls::plot}, {"hud", &Controls::hud},
-    {"full_screen", &Controls::full_screen}, {"quit", &Controls::quit}, {"pattern", &Controls::pattern},
-    {"save", &Controls::save}};
+    {"information", &Controls::information}, {"beside", &Controls::beside}, {"full_screen", &Controls::full_screen},
+    {"quit", &Controls::quit}, {"pattern", &Controls::pattern}, {"save", &Controls::save}};
 
 /// == would accept 0 for -0, which must come back as -0.
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }

@@ -3,6 +3,7 @@
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include "shaders/physics/physics.h"
+#include "visitor_panel.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -288,9 +289,16 @@ Panel Typesetter::draw(const Readings& readings, const Words& words, int width) 
             fields = {{readings.notice, ""}};
         else if (const std::string verdict = verdict_of(*readings.caption); !verdict.empty())
             fields = {{verdict, ""}};
+        else if (readings.caption->flying && readings.information == Information::visitor)
+            fields = {{shown_percent(readings.beta_deficit, words), words("say.of_light")}};
         else if (readings.caption->flying)
             fields = hud_fields(readings, words);
         write_caption(panel, *this, *readings.caption, fields);
+        return panel;
+    }
+
+    if (readings.information != Information::laboratory) {
+        write_visitor_panel(panel, *this, readings, words);
         return panel;
     }
 

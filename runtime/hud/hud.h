@@ -1,6 +1,7 @@
 #pragma once
 #include "caption.h"
 #include "config/model/flying.h"
+#include "config/model/information.h"
 #include "config/model/scene_file.h"
 #include "config/model/words.h"
 #include "runtime/flight/ship.h"
@@ -51,6 +52,7 @@ struct Readings {
     /// A caption; it replaces the figures, but for the first of them where the visitor flies.
     std::optional<Caption> caption{};
     std::string notice{}; ///< one line for the exhibit's operator, or empty
+    Information information = Information::laboratory;
 };
 Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects);
 

@@ -1,5 +1,6 @@
 #include "lab_panel.h"
 #include "config/model/angles.h"
+#include "why_sketch.h"
 #include <algorithm>
 #include <cmath>
 
@@ -111,28 +112,47 @@ Panel draw_readings(const Typesetter& typesetter, const Words& words, const Meas
     return panel;
 }
 
-Panel draw_page(const Typesetter& typesetter, const WhyPage& page, int width)
+/// The page: a sketch at the left, the sentence beside it; below them the numbers, and the formula last.
+Panel draw_page(const Typesetter& typesetter, const WhyPage& page, const std::vector<Stroke>& sketch, int width)
 {
     const int height = int(width * why_aspect);
     Panel panel = plate({width, height}, width * readings_aspect * 0.12);
-    const double room = width * (1 - 2 * margin), x = width * margin;
-    // Lines of one block have one size.
-    double at = 0.14;
-    const auto block = [&](const std::vector<std::string>& lines, double size, double apart, double strength) {
+    constexpr double sketch_side = 0.36, beside = 0.42; // parts of the width
+    draw_strokes(panel, sketch, double(width) * glm::dvec2(margin + 0.5 * sketch_side, margin + 0.5 * sketch_side),
+        0.5 * width * sketch_side);
+    const auto largest = [&](const std::vector<std::string>& lines, double size, double room) {
         int pixels = int(size * width);
         for (const std::string& line : lines)
-            while (pixels > 6 && typesetter.width_of(line, pixels) > room)
+            while (pixels > 6 && typesetter.width_of(line, pixels) > room * width)
                 --pixels;
-        for (const std::string& line : lines) {
-            typesetter.write(panel, line, x, at * height, pixels, strength);
-            at += apart;
-        }
+        return pixels;
     };
-    block({page.title}, 0.052, 0.13, 1);
-    block(page.sentence, 0.036, 0.105, 0.85);
-    at += 0.075;
-    block({page.formula}, 0.052, 0.14, 1);
-    block(page.numbers, 0.042, 0.125, 1);
+    constexpr double room = 1 - margin - beside;
+    typesetter.write(panel, page.title, beside * width, 0.08 * width, largest({page.title}, 0.06, room), 1);
+    std::string sentence;
+    for (const std::string& line : page.sentence)
+        sentence += (sentence.empty() ? "" : " ") + line;
+    int pixels = int(0.045 * width);
+    std::vector<std::string> lines;
+    for (;; --pixels) {
+        lines = wrapped(sentence, room * width, [&](const std::string& text) { return typesetter.width_of(text, pixels); });
+        if (pixels <= 6 || 1.25 * pixels * double(lines.size()) < 0.27 * width)
+            break;
+    }
+    double y = 0.08 * width + 1.5 * pixels;
+    for (const std::string& line : lines) {
+        typesetter.write(panel, line, beside * width, y, pixels, 0.9);
+        y += 1.25 * pixels;
+    }
+    constexpr double whole = 1 - 2 * margin;
+    const int numbers = largest(page.numbers, 0.04, whole), formula = largest({page.formula}, 0.04, whole);
+    y = height - 0.028 * width;
+    typesetter.write(panel, page.formula, margin * width, y, formula, 0.85);
+    y -= 1.3 * formula;
+    for (auto line = page.numbers.rbegin(); line != page.numbers.rend(); ++line) {
+        typesetter.write(panel, *line, margin * width, y, numbers, 1);
+        y -= 1.2 * numbers;
+    }
     return panel;
 }
 
@@ -151,10 +171,12 @@ glm::vec4 scale_place(Overlay overlay, Why why)
 }
 
 Panel draw_lab_panel(const Typesetter& typesetter, const Words& words, const Measured& measured, Overlay overlay,
-    const OverlayScale& scale, Why why, int width)
+    const OverlayScale& scale, Why why, int width, double sketch_s)
 {
-    return why != Why::none ? draw_page(typesetter, why_page(why, measured, words), width)
-                            : draw_readings(typesetter, words, measured, overlay, scale, width);
+    const double gamma_beta = glm::length(measured.observer.u);
+    return why != Why::none
+        ? draw_page(typesetter, why_page(why, measured, words), why_sketch(why, gamma_beta, sketch_s), width)
+        : draw_readings(typesetter, words, measured, overlay, scale, width);
 }
 
 } // namespace starbow

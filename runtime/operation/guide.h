@@ -24,6 +24,8 @@ public:
     bool flies() const { return starbow::flies(touring_, show_); } ///< the visitor flies
     bool over() const { return touring_.over; }
     bool paused() const { return touring_.paused; }
+    bool answered() const { return touring_.measured_answer.has_value(); } ///< the step's question
+    const std::string& description() const { return show_.tour.steps[touring_.step()].description; } ///< of the step
     std::size_t step() const { return touring_.step(); } ///< counted from 0
     /// The tour begins anew.
     void again();

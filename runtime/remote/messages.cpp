@@ -163,10 +163,10 @@ std::string status_text(const Snapshot& now, bool engineer)
     json status{{"scene", now.scene}, {"shot", now.shot}, {"tour", now.tour}, {"step", now.step}, {"steps", now.steps},
         {"paused", now.paused}, {"language", now.language}, {"aberration", now.effects.aberration},
         {"doppler", now.effects.doppler}, {"headlight", now.effects.headlight}, {"false-colours", now.effects.false_colours},
-        {"slow-motion", now.slow_motion}, {"comparison", comparison_names[std::size_t(now.effects.comparison)]},
-        {"speed", finite(now.speed)}, {"gamma", finite(now.gamma)}, {"max-gamma", finite(now.max_gamma)}, {"fade", now.fade},
-        {"hold", now.hold}, {"visit", now.visit}, {"caption", now.caption},
-        {"frames-per-s", std::round(finite(now.frames_per_s) * 10) / 10},
+        {"slow-motion", now.slow_motion}, {"information", name_of(now.information)},
+        {"comparison", comparison_names[std::size_t(now.effects.comparison)]}, {"speed", finite(now.speed)},
+        {"gamma", finite(now.gamma)}, {"max-gamma", finite(now.max_gamma)}, {"fade", now.fade}, {"hold", now.hold},
+        {"visit", now.visit}, {"caption", now.caption}, {"frames-per-s", std::round(finite(now.frames_per_s) * 10) / 10},
         {"frame-ms", std::round(finite(now.frame_ms) * 10) / 10}, {"uptime-s", std::floor(finite(now.uptime_s))}};
     if (engineer) {
         status["layout"] = now.layout;
@@ -205,6 +205,8 @@ std::string lists_text(const std::vector<std::string>& patterns)
         names[command] = shipped_names(folder);
     std::erase_if(names["quality"].get_ref<json::array_t&>(), [](const json& name) { return !is_quality(name); });
     names["comparison"] = comparison_names;
+    for (const auto& [name, information] : informations)
+        names["information"].push_back(name);
     names["pattern"] = patterns;
     return dump({{"commands", commands}, {"names", names}});
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/model/information.h"
 #include "config/model/shot.h"
 #include <cstdint>
 #include <string>
@@ -17,6 +18,7 @@ struct Snapshot {
     std::string visit; ///< one of visit_phase_names
     Effects effects;
     bool slow_motion = false;
+    Information information = Information::laboratory;
     double speed = 0; ///< v/c
     double gamma = 1;
     double max_gamma = 1; ///< at full throttle

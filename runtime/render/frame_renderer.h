@@ -60,6 +60,8 @@ public:
     /// part: of black over the finished picture, 0 to 1. At 0 the pass takes no time.
     void fade(double part) { state_.fade = part; }
     void meter(bool on) { state_.meters = on; }
+    /// Lays placards over all views, beside the head-up display, from the next frame on. They must last until it is drawn.
+    void place(std::span<const Placard> placards) { passes_.place(placards); }
     /// Sets the overlay of all views and the probes from the next frame on; none: at no cost. In a world whose depth is
     /// not kept, the first call takes as long as a change of the layout.
     void measure(const std::optional<Measuring>& what);

@@ -30,7 +30,7 @@ PanelPass::PanelPass(Device& device, Pipelines& pipelines, std::size_t views)
 
 void PanelPass::prepare(const Panel& panel, const Place& place)
 {
-    place_ = place;
+    place_ = place, light_ = nullptr;
     const vk::Extent2D extent(std::uint32_t(panel.size.x), std::uint32_t(panel.size.y));
     if (!*picture_.view || picture_.extent != extent) {
         picture_ = make_image(device_,
@@ -42,10 +42,16 @@ void PanelPass::prepare(const Panel& panel, const Place& place)
     new_ = true;
 }
 
+void PanelPass::prepare(const Image& picture, const Place& place)
+{
+    place_ = place, light_ = &picture;
+    new_ = false;
+}
+
 void PanelPass::prepare_view(std::size_t view, const Image& map, vk::Sampler nearest)
 {
     const vk::DescriptorImageInfo images[] = {{nearest, *map.view, vk::ImageLayout::eShaderReadOnlyOptimal},
-        {*linear_, *picture_.view, vk::ImageLayout::eShaderReadOnlyOptimal}};
+        {*linear_, *shown().view, vk::ImageLayout::eShaderReadOnlyOptimal}};
     device_.device.updateDescriptorSets(
         {vk::WriteDescriptorSet(*sets_[view], 0, 0, vk::DescriptorType::eCombinedImageSampler, images[0]),
             vk::WriteDescriptorSet(*sets_[view], 1, 0, vk::DescriptorType::eCombinedImageSampler, images[1])},
@@ -74,7 +80,7 @@ void PanelPass::draw(vk::CommandBuffer commands, std::size_t view, bool map, sha
     constants.eye = scale;
     set_area(commands, corner, size);
     commands.setScissor(0, box);
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.hud(map, target, scale.z > scale.x));
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.hud(map, target, scale.z > scale.x, light_));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *sets_[view], {});
     commands.pushConstants<shared::ViewPush>(
         *pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);

@@ -19,6 +19,9 @@ public:
     };
     /// map, nearest: a view's direction map and its sampler. The device must have finished the frame before.
     void prepare(const Panel& panel, const Place& place);
+    /// The same for a picture of light, which a frame around it sets off. It must be in eShaderReadOnlyOptimal when it is
+    /// drawn.
+    void prepare(const Image& picture, const Place& place);
     void prepare_view(std::size_t view, const Image& map, vk::Sampler nearest);
 
     void upload(vk::CommandBuffer commands); ///< before the first view
@@ -32,15 +35,25 @@ public:
     vk::DeviceSize memory() const { return picture_.bytes; }
 
 private:
+    const Image& shown() const { return light_ ? *light_ : picture_; }
+
     Device& device_;
     Pipelines& pipelines_;
     Place place_;
     Image picture_;
+    const Image* light_ = nullptr; ///< the picture of light; null: letters are drawn
     Buffer texels_;
     bool new_ = false;
     vk::raii::Sampler linear_ = nullptr;
     vk::raii::DescriptorPool pool_ = nullptr;
     std::vector<vk::raii::DescriptorSet> sets_;
+};
+
+/// Letters or a picture laid over every view.
+struct Placard {
+    const Panel* letters = nullptr; ///< or null
+    const Image* picture = nullptr; ///< or null
+    PanelPass::Place place{};
 };
 
 } // namespace starbow

@@ -332,14 +332,14 @@ vk::Pipeline Pipelines::bloomed(vk::Format target)
         .constants = {target != light_format}});
 }
 
-vk::Pipeline Pipelines::hud(bool map, vk::Format target, bool scale)
+vk::Pipeline Pipelines::hud(bool map, vk::Format target, bool scale, bool light)
 {
     return find_or_make({.name = "hud pipeline",
         .vertex = screen_vert,
         .fragment = hud_frag,
         .layout = *layouts.picture_layout,
         .target = {{target}},
-        .constants = {map, scale},
+        .constants = {map, scale, light},
         .blend = true});
 }
 

@@ -156,7 +156,7 @@ public:
     vk::Pipeline bloom(bool up);
     vk::Pipeline bloomed(vk::Format target);
     /// scale: with the colours of a scale beside its letters.
-    vk::Pipeline hud(bool map, vk::Format target, bool scale = false);
+    vk::Pipeline hud(bool map, vk::Format target, bool scale = false, bool light = false);
     vk::Pipeline lookup(vk::Format target);
     vk::Pipeline scaled(vk::Format target); ///< ScaledPicture's
     /// plain: by the viewports' parts alone.

@@ -1,6 +1,7 @@
 #include "view_passes.h"
 #include "debug.h"
 #include "pattern_label.h"
+#include "runtime/hud/hud_place.h"
 #include <algorithm>
 #include <cmath>
 
@@ -47,6 +48,7 @@ void ViewPasses::prepare(const Panel* hud)
             view.shown_part = shown_part(view.compiled);
         }
     }
+    prepare_placards();
     hud_on_ = hud;
     if (!hud)
         return;
@@ -55,6 +57,27 @@ void ViewPasses::prepare(const Panel* hud)
     hud_->prepare(*hud, views_.hud_place);
     for (std::size_t i = 0; i < views_.all.size(); ++i)
         hud_->prepare_view(i, views_.map_of(views_.all[i]), descriptors_.nearest());
+}
+
+void ViewPasses::prepare_placards()
+{
+    while (placard_passes_.size() < placards_.size())
+        placard_passes_.push_back(std::make_unique<PlacardPass>(PlacardPass{{device_, pipelines_, views_.all.size()}, {}}));
+    for (std::size_t k = 0; k < placards_.size(); ++k) {
+        const Placard& placard = placards_[k];
+        auto& [panel, boxes] = *placard_passes_[k];
+        if (placard.letters)
+            panel.prepare(*placard.letters, placard.place);
+        else
+            panel.prepare(*placard.picture, placard.place);
+        boxes.clear();
+        for (std::size_t i = 0; i < views_.all.size(); ++i) {
+            const ViewState& view = views_.all[i];
+            panel.prepare_view(i, views_.map_of(view), descriptors_.nearest());
+            const PixelBox box = panel_box(*view.compiled.cones, placard.place.panel_from_cockpit, placard.place.half);
+            boxes.push_back(rect_of(view.geometry().corner + box.low, box.high - box.low));
+        }
+    }
 }
 
 void ViewPasses::prepare_stars()
@@ -232,14 +255,23 @@ void ViewPasses::lay_over(vk::CommandBuffer commands, std::size_t output, std::s
 
 void ViewPasses::draw_hud(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last)
 {
-    if (!hud_on_)
+    if (!hud_on_ && placards_.empty())
         return;
     const Label label(device_, commands, "HUD");
-    hud_->upload(commands);
+    if (hud_on_)
+        hud_->upload(commands);
+    for (std::size_t k = 0; k < placards_.size(); ++k)
+        placard_passes_[k]->panel.upload(commands);
     lay_over(commands, output, layer, last, [&](std::size_t i, vk::Format target) {
         const ViewState& view = views_.all[i];
-        hud_->draw(commands, i, view.compiled.map != nullptr, constants_.push(view, views_.hud_place.panel_from_cockpit),
-            view.geometry().corner, view.geometry().size, view.hud_box, {}, target);
+        const auto draw = [&](PanelPass& panel, const PanelPass::Place& place, const vk::Rect2D& box) {
+            panel.draw(commands, i, view.compiled.map != nullptr, constants_.push(view, place.panel_from_cockpit),
+                view.geometry().corner, view.geometry().size, box, {}, target);
+        };
+        if (hud_on_)
+            draw(*hud_, views_.hud_place, view.hud_box);
+        for (std::size_t k = 0; k < placards_.size(); ++k)
+            draw(placard_passes_[k]->panel, placards_[k].place, placard_passes_[k]->boxes[i]);
     });
 }
 

@@ -212,11 +212,39 @@ std::optional<std::size_t> ViewSet::view_at(std::size_t output, const glm::dvec2
     return {};
 }
 
+std::vector<std::vector<CompiledView>> ViewSet::compiled_views() const
+{
+    std::vector<std::vector<CompiledView>> views(outputs.size());
+    for (const ViewState& view : all)
+        views[view.output].push_back(view.compiled);
+    return views;
+}
+
+/// The same panel with its middle moved on its own plane.
+static glm::dmat3 moved(const glm::dmat3& panel_from_cockpit, const glm::dvec2& by)
+{
+    glm::dmat3 rows = glm::transpose(panel_from_cockpit);
+    rows[0] -= by.x * rows[2], rows[1] -= by.y * rows[2];
+    return glm::transpose(rows);
+}
+
+PanelPass::Place ViewSet::place_above(const glm::dvec3& towards, const glm::dvec2& half) const
+{
+    const HudPlacement there{.azimuth_deg = std::atan2(towards.x, -towards.z) / degree,
+        .elevation_deg = std::asin(std::clamp(towards.y, -1.0, 1.0)) / degree};
+    return {moved(panel_from_cockpit(there, compiled_views()), {0, half.y}), half};
+}
+
+PanelPass::Place ViewSet::place_beside_hud(const glm::dvec2& half, double off) const
+{
+    const double gap = 0.02, up = hud_place.half.y + gap + half.y + off;
+    const bool low = state_.layout.hud.elevation_deg < 0;
+    return {moved(hud_place.panel_from_cockpit, {hud_place.half.x - half.x, low ? up : -up}), half};
+}
+
 PanelPass::Place ViewSet::lab_place(double aspect) const
 {
-    std::vector<std::vector<CompiledView>> shown(outputs.size());
-    for (const ViewState& view : all)
-        shown[view.output].push_back(view.compiled);
+    const std::vector<std::vector<CompiledView>> shown = compiled_views();
     return {panel_from_cockpit(instruments_place(state_.layout.hud, aspect, shown), shown),
         std::tan(0.5 * state_.layout.hud.width_deg * degree) * glm::dvec2(1, aspect)};
 }

@@ -94,6 +94,11 @@ public:
     /// The place of the instruments' panel, and the width in pixels that makes it sharp. aspect: height over width.
     PanelPass::Place lab_place(double aspect) const;
     int lab_panel_width(double aspect) const;
+    /// The place of a panel above a direction of the cockpit: the middle of its lower edge is there. half: its extent.
+    PanelPass::Place place_above(const glm::dvec3& towards, const glm::dvec2& half) const;
+    /// The place of a panel at the head-up display's right end, across from the picture's nearer edge. off: from the
+    /// display, on the panel's plane.
+    PanelPass::Place place_beside_hud(const glm::dvec2& half, double off) const;
     vk::DeviceSize memory() const;
 
     std::vector<ViewState> all;
@@ -107,6 +112,7 @@ private:
     glm::dvec3 cube_place(const View& view) const;
     std::optional<std::size_t> map_for(
         const CompiledView& view, const std::map<const DirectionMap*, InverseMap>& inverses, std::vector<MapImage>& before);
+    std::vector<std::vector<CompiledView>> compiled_views() const;
     PixelBox panel_in(const ConeHierarchy& cones) const;
     void find_hud_box(ViewState& view) const;
 

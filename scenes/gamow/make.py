@@ -585,6 +585,9 @@ BODIES
     ],
     "boundary": { "centre": [0, 0, -30], "radius": 220 },
     "flight": { "distance": 130, "time_s": 30 },
+    "goals": [
+        { "ask": "goal.gamow.tram", "reward": "goal.gamow.tram-done", "conditions": [{ "measure": { "quantity": "beta" }, "from": 0.55, "below": 0.65 }] }
+    ],
     "start": { "position": [1.0, 1.7, 17], "look": [0, 0, -1], "up": [0, 1, 0] }
 }
 """

@@ -137,6 +137,9 @@ BODIES
     ],
     "boundary": { "centre": [0, 0, 0], "radius": 40 },
     "flight": { "distance": 32, "time_s": 25 },
+    "goals": [
+        { "ask": "goal.light-clock.along", "reward": "goal.light-clock.along-done", "conditions": [{ "measure": { "quantity": "doppler", "at": [1000000, 0, 0] }, "from": 1.8, "below": 2.25 }] }
+    ],
     "start": { "time": -4, "position": [0, 1.1, 8.5], "look": [0, 0, -1], "up": [0, 1, 0] }
 }
 """

@@ -45,7 +45,7 @@ applied speed-limit 2.5 && is max-gamma 2.5
 applied caption 'Grüße aus dem Zug' && is caption 'Grüße aus dem Zug'
 applied hold on && is hold on
 applied fade on
-until_true 20 is_black || fail "faded, the screen's brightest point is $(brightest)"
+until_true 60 is_black || fail "faded, the screen's brightest point is $(brightest)"
 applied fade off
 ok
 applied tour simultaneity && is tour simultaneity

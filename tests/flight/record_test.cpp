@@ -5,6 +5,7 @@
 #include "runtime/flight/record_replay.h"
 #include "runtime/flight/recorder.h"
 #include "runtime/flight/replay.h"
+#include "runtime/flight/shown_record.h"
 #include "tests/support/controls.h"
 #include "tests/support/files.h"
 #include <bit>
@@ -65,12 +66,12 @@ RecordEntry some_entry(std::mt19937_64& random)
     if (random() % 3 == 0)
         c.head.turned = glm::angleAxis(some_double(random, -3, 3), glm::normalize(glm::dvec3(1, 2, 3)));
     maybe(c.exposure, -1, 1);
-    for (bool Controls::*flag :
-        std::initializer_list<bool Controls::*>{&Controls::look_ahead, &Controls::stop, &Controls::home, &Controls::undo,
-            &Controls::reset, &Controls::next_mode, &Controls::freeze, &Controls::menu, &Controls::slow_motion,
-            &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud, &Controls::false_colours,
-            &Controls::comparison, &Controls::full_screen, &Controls::quit, &Controls::pattern, &Controls::save,
-            &Controls::lock_exposure, &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why, &Controls::plot})
+    for (bool Controls::*flag : std::initializer_list<bool Controls::*>{&Controls::look_ahead, &Controls::stop,
+             &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode, &Controls::freeze, &Controls::menu,
+             &Controls::slow_motion, &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud,
+             &Controls::false_colours, &Controls::comparison, &Controls::full_screen, &Controls::quit, &Controls::pattern,
+             &Controls::save, &Controls::lock_exposure, &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why,
+             &Controls::plot, &Controls::information, &Controls::beside})
         c.*flag = random() % 200 == 0;
     c.choose = random() % 20 == 0 ? int(random() % 3) - 1 : 0;
     c.turn_by = random() % 20 == 0 ? int(random() % 21) - 10 : 0;
@@ -88,7 +89,7 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
         all.push_back(std::bit_cast<std::uint64_t>(v));
     for (bool flag : {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.freeze, c.menu, c.slow_motion,
              c.aberration, c.doppler, c.headlight, c.false_colours, c.comparison, c.hud, c.full_screen, c.quit, c.pattern,
-             c.save, c.lock_exposure, c.overlay, c.mark, c.log, c.why, c.plot})
+             c.save, c.lock_exposure, c.overlay, c.mark, c.log, c.why, c.plot, c.information, c.beside})
         all.push_back(flag);
     all.push_back(std::uint64_t(c.choose));
     all.push_back(std::uint64_t(c.turn_by));
@@ -282,6 +283,46 @@ TEST(Record, AReplayIsTheSameToTheBit)
     EXPECT_FALSE(replay.differs());
     EXPECT_TRUE(replay.verdict().starts_with("the same to the bit")) << replay.verdict();
     EXPECT_EQ(replay.verdict().find("cut"), std::string::npos) << replay.verdict();
+}
+
+// Whatever the frames' times are when it is shown, the flight is the one that was flown.
+TEST(Record, IsShownAsItWasFlown)
+{
+    std::mt19937_64 random(4);
+    const RecordHeader header = some_header();
+    const std::filesystem::path file = fresh("shown.jsonl");
+    Flight flight = flight_at(header.start, header.rules);
+    History history;
+    std::int64_t length_ns = 0;
+    {
+        Recorder recorder(file, header, ignore_message);
+        for (int i = 0; i < 2'000; ++i) {
+            RecordEntry entry = some_entry(random);
+            entry.controls.commands.clear();
+            entry.dt_ns /= 10;
+            length_ns += entry.dt_ns;
+            flight = flown(
+                flight, history, entry.controls, entry.dt_ns, header.rules, header.seconds_per_time_unit, header.start);
+            recorder.keep(entry, flight);
+        }
+        recorder.end(flight);
+    }
+    for (const std::int64_t dt_ns : {3'000'000, 16'666'667, 100'000'000}) {
+        ShownRecord shown(file);
+        EXPECT_EQ(digest(shown.flight()), digest(flight_at(header.start, header.rules)));
+        std::int64_t passed_ns = 0;
+        for (; !shown.over() && passed_ns < 2 * length_ns; passed_ns += dt_ns)
+            shown.flown(dt_ns);
+        EXPECT_NEAR(double(passed_ns), double(length_ns), double(dt_ns));
+        EXPECT_EQ(digest(shown.flight()), digest(flight));
+    }
+    // A damaged one ends where the damage is.
+    std::string text = read_text(file);
+    text.insert(text.size() / 2, "{");
+    ShownRecord damaged(write_text("damaged.jsonl", text));
+    for (int i = 0; i < 100'000 && !damaged.over(); ++i)
+        damaged.flown(16'666'667);
+    EXPECT_TRUE(damaged.over());
 }
 
 // One control differs in its last bit; the verdict says so and names the place.

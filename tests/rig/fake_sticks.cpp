@@ -169,7 +169,7 @@ struct Stick {
     /// Waits until the program has read everything that was written.
     void drain() const
     {
-        for (int i = 0; i < 2000; ++i) {
+        for (int i = 0; i < 50'000; ++i) { // a busy machine's frame may take seconds
             int waiting = 0;
             ioctl(slave, FIONREAD, &waiting);
             if (waiting == 0)

@@ -24,7 +24,8 @@ namespace {
 
 struct RenderOptions {
     std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames,
-                                         language = "en", tour, movie, points, overlay = "off", why = "none", quality;
+                                         language = "en", information = "laboratory", tour, movie, points, overlay = "off",
+                                         why = "none", quality;
     long frames_per_s = 30;
     long every = 1, samples = 16;
     double bloom = 0;
@@ -88,6 +89,7 @@ int render(const RenderOptions& options)
     if (options.hud) {
         Readings shown = readings(ship_at(shot), context.world.scene, shot.effects);
         shown.exposure_ev = shot.exposure_ev;
+        shown.information = information_named(options.information);
         panel = Typesetter().draw(shown, words, renderer.frame().views().hud_width());
     }
     render_still(options.out, renderer, shot, options.exr, panel ? &*panel : nullptr);
@@ -142,10 +144,19 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
                            ->check(CLI::IsMember(std::vector<std::string>(why_names.begin(), why_names.end())))
                            ->capture_default_str();
     CLI::Option* hud = command->add_flag("--hud", options->hud, "With the head-up display");
+    std::vector<std::string> displays;
+    for (const auto& [name, information] : informations)
+        displays.emplace_back(name);
+    CLI::Option* information
+        = command
+              ->add_option("--information", options->information, "The head-up display for a visitor, guide or laboratory")
+              ->check(CLI::IsMember(displays))
+              ->needs(hud)
+              ->capture_default_str();
     add_language(*command, options->language);
     CLI::Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
-    for (CLI::Option* other : {shot, exr, pattern, points, overlay, why})
+    for (CLI::Option* other : {shot, exr, pattern, points, overlay, why, information})
         replay->excludes(other);
     command->add_option("--frames", options->frames, "With --replay: the frames from A to B, counted from 0, as A:B")
         ->needs(replay);

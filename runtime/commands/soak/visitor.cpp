@@ -10,10 +10,10 @@ namespace {
 /// has no use for, and the keys that write into files.
 using Switch = bool Controls::*;
 constexpr Switch pressed[]{&Controls::stop, &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode,
-    &Controls::menu, &Controls::slow_motion,
-    &Controls::freeze, &Controls::look_ahead, &Controls::lock_exposure, &Controls::aberration, &Controls::doppler,
-    &Controls::headlight, &Controls::false_colours, &Controls::comparison, &Controls::overlay, &Controls::mark,
-    &Controls::log, &Controls::why, &Controls::hud, &Controls::pattern};
+    &Controls::menu, &Controls::slow_motion, &Controls::information, &Controls::beside, &Controls::freeze,
+    &Controls::look_ahead, &Controls::lock_exposure, &Controls::aberration, &Controls::doppler, &Controls::headlight,
+    &Controls::false_colours, &Controls::comparison, &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why,
+    &Controls::hud, &Controls::pattern};
 
 /// On average. A switch costs a driver in software some tenths of a second for new pipelines, a world as much.
 constexpr double held_key_s = 0.5, switch_every_s = 1.5, direction_every_s = 1.5;

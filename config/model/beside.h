@@ -1,0 +1,28 @@
+#pragma once
+#include "shot.h"
+#include <array>
+
+namespace starbow {
+
+/// The small picture beside the large one, of the same instant: at rest, or with one effect alone. In the order of the key
+/// that steps through them.
+enum class Beside { none, at_rest, aberration, doppler, headlight };
+constexpr std::array<const char*, 5> beside_names = {"none", "at-rest", "aberration", "doppler", "headlight"};
+
+/// The shot of the small picture. start_ev: the exposure of the small picture, EV; headlight alone has the shot's own, as
+/// its light is as bright.
+inline Shot beside(Shot shot, Beside beside, double start_ev)
+{
+    shot.effects = {.aberration = beside == Beside::aberration,
+        .doppler = beside == Beside::doppler,
+        .headlight = beside == Beside::headlight};
+    if (beside == Beside::at_rest) {
+        shot.effects = {};
+        shot.u = glm::dvec3(0);
+    }
+    if (beside != Beside::headlight)
+        shot.exposure_ev = start_ev;
+    return shot;
+}
+
+} // namespace starbow

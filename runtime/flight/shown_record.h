@@ -1,0 +1,28 @@
+#pragma once
+#include "history.h"
+#include "replay.h"
+
+namespace starbow {
+
+/// A flown record that is shown as it was flown, in its own time, whatever the frames' times are now.
+class ShownRecord {
+public:
+    /// Throws InputError, also where the record's first frames are wrong.
+    explicit ShownRecord(const std::filesystem::path& file);
+
+    /// The flight dt_ns nanoseconds later. A record that turns out to be damaged is over there.
+    const Flight& flown(std::int64_t dt_ns);
+    bool over() const { return !next_; }
+    const Flight& flight() const { return flight_; }
+
+private:
+    void read_next();
+
+    Replay replay_;
+    Flight flight_;
+    History history_;
+    std::optional<RecordEntry> next_;
+    std::int64_t waits_ns_ = 0; ///< until the next frame is due
+};
+
+} // namespace starbow

@@ -1,0 +1,169 @@
+#include "signs.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+// Angles from the view's axis within which a sign appears, and within which it stays, radians: all shipped views are wider.
+constexpr double appears_within = 0.35, stays_within = 0.42;
+/// A thing's angular radius as seen: larger ones need no sign, smaller ones can't be told apart.
+constexpr double least_radius = 0.012, most_radius = 0.35;
+/// cos of the angle from the motion, in the world, beyond which a thing is well behind.
+constexpr double behind_cosine = -0.2;
+constexpr double least_beta = 0.4; ///< slower ships see nothing ahead that lies behind them by so much
+constexpr double old_light_s = 1; ///< a clock's light
+
+double from_axis(const glm::dvec3& towards) { return std::acos(std::clamp(-towards.z, -1.0, 1.0)); }
+
+/// The share of the way from a to b at which it enters a box, by the slabs of its sides; nothing where it misses it.
+std::optional<double> enters(const glm::dvec3& a, const glm::dvec3& b, const AlignedBox& box)
+{
+    double from = 0, to = 1;
+    for (int i = 0; i < 3; ++i) {
+        const double way = b[i] - a[i];
+        if (way == 0) {
+            if (a[i] < box.low[i] || a[i] > box.high[i])
+                return {};
+            continue;
+        }
+        const double in = (box.low[i] - a[i]) / way, out = (box.high[i] - a[i]) / way;
+        from = std::max(from, std::min(in, out)), to = std::min(to, std::max(in, out));
+    }
+    return from <= to ? std::optional(from) : std::nullopt;
+}
+
+/// True if another thing stands between. A thing that holds either end hides nothing: its box is larger than it.
+bool is_hidden(const glm::dvec3& from, const glm::dvec3& at, std::span<const AlignedBox> things)
+{
+    return std::ranges::any_of(things, [&](const AlignedBox& box) {
+        const auto holds = [&](const glm::dvec3& point) {
+            return glm::all(glm::greaterThanEqual(point, box.low)) && glm::all(glm::lessThanEqual(point, box.high));
+        };
+        return !holds(from) && !holds(at) && enters(from, at, box);
+    });
+}
+
+struct Sight {
+    Sign sign;
+    double radius = 0; ///< as seen, radians
+    bool is_true = false;
+};
+
+Sight sight_of(const Shot& shot, Sign::Kind kind, std::size_t thing, const glm::dvec3& middle, double radius,
+    double seconds_per_time_unit)
+{
+    const MeasuringObserver observer = measuring_observer_of(shot);
+    const glm::dvec3 way = middle - observer.place;
+    const double distance = glm::length(way);
+    if (!(distance > radius))
+        return {};
+    const Ray ray = ray_from_world(observer, way / distance);
+    Sight sight;
+    sight.sign = {.kind = kind,
+        .thing = thing,
+        .towards = glm::conjugate(shot.ship_from_cockpit) * ray.ship,
+        .light_s = distance * seconds_per_time_unit};
+    sight.radius = radius / (distance * ray.D); // aberration makes small things smaller by 1 / D
+    const double speed = glm::length(shot.u), beta = speed / std::sqrt(1 + speed * speed);
+    sight.is_true = kind == Sign::Kind::clock
+        ? sight.sign.light_s > old_light_s
+        : beta > least_beta && glm::dot(way, shot.u) < behind_cosine * distance * speed;
+    return sight;
+}
+
+struct Thing {
+    Sign::Kind kind;
+    std::size_t index;
+    glm::dvec3 middle;
+    double radius;
+};
+
+std::optional<Thing> clock_at(const World& world, std::size_t instance)
+{
+    const Instance& clock = world.instances[instance];
+    const Primitive& primitive = world.primitives[clock.primitive];
+    if (!world.materials[std::size_t(primitive.material)].clock || clock.motion >= 0 || clock.frame != 0)
+        return {};
+    const glm::dvec3 middle = clock.frame_from_local * glm::dvec4(0.5 * (primitive.low + primitive.high), 1),
+                     corner = clock.frame_from_local * glm::dvec4(primitive.high, 1);
+    return Thing{Sign::Kind::clock, instance, middle, glm::distance(middle, corner)};
+}
+
+} // namespace
+
+std::optional<Sign> sign_for(const Shot& shot, std::span<const AlignedBox> things, const World& world,
+    double seconds_per_time_unit, const std::optional<Sign>& before)
+{
+    if (!shot.effects.aberration || shot.effects.comparison != Comparison::none)
+        return {};
+    std::vector<Thing> all;
+    for (std::size_t i = 0; i < things.size(); ++i)
+        all.push_back({Sign::Kind::behind, i, 0.5 * (things[i].low + things[i].high),
+            0.5 * glm::distance(things[i].low, things[i].high)});
+    for (std::size_t i = 0; i < world.instances.size(); ++i)
+        if (const auto clock = clock_at(world, i))
+            all.push_back(*clock);
+    std::optional<Sign> best;
+    double best_angle = appears_within;
+    for (const Thing& thing : all) {
+        const Sight sight = sight_of(shot, thing.kind, thing.index, thing.middle, thing.radius, seconds_per_time_unit);
+        const bool kept = before && before->kind == thing.kind && before->thing == thing.index;
+        const double angle = from_axis(sight.sign.towards);
+        const double slack = kept ? 1.5 : 1;
+        if (!sight.is_true || angle > (kept ? stays_within : best_angle) || sight.radius < least_radius / slack
+            || sight.radius > most_radius * slack || is_hidden(shot.position, thing.middle, things))
+            continue;
+        if (kept)
+            return sight.sign;
+        best = sight.sign;
+        best_angle = angle;
+    }
+    return best;
+}
+
+std::vector<std::string> lines_of(const Sign& sign, const Words& words)
+{
+    if (sign.kind == Sign::Kind::clock)
+        return {words("sign.clock"), words("sign.clock_light", {{"time", shown_duration(sign.light_s, words)}})};
+    return {words("sign.behind"), words("sign.behind_light")};
+}
+
+Panel draw_sign(const Typesetter& typesetter, const std::vector<std::string>& lines, double degree_px)
+{
+    const int size = std::max(8, int(sign_letters_deg * degree_px));
+    const double pitch = 1.15 * size, edge = 0.45 * size, arrow = 1.2 * size;
+    double widest = 0;
+    for (const std::string& line : lines)
+        widest = std::max(widest, typesetter.width_of(line, size));
+    const int width = int(widest + 2 * edge) + 1, plate_height = int(double(lines.size()) * pitch + 0.9 * edge);
+    Panel panel = plate({width, plate_height}, edge);
+    panel.size.y = plate_height + int(arrow);
+    panel.texels.resize(std::size_t(panel.size.x) * panel.size.y * 2, 0);
+    for (int y = plate_height; y < panel.size.y; ++y) { // the arrow, in the plate's colour with a bright core
+        const double half = 0.45 * (panel.size.y - y);
+        for (int x = 0; x < width; ++x) {
+            const double aside = std::abs(x + 0.5 - 0.5 * width);
+            std::uint8_t* texel = &panel.texels[2 * (std::size_t(y) * width + x)];
+            texel[0] = std::uint8_t(255 * std::clamp(half - 0.12 * size - aside + 0.5, 0.0, 1.0));
+            texel[1] = std::uint8_t(255 * std::clamp(half - aside + 0.5, 0.0, 1.0));
+        }
+    }
+    double baseline = 0.45 * edge + 0.86 * size;
+    for (const std::string& line : lines) {
+        typesetter.write(panel, line, 0.5 * (width - typesetter.width_of(line, size)), baseline, size, 1);
+        baseline += pitch;
+    }
+    return panel;
+}
+
+Panel draw_name(const Typesetter& typesetter, const std::string& name, double degree_px)
+{
+    const int size = std::max(8, int(sign_letters_deg * degree_px));
+    const double edge = 0.4 * size;
+    Panel panel = plate({int(typesetter.width_of(name, size) + 2 * edge) + 1, int(1.3 * size)}, edge);
+    typesetter.write(panel, name, edge, size, size, 1);
+    return panel;
+}
+
+} // namespace starbow

@@ -1,0 +1,225 @@
+#include "visitor_panel.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace starbow {
+namespace {
+
+constexpr double wide = 1 / panel_aspect, right_edge = wide - 0.12;
+
+// The dial at the left, open below; angles clockwise from straight up, radians.
+constexpr glm::dvec2 dial_middle{0.62, 0.47};
+constexpr double dial_radius = 0.35, dial_width = 0.075;
+constexpr double dial_end = 0.75 * std::numbers::pi; ///< from -dial_end to dial_end
+
+constexpr double left_of_lines = 1.25, clock_radius = 0.1;
+constexpr double first_line = 0.26, below_first = 0.28; ///< baselines
+
+/// The two clocks: on board, and of the world at rest.
+struct ClockPlace {
+    double x; ///< the face's middle
+    double text_x;
+};
+constexpr std::array<ClockPlace, 2> clocks{{{1.36, 1.53}, {3.16, 3.33}}};
+constexpr double clocks_y = 0.19;
+
+/// The size at which a text fits, no smaller than the least.
+double fitting(const Typesetter& typesetter, const std::string& text, double room, double largest)
+{
+    constexpr int pixels = 200; // to a panel's height; enough to compare widths
+    const double width = typesetter.width_of(text, int(largest * pixels)) / pixels;
+    return width <= room ? largest : std::max(least_lettering, largest * room / width);
+}
+
+std::vector<std::string> lines_of(const Typesetter& typesetter, const std::string& text, double size)
+{
+    constexpr int pixels = 200;
+    return wrapped(text, (right_edge - left_of_lines) * pixels,
+        [&](const std::string& line) { return typesetter.width_of(line, int(size * pixels)); });
+}
+
+/// Draws a shape by its distance function, which is negative within, in parts of the panel's height.
+template <class Distance>
+void draw_shape(Panel& panel, const glm::dvec2& low, const glm::dvec2& high, double strength, Distance distance)
+{
+    const double unit = panel.size.y;
+    const glm::ivec2 from = glm::max(glm::ivec2(glm::floor(low * unit)), 0),
+                     to = glm::min(glm::ivec2(glm::ceil(high * unit)), panel.size);
+    for (int y = from.y; y < to.y; ++y)
+        for (int x = from.x; x < to.x; ++x) {
+            const double cover = std::clamp(0.5 - unit * distance((glm::dvec2(x, y) + 0.5) / unit), 0.0, 1.0);
+            std::uint8_t& letter = panel.texels[2 * (std::size_t(y) * panel.size.x + x)];
+            letter = std::max(letter, std::uint8_t(255 * strength * cover));
+        }
+}
+
+/// Distance from a part of a ring, whose ends are cut straight.
+double ring_distance(const glm::dvec2& at, double radius, double width, double from, double to)
+{
+    const double angle = std::atan2(at.x, -at.y), length = glm::length(at);
+    const double outside = std::max(from - angle, angle - to) * length;
+    return std::max(std::abs(length - radius) - 0.5 * width, outside);
+}
+
+double line_distance(const glm::dvec2& at, const glm::dvec2& end, double width)
+{
+    const double along = std::clamp(glm::dot(at, end) / glm::dot(end, end), 0.0, 1.0);
+    return glm::length(at - along * end) - 0.5 * width;
+}
+
+void draw_dial(Panel& panel, double part)
+{
+    const glm::dvec2 reach(dial_radius + dial_width);
+    const auto arc = [&](double from, double to, double strength) {
+        draw_shape(panel, dial_middle - reach, dial_middle + reach, strength,
+            [&](const glm::dvec2& at) { return ring_distance(at - dial_middle, dial_radius, dial_width, from, to); });
+    };
+    const double now = dial_end * (2 * part - 1);
+    arc(-dial_end, dial_end, 0.35);
+    arc(-dial_end, now, 1);
+    const glm::dvec2 way(std::sin(now), -std::cos(now));
+    const glm::dvec2 tip = dial_middle + (dial_radius + 0.75 * dial_width) * way,
+                     back = dial_middle + (dial_radius - 0.9 * dial_width) * way;
+    draw_shape(panel, dial_middle - reach, dial_middle + reach, 1,
+        [&](const glm::dvec2& at) { return line_distance(at - back, tip - back, 0.035); });
+}
+
+/// A clock's face with one hand, which turns once in a minute of its own time.
+void draw_clock(Panel& panel, const ClockPlace& place, double s)
+{
+    const glm::dvec2 middle(place.x, clocks_y), reach(1.3 * clock_radius);
+    constexpr double pi = std::numbers::pi;
+    draw_shape(panel, middle - reach, middle + reach, 1,
+        [&](const glm::dvec2& at) { return ring_distance(at - middle, clock_radius, 0.022, -pi, pi); });
+    const double angle = 2 * pi * std::fmod(s, 60) / 60;
+    const glm::dvec2 hand = 0.85 * clock_radius * glm::dvec2(std::sin(angle), -std::cos(angle));
+    draw_shape(panel, middle - reach, middle + reach, 1,
+        [&](const glm::dvec2& at) { return line_distance(at - middle, hand, 0.026); });
+}
+
+/// The numbers that a guide speaks of.
+std::string guides_numbers(const Readings& r, const Words& words)
+{
+    std::string line = words("hud.gamma") + " " + shown_number(r.gamma, words) + "   " + words("hud.doppler_ahead") + " "
+        + shown_number(r.doppler_ahead, words) + "   " + words("hud.flown") + " "
+        + shown_length(r.distance_m, r.light_speed_m_s, words);
+    return line;
+}
+
+/// The effects that are switched off; empty where all are on.
+std::string switched_off(const Effects& on, const Words& words)
+{
+    std::string list;
+    for (const auto& [is_on, key] :
+        {std::pair{on.aberration, "hud.aberration"}, {on.doppler, "hud.doppler"}, {on.headlight, "hud.headlight"}})
+        if (!is_on)
+            list += (list.empty() ? "" : ", ") + words(key);
+    return list.empty() ? "" : words("hud.off") + ": " + list;
+}
+
+} // namespace
+
+double dial_part(double beta_deficit) { return 1 - std::sqrt(beta_deficit / (2 - beta_deficit)); }
+
+std::string shown_percent(double beta_deficit, const Words& words)
+{
+    constexpr int most_decimals = 3;
+    const int nines = beta_deficit > 0 ? int(std::floor(-std::log10(beta_deficit) + 1e-9)) : most_decimals + 1;
+    const int decimals = std::clamp(nines - 1, 0, most_decimals);
+    const double step = std::pow(10.0, -decimals);
+    const double percent = std::floor((100 - 100 * beta_deficit) / step + 1e-9) * step;
+    return words("say.percent", {{"number", shown_number(std::min(percent, 100 - step), decimals, words)}});
+}
+
+std::string plain_sentence(const Readings& r, const Words& words)
+{
+    const double beta = 1 - r.beta_deficit;
+    const Effects& on = r.effects;
+    if (on.comparison != Comparison::none)
+        return words(on.comparison == Comparison::galilean ? "say.galilean" : "say.no_light_delay");
+    if (on.false_colours)
+        return words("say.false_colours");
+    if (r.frozen)
+        return words("say.frozen");
+    if (beta < 0.02)
+        return words("say.rest");
+    if (beta < 0.25)
+        return words("say.slow");
+    const bool colours = on.doppler || on.headlight;
+    if (!on.aberration)
+        return words(colours ? "say.no_aberration" : "say.no_effects");
+    if (r.doppler_ahead < 0.9) // the nose does not point the way
+        return words(colours ? "say.back_colours" : "say.back");
+    if (r.beta_deficit < 1e-4)
+        return words("say.limit");
+    if (beta > 0.94)
+        return words("say.beam");
+    return words(beta > 0.7 && colours ? "say.colours" : "say.rain");
+}
+
+std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings& readings, const Words& words)
+{
+    std::vector<Lettering> lines;
+    const auto width_of = [&](const std::string& text, double size) {
+        constexpr int pixels = 200;
+        return typesetter.width_of(text, int(size * pixels)) / pixels;
+    };
+    const auto middle = [&](const std::string& text, double x, double baseline, double room, double largest) {
+        const double size = fitting(typesetter, text, room, largest);
+        lines.push_back({text, x - 0.5 * width_of(text, size), baseline, size});
+    };
+    middle(shown_percent(readings.beta_deficit, words), dial_middle.x, dial_middle.y + 0.09, 0.52, 0.24);
+    middle(words("say.of_light"), dial_middle.x, 0.94, 0.9, least_lettering);
+
+    const double times_s[] = {readings.ship_s, readings.world_s};
+    const char* keys[] = {"say.clock_board", "say.clock_world"};
+    for (int i = 0; i < 2; ++i) {
+        const std::string text = words(keys[i], {{"time", shown_duration(times_s[i], words)}});
+        const double room = (i == 0 ? clocks[1].x - clock_radius - 0.12 : right_edge) - clocks[i].text_x;
+        lines.push_back({text, clocks[i].text_x, first_line, fitting(typesetter, text, room, 0.22)});
+    }
+
+    double baseline = first_line + below_first;
+    const auto line = [&](const std::string& text) {
+        const double size = fitting(typesetter, text, right_edge - left_of_lines, 0.23);
+        lines.push_back({text, left_of_lines, baseline, size});
+        baseline += 0.25;
+    };
+    if (readings.information == Information::guide)
+        line(guides_numbers(readings, words));
+    const bool guides = readings.information == Information::guide;
+    const std::string off = guides ? switched_off(readings.effects, words) : "";
+    const std::string text = !readings.notice.empty() ? readings.notice
+        : !readings.prompt.empty()                    ? readings.prompt
+        : !off.empty()                                ? off
+                                                      : plain_sentence(readings, words);
+    // As large as two lines allow; a guide's has room for one, or for two small ones.
+    double size = guides ? 0.21 : 0.24;
+    while (size > least_lettering && lines_of(typesetter, text, size).size() > 2)
+        size -= 0.005;
+    const std::vector<std::string> wrapped_lines = lines_of(typesetter, text, size);
+    const double pitch = guides ? 0.215 : 0.29;
+    if (guides)
+        baseline = wrapped_lines.size() > 1 ? 0.745 : 0.85;
+    else
+        baseline = wrapped_lines.size() > 1 ? 0.58 : 0.7;
+    for (const std::string& one : wrapped_lines) {
+        lines.push_back({one, left_of_lines, baseline, size});
+        baseline += pitch;
+    }
+    return lines;
+}
+
+void write_visitor_panel(Panel& panel, const Typesetter& typesetter, const Readings& readings, const Words& words)
+{
+    draw_dial(panel, dial_part(readings.beta_deficit));
+    draw_clock(panel, clocks[0], readings.ship_s);
+    draw_clock(panel, clocks[1], readings.world_s);
+    const double unit = panel.size.y;
+    for (const Lettering& line : lettering_of(typesetter, readings, words))
+        typesetter.write(panel, line.text, line.x * unit, line.baseline * unit, std::max(6, int(line.size * unit)), 1);
+}
+
+} // namespace starbow

@@ -1,0 +1,116 @@
+// Signs say what is true, at the place where the thing is seen, and only while it is seen.
+#include "runtime/hud/signs.h"
+#include "runtime/world/surroundings.h"
+#include "tests/support/files.h"
+#include "tests/support/shots.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace signs_test {
+
+using namespace starbow;
+using namespace starbow::testing;
+
+namespace {
+
+AlignedBox box_at(const glm::dvec3& middle, double half) { return {middle - half, middle + half}; }
+
+/// Flies along -z at the origin and looks that way, at a speed that gives this Doppler factor ahead.
+Shot ahead_at(double E) { return shot_at({0, 0, 0}, {0, 0, -0.5 * (E - 1 / E)}); }
+
+std::optional<Sign> sign(const Shot& shot, const std::vector<AlignedBox>& things, const std::optional<Sign>& before = {})
+{
+    return sign_for(shot, things, World{}, 1, before);
+}
+
+} // namespace
+
+TEST(Signs, AThingBehindIsPointedAtWhereItIsSeen)
+{
+    // 110 degrees from the motion in the world; tan(seen / 2) = tan(world / 2) / E (Penrose's form of aberration).
+    const double world = glm::radians(110.0), E = 8;
+    const glm::dvec3 middle = 10.0 * glm::dvec3(std::sin(world), 0, -std::cos(world));
+    const auto found = sign(ahead_at(E), {box_at(middle, 1)});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->kind, Sign::Kind::behind);
+    const double seen = 2 * std::atan(std::tan(world / 2) / E);
+    EXPECT_NEAR(found->towards.x, std::sin(seen), 1e-12);
+    EXPECT_NEAR(found->towards.z, -std::cos(seen), 1e-12);
+    EXPECT_NEAR(found->light_s, 10, 1e-12);
+}
+
+TEST(Signs, NothingIsSaidThatIsNotSo)
+{
+    const double world = glm::radians(110.0), E = 8;
+    const glm::dvec3 way(std::sin(world), 0, -std::cos(world));
+    const std::vector<AlignedBox> behind{box_at(10.0 * way, 1)};
+    EXPECT_FALSE(sign(ahead_at(1), behind)) << "at rest it is out of sight";
+    EXPECT_FALSE(sign(ahead_at(1.3), behind)) << "too slow for it to be seen ahead";
+    EXPECT_FALSE(sign(ahead_at(E), {box_at({2, 0, -10}, 1)})) << "it lies ahead";
+    EXPECT_FALSE(sign(ahead_at(E), {box_at(1e4 * way, 1)})) << "too small to be told apart";
+    Shot shot = ahead_at(E);
+    shot.effects.aberration = false;
+    EXPECT_FALSE(sign(shot, behind));
+    shot = ahead_at(E);
+    shot.effects.comparison = Comparison::galilean;
+    EXPECT_FALSE(sign(shot, behind));
+    shot = ahead_at(E);
+    shot.ship_from_cockpit = orientation({0, 0, 1}, {0, 1, 0});
+    EXPECT_FALSE(sign(shot, behind)) << "the visitor looks back";
+}
+
+TEST(Signs, AThingThatAnotherOneHidesHasNoSign)
+{
+    const double world = glm::radians(110.0), E = 8;
+    const glm::dvec3 way(std::sin(world), 0, -std::cos(world));
+    // The nearer one is a plate beside the line of sight, then on it. It is too thin to have a sign of its own.
+    const auto with_plate = [&](double aside) {
+        const glm::dvec3 middle = 5.0 * way + glm::dvec3(0, aside, 0);
+        return sign(ahead_at(E), {box_at(10.0 * way, 1), {middle - glm::dvec3(0.02), middle + glm::dvec3(0.02)}});
+    };
+    EXPECT_TRUE(with_plate(0.5));
+    EXPECT_FALSE(with_plate(0));
+}
+
+TEST(Signs, ASignStaysAtItsThingWhileItIsTrue)
+{
+    std::mt19937 random(3);
+    std::vector<AlignedBox> things;
+    for (int i = 0; i < 60; ++i) {
+        std::uniform_real_distribution<double> place(-12, 12);
+        things.push_back(box_at({place(random), place(random) / 6, 20 + 2 * place(random)}, 0.4));
+    }
+    std::optional<Sign> before;
+    int changes = 0, shown = 0;
+    for (int i = 0; i < 3000; ++i) {
+        Shot shot = ahead_at(4 + 2 * std::sin(0.01 * i));
+        shot.position.z = -0.01 * i;
+        const auto now = sign(shot, things, before);
+        changes += now && before && now->thing != before->thing;
+        shown += now.has_value();
+        before = now;
+    }
+    EXPECT_GT(shown, 1500);
+    EXPECT_LT(changes, 30); // without keeping, over 150
+}
+
+TEST(Signs, TheArrowsTipIsInTheMiddleOfTheLowerEdge)
+{
+    const Typesetter typesetter;
+    for (const char* language : {"en", "de"})
+        for (const Sign::Kind kind : {Sign::Kind::behind, Sign::Kind::clock}) {
+            const Panel panel = draw_sign(typesetter, lines_of({.kind = kind, .light_s = 12}, words(language)), 12);
+            const auto plate_at = [&](int x, int y) { return panel.texels[2 * (std::size_t(y) * panel.size.x + x) + 1]; };
+            int first = panel.size.x, last = -1;
+            for (int x = 0; x < panel.size.x; ++x)
+                if (plate_at(x, panel.size.y - 3) > 100)
+                    first = std::min(first, x), last = std::max(last, x);
+            EXPECT_NEAR(0.5 * (first + last + 1), 0.5 * panel.size.x, 1);
+            EXPECT_LE(last - first, 6);
+            EXPECT_LT(panel.size.x / 12.0, 30) << "degrees";
+            EXPECT_LT(panel.size.y / 12.0, 7) << "degrees";
+        }
+}
+
+} // namespace signs_test

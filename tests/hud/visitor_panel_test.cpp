@@ -1,0 +1,174 @@
+// The displays for visitors and guides: right, readable, and small enough on every shipped layout.
+#include "config/model/layout.h"
+#include "displays/projections/views.h"
+#include "runtime/hud/hud_place.h"
+#include "runtime/hud/visitor_panel.h"
+#include "tests/support/files.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace visitor_panel_test {
+
+using namespace starbow;
+using namespace starbow::testing;
+
+namespace {
+
+Readings at_rapidity(double rapidity, bool ahead = true)
+{
+    Readings r{};
+    r.beta_deficit = 2 / (std::exp(2 * rapidity) + 1);
+    r.gamma = std::cosh(rapidity);
+    r.doppler_ahead = std::exp(ahead ? rapidity : -rapidity);
+    r.light_speed_m_s = 299792458;
+    r.information = Information::visitor;
+    return r;
+}
+
+/// Everything that a display can be asked to show: speeds, ways to look, switches, long times.
+std::vector<Readings> all_states()
+{
+    std::vector<Readings> all;
+    for (const double rapidity : {0.0, 0.1, 0.5, 1.0, 1.5, 2.2, 4.0, 14.5})
+        for (int bits = 0; bits < 64; ++bits)
+            for (const Comparison comparison : {Comparison::none, Comparison::galilean, Comparison::no_light_delay}) {
+                Readings r = at_rapidity(rapidity, bits & 1);
+                r.effects = {.aberration = (bits & 2) != 0, .doppler = (bits & 4) != 0, .headlight = (bits & 8) != 0};
+                r.effects.false_colours = (bits & 16) != 0;
+                r.effects.comparison = comparison;
+                r.frozen = (bits & 32) != 0;
+                r.ship_s = rapidity < 1 ? 12.3 : 599.9, r.world_s = rapidity < 1 ? 35999 : 1.3e11;
+                r.distance_m = 9.9e15;
+                all.push_back(r);
+            }
+    return all;
+}
+
+} // namespace
+
+TEST(VisitorPanel, TheDialFillsWithTheDopplerFactorAhead)
+{
+    double before = -1;
+    for (double rapidity = 0; rapidity < 16; rapidity += 0.25) {
+        const double part = dial_part(at_rapidity(rapidity).beta_deficit);
+        EXPECT_NEAR(part, -std::expm1(-rapidity), 1e-8) << rapidity; // 1 - 1/e^rapidity
+        EXPECT_GT(part, before);
+        EXPECT_LT(part, 1);
+        before = part;
+    }
+}
+
+TEST(VisitorPanel, NoSpeedIsShownAsThatOfLight)
+{
+    const auto percent = [](double deficit) { return shown_percent(deficit, words()); };
+    EXPECT_EQ(percent(1), "0 %");
+    EXPECT_EQ(percent(0.5), "50 %");
+    EXPECT_EQ(percent(1 - 0.9682), "96 %");
+    EXPECT_EQ(percent(0.0099), "99.0 %");
+    EXPECT_EQ(percent(0.0032), "99.6 %");
+    EXPECT_EQ(percent(1e-4), "99.990 %");
+    for (double deficit = 1; deficit > 1e-16; deficit *= 0.7)
+        EXPECT_FALSE(percent(deficit).starts_with("100")) << deficit;
+    EXPECT_EQ(percent(0), "99.999 %");
+    EXPECT_EQ(shown_percent(0.0099, words("de")), "99,0 %");
+}
+
+TEST(VisitorPanel, EverySentenceIsSaidInSomeState)
+{
+    std::set<std::string> said;
+    for (const Readings& r : all_states())
+        said.insert(plain_sentence(r, words()));
+    const std::set<std::string> others{"say.percent", "say.of_light", "say.clock_board", "say.clock_world"};
+    for (const auto& [key, text] : words().texts)
+        if (key.starts_with("say.") && !others.contains(key))
+            EXPECT_TRUE(said.contains(text)) << key;
+}
+
+TEST(VisitorPanel, VisitorsReadNoFormula)
+{
+    for (const char* language : {"en", "de"})
+        for (const auto& [key, text] : words(language).texts)
+            if (key.starts_with("say."))
+                for (const char* sign : {"γ", "β", "=", "³", "′", "D ", "v/c", "θ"})
+                    EXPECT_EQ(text.find(sign), text.npos) << key;
+}
+
+TEST(VisitorPanel, AllLinesFitBesideEachOther)
+{
+    const Typesetter typesetter;
+    constexpr int px = 400; // to a panel's height
+    for (const char* language : {"en", "de"})
+        for (const Information information : {Information::visitor, Information::guide})
+            for (Readings r : all_states()) {
+                r.information = information;
+                struct Box {
+                    double left, right, top, bottom;
+                };
+                std::vector<Box> boxes;
+                for (const Lettering& line : lettering_of(typesetter, r, words(language))) {
+                    SCOPED_TRACE(language + std::string(": ") + line.text);
+                    EXPECT_GE(line.size, least_lettering - 1e-9);
+                    const double width = typesetter.width_of(line.text, int(line.size * px)) / px;
+                    // DejaVu Sans: capitals reach 0.63 of the size above the baseline, descents 0.2 below.
+                    const Box box{line.x, line.x + width, line.baseline - 0.63 * line.size, line.baseline + 0.2 * line.size};
+                    EXPECT_GE(box.left, 0.05);
+                    EXPECT_LE(box.right, 1 / panel_aspect - 0.05);
+                    EXPECT_GE(box.top, 0.03);
+                    EXPECT_LE(box.bottom, 0.99);
+                    for (const Box& other : boxes)
+                        EXPECT_FALSE(box.left < other.right && other.left < box.right && box.top < other.bottom
+                            && other.top < box.bottom);
+                    boxes.push_back(box);
+                }
+                if (::testing::Test::HasFailure())
+                    return;
+            }
+}
+
+TEST(VisitorPanel, OnEveryLayoutItsLettersAreReadableAndItCoversLittle)
+{
+    MapStore store{std::filesystem::path()};
+    for (const std::filesystem::path& file : shipped("config/layouts")) {
+        SCOPED_TRACE(file.filename());
+        const Layout layout = load_layout(file);
+        std::vector<std::vector<CompiledView>> views;
+        for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
+            const glm::ivec2 size = layout.outputs[i].size / (layout.outputs[i].size.x > 1000 ? 8 : 4);
+            views.push_back(compile_output(store, layout, i, size));
+        }
+        const glm::dmat3 panel = panel_from_cockpit(layout.hud, views);
+        const double half = std::tan(glm::radians(0.5 * layout.hud.width_deg));
+        const double height_deg = 2 * glm::degrees(std::atan(half * panel_aspect));
+        const double capitals_deg = 0.63 * least_lettering * height_deg;
+        EXPECT_GE(capitals_deg, 0.98);
+        EXPECT_LE(0.63 * 0.26 * height_deg, 3);
+        // By solid angle: each pixel's, from its neighbours' directions.
+        double all = 0, covered = 0;
+        for (const auto& output : views)
+            for (const CompiledView& view : output)
+                for (int y = 0; y + 1 < view.view.size.y; ++y)
+                    for (int x = 0; x + 1 < view.view.size.x; ++x) {
+                        const auto towards = [&](int i, int j) -> std::optional<glm::dvec3> {
+                            if (view.matrix)
+                                return glm::normalize(*view.matrix * glm::dvec3(x + i + 0.5, y + j + 0.5, 1));
+                            const glm::vec4 at = view.map->at(x + i, y + j);
+                            return at.w > 0 ? std::optional(glm::normalize(glm::dvec3(at))) : std::nullopt;
+                        };
+                        const auto a = towards(0, 0), b = towards(1, 0), c = towards(0, 1);
+                        if (!a || !b || !c)
+                            continue;
+                        const double solid = glm::length(glm::cross(*b - *a, *c - *a));
+                        const glm::dvec3 at = panel * *a;
+                        all += solid;
+                        if (at.z > 0 && std::abs(at.x) < half * at.z && std::abs(at.y) < half * panel_aspect * at.z)
+                            covered += solid;
+                    }
+        std::printf("  %-20s capitals from %.2f degrees, the panel covers %4.1f %%\n", file.stem().c_str(), capitals_deg,
+            100 * covered / all);
+        EXPECT_GT(covered, 0);
+        EXPECT_LT(covered / all, 0.1);
+    }
+}
+
+} // namespace visitor_panel_test

@@ -1,0 +1,96 @@
+// What is laid over the views: a small picture shows its own shot pixel for pixel, a sign's arrow ends at the thing, and
+// nothing else changes.
+#include "config/model/beside.h"
+#include "runtime/hud/signs.h"
+#include "runtime/render/inset.h"
+#include "tests/support/gpu_environment.h"
+
+namespace starbow::gpu_test::placards_gpu_test {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr ivec2 size(160, 120);
+
+Shot in_flight() { return shot_at({0, 0, -20}, u_of_gamma(2.5, {0, 0, -1})); }
+
+/// The pixels that differ between two pictures.
+std::vector<ivec2> changed(const Bytes& a, const Bytes& b, ivec2 of)
+{
+    std::vector<ivec2> pixels;
+    for (int y = 0; y < of.y; ++y)
+        for (int x = 0; x < of.x; ++x) {
+            const std::size_t at = 4 * (std::size_t(y) * of.x + x);
+            if (!std::equal(
+                    a.begin() + std::ptrdiff_t(at), a.begin() + std::ptrdiff_t(at) + 3, b.begin() + std::ptrdiff_t(at)))
+                pixels.emplace_back(x, y);
+        }
+    return pixels;
+}
+
+} // namespace
+
+TEST(Placards, TheSmallPictureIsThatOfItsOwnShot)
+{
+    const Layout layout = one_view(Planar{Inset::fov_y_deg}, size);
+    const Shot moving = in_flight();
+    OffscreenRenderer whole = renderer(avenue().world, layout, false);
+    for (const Beside beside : {Beside::at_rest, Beside::aberration, Beside::doppler, Beside::headlight}) {
+        SCOPED_TRACE(beside_names[std::size_t(beside)]);
+        const Shot small = starbow::beside(moving, beside, moving.exposure_ev);
+        const Bytes wanted = whole.picture(small)[0];
+        Inset inset(device(), pipelines(), avenue().world, test_quality(), size.x);
+        inset.frame().repeatable(true);
+        device().now([&](vk::CommandBuffer commands) { inset.record(commands, small); });
+        // Over the whole view, so that its pixels are the view's.
+        const double half = std::tan(glm::radians(0.5 * Inset::fov_y_deg));
+        const Placard placard{.picture = &inset.picture(),
+            .place = {glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, -1), dvec2(half / Inset::aspect, half)}};
+        OffscreenRenderer under = renderer(avenue().world, layout, false);
+        under.frame().place({&placard, 1});
+        const Bytes shown = under.picture(moving)[0];
+        int worst = 0;
+        for (int y = 6; y < size.y - 6; ++y) // within its frame
+            for (int x = 6; x < size.x - 6; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    const std::size_t at = 4 * (std::size_t(y) * size.x + x) + std::size_t(c);
+                    worst = std::max(worst, std::abs(int(shown[at]) - int(wanted[at])));
+                }
+        EXPECT_LE(worst, 1);
+        EXPECT_GT(changed(whole.picture(moving)[0], shown, size).size(), size.x * size.y / 20u);
+    }
+}
+
+TEST(Placards, TheArrowEndsAtItsDirection)
+{
+    const Typesetter typesetter;
+    for (const auto& [projection, of] :
+        {std::pair<Projection, ivec2>{Planar{60}, {640, 480}}, {Fisheye{180, 30}, {512, 512}}}) {
+        const Layout layout = one_view(projection, of);
+        OffscreenRenderer whole = renderer(avenue().world, layout, false);
+        const Bytes bare = whole.picture(in_flight())[0];
+        const double degree_px = 6;
+        const Panel panel = draw_sign(typesetter, {"This is behind you:", "its light"}, degree_px);
+        for (const dvec3& towards : {dvec3(0, 0, -1), dvec3(0.3, 0.05, -1), dvec3(-0.25, -0.1, -1)}) {
+            const Placard placard{.letters = &panel,
+                .place
+                = whole.frame().views().place_above(glm::normalize(towards), 0.5 * dvec2(panel.size) * 0.0174 / degree_px)};
+            whole.frame().place({&placard, 1});
+            const std::vector<ivec2> pixels = changed(bare, whole.picture(in_flight())[0], of);
+            ASSERT_GT(pixels.size(), 200u);
+            double nearest = 1e9, farthest = 0;
+            for (const ivec2& pixel : pixels) {
+                const auto direction = whole.frame().views().direction(0, dvec2(pixel) + 0.5);
+                ASSERT_TRUE(direction);
+                nearest = std::min(nearest, glm::degrees(between(*direction, towards)));
+                farthest = std::max(farthest, glm::degrees(between(*direction, towards)));
+            }
+            EXPECT_LT(nearest, 0.7); // a pixel of the dome has 0.35 degrees
+            EXPECT_LT(farthest, 14);
+            whole.frame().place({});
+        }
+        EXPECT_TRUE(changed(bare, whole.picture(in_flight())[0], of).empty());
+    }
+}
+
+} // namespace starbow::gpu_test::placards_gpu_test
