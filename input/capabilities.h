@@ -8,6 +8,7 @@ struct InputCapabilities {
     bool lever = false;
     bool trigger = false; ///< an axis increases the speed
     int stop_button = 0, home_button = 0, undo_button = 0; ///< their numbers on the device; 0: none
+    bool left_handed = false;
 };
 
 } // namespace starbow

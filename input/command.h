@@ -26,6 +26,8 @@ enum class CommandKind : std::uint8_t {
     headlight,
     false_colours,
     slow_motion, ///< on: the time on board at a quarter
+    one_button, ///< on: the visitor flies with one button
+    left_handed, ///< on: keyboard and sticks for a left-handed visitor
     comparison, ///< text: one of comparison_names
     beside, ///< text: one of beside_names
     information, ///< text: a name of `informations`

@@ -69,6 +69,7 @@ struct AlignmentKeys {
 /// For knowing whether somebody is there.
 struct Touches {
     bool pressed = false; ///< a key, a button or a mouse button went down, whether it has a role or none
+    bool held = false; ///< one of them is down
 };
 
 /// From a remote; applied before the frame's other controls.

@@ -308,7 +308,8 @@ void Hid::add(double dt_s, Controls& controls)
         const std::string key = device->info.path + " " + std::to_string(device->opening);
         auto& mapping = kept[key] = std::move(mappings_[key]);
         if (!mapping)
-            mapping = std::make_unique<Mapping>(device->descriptor, device->profile);
+            mapping = std::make_unique<Mapping>(
+                device->descriptor, left_handed_ ? starbow::left_handed(device->profile) : device->profile);
         DeviceState state;
         {
             const std::lock_guard lock(device->mutex);
@@ -333,6 +334,13 @@ void Hid::add(double dt_s, Controls& controls)
     if (const auto place = lever_.place(levers, now))
         controls.lever = place;
     report_troubles(std::move(troubles));
+}
+
+void Hid::left_handed(bool is)
+{
+    if (left_handed_ != is)
+        mappings_.clear(); // a press that waits is lost: it belonged to the other hand
+    left_handed_ = is;
 }
 
 void Hid::report_troubles(std::vector<std::string> troubles)
@@ -363,7 +371,7 @@ std::string Hid::trouble() const
 
 InputCapabilities Hid::capabilities() const
 {
-    InputCapabilities all;
+    InputCapabilities all{.left_handed = left_handed_};
     for (const auto& [key, mapping] : mappings_) {
         const InputCapabilities own = mapping->capabilities();
         all.stick |= own.stick, all.lever |= own.lever, all.trigger |= own.trigger;

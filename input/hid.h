@@ -42,6 +42,9 @@ public:
     /// Adds the controls of all devices. An unplugged device adds none: its axes are neutral from then on.
     void add(double dt_s, Controls& controls);
 
+    /// Whether the devices are a left-handed visitor's, from the next add() on.
+    void left_handed(bool is);
+
     /// A line for the visitors' display while a device is missing, or while a stuck or noisy axis is ignored; otherwise
     /// empty.
     std::string trouble() const;
@@ -65,6 +68,7 @@ private:
     struct Shared;
     std::shared_ptr<Shared> shared_;
     std::map<std::string, std::unique_ptr<Mapping>> mappings_; ///< by path and number of openings
+    bool left_handed_ = false;
     LeverChoice lever_;
     std::vector<std::string> troubles_; ///< of axes, as last logged
     void report_troubles(std::vector<std::string> troubles);

@@ -28,6 +28,8 @@ const char* keyboard_help()
            "Space           stop at once, relative to the world\n"
            "R               fly back to the start; Backspace ten seconds back\n"
            "P               the world stands still, to look around in; P again: it goes on\n"
+           "left-handed     W, S, A, D turn the ship; up, down: faster, slower; pads: their two sides change places\n"
+           "one button      any key takes what the display shows: it acts while the key is held\n"
            "M               the next mode of flight: guided, free, newtonian\n"
            "1, 2, 3         aberration, Doppler effect, headlight effect on and off\n"
            "4               for guides: infrared and ultraviolet in false colours, on and off\n"
@@ -107,16 +109,17 @@ void Keyboard::let_go(bool grabbed)
     }
 }
 
-void Keyboard::finish(Controls& controls)
+void Keyboard::finish(Controls& controls, bool left_handed)
 {
     if (!held_)
         dragging_ = nullptr;
     auto axis = [&](int less, int more) { return double(down(more)) - double(down(less)); };
-    controls.throttle_rate = axis(GLFW_KEY_S, GLFW_KEY_W);
+    const double by_letters = axis(GLFW_KEY_S, GLFW_KEY_W), by_arrows = axis(GLFW_KEY_DOWN, GLFW_KEY_UP);
+    controls.throttle_rate = left_handed ? by_arrows : by_letters;
     if (down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT))
         controls.throttle_rate *= 4;
-    controls.turn = {axis(GLFW_KEY_DOWN, GLFW_KEY_UP), axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) + axis(GLFW_KEY_D, GLFW_KEY_A),
-        axis(GLFW_KEY_E, GLFW_KEY_Q)};
+    controls.turn = {left_handed ? by_letters : by_arrows,
+        axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) + axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q)};
     controls.look_rad = look_rad_per_pixel * drag_; // the pointer drags the world: dragging right looks left
     controls.exposure = std::max(double(down(GLFW_KEY_EQUAL)), double(down(GLFW_KEY_KP_ADD)))
         - std::max(double(down(GLFW_KEY_MINUS)), double(down(GLFW_KEY_KP_SUBTRACT)));
@@ -154,21 +157,23 @@ void Keyboard::finish(Controls& controls)
         presses -= presses > 0;
     }
     controls.pressed |= held_ && !was_held_;
+    controls.held |= held_ || std::ranges::find(now_, true) != now_.end();
     was_held_ = held_;
     controls.turn = glm::clamp(controls.turn, -1.0, 1.0);
 }
 
-void Keyboard::read_pads(Controls& controls, double dt_s, const std::vector<UsbId>& read_elsewhere)
+void Keyboard::read_pads(Controls& controls, double dt_s, const std::vector<UsbId>& read_elsewhere, bool left_handed)
 {
     for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
         GLFWgamepadstate state;
         const bool read_here = glfwJoystickIsGamepad(joystick) && glfwGetGamepadState(joystick, &state)
             && !is_read_elsewhere(joystick, read_elsewhere);
-        pads_.take(std::size_t(joystick), read_here ? &state : nullptr);
+        const GLFWgamepadstate seen = read_here && left_handed ? mirrored(state) : state;
+        pads_.take(std::size_t(joystick), read_here ? &seen : nullptr);
         if (!read_here)
             continue;
         const Rates others = take_rates(controls);
-        add_pad(state, dt_s, controls);
+        add_pad(seen, dt_s, controls);
         add_rates(controls, others, dt_s);
     }
     pads_.add(controls);

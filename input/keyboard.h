@@ -17,9 +17,10 @@ public:
     /// Reads the present keys (after glfwPollEvents). windows: those whose keys and pointer count. grabbed: another program
     /// has the keyboard; keys that are down then are let go, and stay so until they are pressed again. dt_s: since the last
     /// reading, for looking around. read_elsewhere: the kinds of devices that Hid reads, which are left out here.
+    /// left_handed: the hands change places (docs/flying.md).
     template <class Windows>
-    Controls read(
-        const Windows& windows, bool grabbed, std::int64_t time_ns, double dt_s, const std::vector<UsbId>& read_elsewhere)
+    Controls read(const Windows& windows, bool grabbed, std::int64_t time_ns, double dt_s,
+        const std::vector<UsbId>& read_elsewhere, bool left_handed)
     {
         Controls controls;
         controls.time_ns = time_ns;
@@ -27,8 +28,8 @@ public:
         for (GLFWwindow* window : windows)
             collect(window);
         let_go(grabbed);
-        finish(controls);
-        read_pads(controls, dt_s, read_elsewhere);
+        finish(controls, left_handed);
+        read_pads(controls, dt_s, read_elsewhere, left_handed);
         return controls;
     }
 
@@ -40,8 +41,8 @@ private:
     void begin();
     void collect(GLFWwindow* window);
     void let_go(bool grabbed);
-    void finish(Controls& controls);
-    void read_pads(Controls& controls, double dt_s, const std::vector<UsbId>& read_elsewhere);
+    void finish(Controls& controls, bool left_handed);
+    void read_pads(Controls& controls, double dt_s, const std::vector<UsbId>& read_elsewhere, bool left_handed);
     bool down(int key) const { return now_[key]; }
     bool pressed(int key) const { return presses_[key] > 0; }
 

@@ -249,6 +249,7 @@ Profile usual_profile(const Descriptor& descriptor)
         profile.buttons
             = {{1, ButtonRole::stop}, {2, ButtonRole::home}, {3, ButtonRole::doppler}, {4, ButtonRole::headlight},
                 {5, ButtonRole::look_ahead}, {6, ButtonRole::aberration}, {9, ButtonRole::hud}, {10, ButtonRole::next_mode}};
+        profile.mirrored_buttons = {{5, 6}};
         profile.hat_y = AxisRole::faster;
         return profile;
     }
@@ -269,6 +270,29 @@ Profile usual_profile(const Descriptor& descriptor)
         {5, ButtonRole::headlight}, {6, ButtonRole::aberration}, {7, ButtonRole::hud}, {8, ButtonRole::next_mode},
         {9, ButtonRole::menu}};
     profile.hat_x = AxisRole::look_right, profile.hat_y = AxisRole::look_up;
+    return profile;
+}
+
+Profile left_handed(Profile profile)
+{
+    const auto swap_roles = [&](AxisRole one, AxisRole other) {
+        const auto find = [&](AxisRole role) { return std::ranges::find(profile.axes, role, &AxisUse::role); };
+        const auto a = find(one), b = find(other);
+        if (a == profile.axes.end() || b == profile.axes.end())
+            return;
+        std::swap(a->role, b->role);
+        std::swap(a->inverted, b->inverted);
+        std::swap(a->curve, b->curve);
+    };
+    swap_roles(AxisRole::nose_right, AxisRole::look_right);
+    swap_roles(AxisRole::nose_up, AxisRole::look_up);
+    swap_roles(AxisRole::faster, AxisRole::slower);
+    for (ButtonUse& use : profile.buttons)
+        for (const auto& [one, other] : profile.mirrored_buttons)
+            if (use.button == one || use.button == other) {
+                use.button = one + other - use.button;
+                break;
+            }
     return profile;
 }
 
@@ -337,7 +361,7 @@ void Mapping::add(const DeviceState& state, std::int64_t now_ns, double dt_s, Co
             add_role(axis.use.role, wanted, dt_s, controls);
     }
     if (state.hands.storms(now_ns)) {
-        troubles_.push_back("presses come in a burst that no hands make and are left out");
+        troubles_.emplace_back("presses come in a burst that no hands make and are left out");
         for (Button& button : buttons_)
             button.waiting = 0;
         hat_waiting_.clear();
@@ -345,6 +369,8 @@ void Mapping::add(const DeviceState& state, std::int64_t now_ns, double dt_s, Co
     }
     for (const std::vector<std::int64_t>& of_field : state.presses)
         controls.pressed |= !of_field.empty();
+    for (std::size_t i = 0; i < descriptor_.fields.size(); ++i)
+        controls.held |= raw(i) && is_down(descriptor_.fields[i], *raw(i));
     for (Button& button : buttons_) {
         button.waiting = std::min(button.waiting + presses(button.field).size(), most_waiting);
         press(button.role, button.waiting, raw(button.field).value_or(0) != 0, controls);

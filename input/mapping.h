@@ -35,6 +35,11 @@ bool one_sided(AxisRole role);
 /// increase and reduce the speed. A hat and a second stick look around.
 Profile usual_profile(const Descriptor& descriptor);
 
+/// The profile for a left-handed visitor. On a pad, whose second stick looks around, the sticks change places, and so do the
+/// triggers that make faster and slower; the profile's pairs of buttons do so on any device. Ranges and dead zones stay with
+/// their axes.
+Profile left_handed(Profile profile);
+
 /// The controls of one device. Each reading reports one press of a button or a hat, so that quick taps in one slow frame all
 /// count, one frame after another.
 class Mapping {

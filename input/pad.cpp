@@ -47,6 +47,18 @@ std::optional<UsbId> usb_id(std::string_view guid)
     return UsbId{*vendor, *product};
 }
 
+GLFWgamepadstate mirrored(GLFWgamepadstate state)
+{
+    for (const auto& [left, right] : {std::pair(GLFW_GAMEPAD_AXIS_LEFT_X, GLFW_GAMEPAD_AXIS_RIGHT_X),
+             {GLFW_GAMEPAD_AXIS_LEFT_Y, GLFW_GAMEPAD_AXIS_RIGHT_Y},
+             {GLFW_GAMEPAD_AXIS_LEFT_TRIGGER, GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER}})
+        std::swap(state.axes[left], state.axes[right]);
+    for (const auto& [left, right] : {std::pair(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER),
+             {GLFW_GAMEPAD_BUTTON_LEFT_THUMB, GLFW_GAMEPAD_BUTTON_RIGHT_THUMB}})
+        std::swap(state.buttons[left], state.buttons[right]);
+    return state;
+}
+
 void add_pad(const GLFWgamepadstate& state, double dt_s, Controls& controls)
 {
     controls.throttle_rate
@@ -79,6 +91,8 @@ void PadButtons::add(Controls& controls)
             {GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, &Controls::look_ahead}, {GLFW_GAMEPAD_BUTTON_RIGHT_THUMB, &Controls::mark},
             {GLFW_GAMEPAD_BUTTON_START, &Controls::overlay}, {GLFW_GAMEPAD_BUTTON_BACK, &Controls::hud}};
     controls.pressed |= std::exchange(pressed_, false);
+    for (const auto& pad : down_)
+        controls.held |= std::ranges::find(pad, true) != pad.end();
     for (const auto& [button, flag] : switches)
         if (waiting_[button] > 0 && !(controls.*flag))
             controls.*flag = true, --waiting_[button];

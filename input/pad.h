@@ -18,6 +18,9 @@ struct UsbId {
 /// instead.
 std::optional<UsbId> usb_id(std::string_view guid);
 
+/// A gamepad's state for a left-handed visitor: sticks, triggers and bumpers change sides.
+GLFWgamepadstate mirrored(GLFWgamepadstate state);
+
 /// Adds the rates of a gamepad's sticks and triggers. dt_s: since the last reading.
 void add_pad(const GLFWgamepadstate& state, double dt_s, Controls& controls);
 

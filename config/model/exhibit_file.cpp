@@ -1,4 +1,5 @@
 #include "exhibit_file.h"
+#include "comfort_reader.h"
 #include "exposing_reader.h"
 #include "remote_reader.h"
 #include "shipped.h"
@@ -55,6 +56,26 @@ Visiting read_visiting(const Place& place, const std::filesystem::path& folder)
 
 } // namespace
 
+Comfort read_comfort(const Place& place)
+{
+    reject_unknown_members(place, {"no_roll", "level_horizon", "turn_steps_deg", "vignette"});
+    Comfort comfort;
+    take(place, "no_roll", comfort.no_roll);
+    take(place, "level_horizon", comfort.level_horizon);
+    take(place, "turn_steps_deg", comfort.turn_steps_deg, {5, 45});
+    if (const auto p = find_member(place, "vignette")) {
+        if (comfort.turn_steps_deg > 0)
+            complain(*p, "is one too many beside turn_steps_deg, which leaves no smooth turn; one of them is right");
+        reject_unknown_members(*p, {"elevation_deg", "clear_deg", "soft_deg", "darkness"});
+        Vignette& vignette = comfort.vignette.emplace();
+        take(*p, "elevation_deg", vignette.elevation_deg, {-90, 90});
+        take(*p, "clear_deg", vignette.clear_deg, {0, 120});
+        take(*p, "soft_deg", vignette.soft_deg, {1, 60});
+        take(*p, "darkness", vignette.darkness, {0, 1, true});
+    }
+    return comfort;
+}
+
 Exposing read_exposing(const Place& place)
 {
     reject_unknown_members(place, {"automatic", "min_ev", "max_ev", "bloom"});
@@ -93,7 +114,8 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     reject_unknown_members(top,
         {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "frame_budget_ms",
-            "ladder", "flying", "exposure", "textfile", "remote", "visit", "menu", "calm", "information", "speech"});
+            "ladder", "flying", "exposure", "textfile", "remote", "visit", "menu", "calm", "information", "speech",
+            "comfort", "one_button", "left_handed"});
     Exhibit exhibit;
     for (const auto& [name, value] :
         {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}, {"tour", &exhibit.tour},
@@ -118,6 +140,15 @@ Exhibit load_exhibit(const std::filesystem::path& file)
         complain(*p, "is one too many beside frame_budget_ms, which chooses it; one of them is right");
     if (auto p = find_member(top, "flying"))
         exhibit.flying = read_flying(*p, exhibit.paced);
+    if (auto p = find_member(top, "one_button")) {
+        reject_unknown_members(*p, {"scan_s", "act_s"});
+        OneButton& one_button = exhibit.one_button.emplace();
+        take(*p, "scan_s", one_button.scan_s, {0.5, 10});
+        take(*p, "act_s", one_button.act_s, {0.1, 10});
+    }
+    take(top, "left_handed", exhibit.left_handed);
+    if (auto p = find_member(top, "comfort"))
+        exhibit.flying.comfort = read_comfort(*p);
     if (auto p = find_member(top, "exposure"))
         exhibit.exposure = read_exposing(*p);
     take(top, "calm", exhibit.exposure.calm);

@@ -2,6 +2,7 @@
 #include "exposing.h"
 #include "flying.h"
 #include "information.h"
+#include "one_button.h"
 #include "remote_file.h"
 #include "visiting.h"
 #include <filesystem>
@@ -28,6 +29,8 @@ struct Exhibit {
     std::filesystem::path textfile; ///< receives the counts for node_exporter; empty: none
     Flying flying;
     bool paced = false; ///< the visitors gain speed at each world's own pace
+    std::optional<OneButton> one_button{}; ///< the visitors fly with one button; none: where they choose so in the menu
+    bool left_handed = false; ///< the controls are a left-handed visitor's, from the start of each visit
     Exposing exposure;
     RemoteSettings remote;
     std::optional<Visiting> visiting; ///< the exhibit attends to its visitors itself; none: somebody else does

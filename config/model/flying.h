@@ -39,6 +39,22 @@ struct Pace {
     std::vector<AlignedBox> things; ///< that rest in the world
 };
 
+/// Darkens the picture's edge while the ship turns smoothly. Angles from the middle of the clear part.
+struct Vignette {
+    double elevation_deg = 0; ///< that middle, above the cockpit's nose: the eye's axis, or a dome's front
+    double clear_deg = 35; ///< the part that stays clear
+    double soft_deg = 20; ///< from the clear part's edge to the darkest
+    double darkness = 1; ///< the part of the light that is lost there, in a turn at half of the rules' rate or faster
+};
+
+/// What spares visitors whose whole field of view turns, as under a dome or in a headset.
+struct Comfort {
+    bool no_roll = false; ///< the controls' roll does nothing
+    bool level_horizon = false; ///< the cockpit's right axis stays at right angles to the ship's y
+    double turn_steps_deg = 0; ///< the view turns at once, by so much; 0: smoothly
+    std::optional<Vignette> vignette{};
+};
+
 /// The rules of flight of an exhibit. Times are the visitor's seconds, which are the ship's.
 struct Flying {
     FlightMode mode = FlightMode::guided;
@@ -51,6 +67,7 @@ struct Flying {
     double rapidity_jerk_per_s2 = 15; ///< greatest change of that gain
     std::optional<Boundary> boundary{}; ///< the world's, where visitors shall not get lost
     std::optional<Pace> pace{}; ///< the world's, where a flight through it shall last its planned time
+    Comfort comfort{};
 };
 
 } // namespace starbow

@@ -139,7 +139,8 @@ Profile load_profile(const std::filesystem::path& file)
 {
     const Document document = read_document(file);
     const Place top = root(document);
-    reject_unknown_members(top, {"$schema", "name", "vendor", "product", "serial", "axes", "buttons", "hat"});
+    reject_unknown_members(
+        top, {"$schema", "name", "vendor", "product", "serial", "axes", "buttons", "mirrored_buttons", "hat"});
     Profile profile;
     profile.file = file;
     profile.name = text(member(top, "name"));
@@ -154,6 +155,11 @@ Profile load_profile(const std::filesystem::path& file)
         for (const Place& at : items(*p, 0, 128, "buttons")) {
             reject_unknown_members(at, {"button", "role"});
             profile.buttons.push_back({integer(member(at, "button"), 1, 128), chosen(member(at, "role"), button_roles)});
+        }
+    if (auto p = find_member(top, "mirrored_buttons"))
+        for (const Place& pair : items(*p, 0, 64, "pairs of buttons")) {
+            const std::vector<Place> two = items(pair, 2, 2, "buttons");
+            profile.mirrored_buttons.push_back({integer(two[0], 1, 128), integer(two[1], 1, 128)});
         }
     if (auto p = find_member(top, "hat")) {
         reject_unknown_members(*p, {"x", "y"});
@@ -177,6 +183,12 @@ std::string profile_text(const Profile& profile)
         members.push_back("\"buttons\": " + block(profile.buttons, [](const ButtonUse& use) {
             return "{ \"button\": " + std::to_string(use.button) + ", \"role\": " + quoted(name_of(use.role)) + " }";
         }));
+    if (!profile.mirrored_buttons.empty()) {
+        std::string pairs;
+        for (const auto& [one, other] : profile.mirrored_buttons)
+            pairs += (pairs.empty() ? "[" : ", [") + std::to_string(one) + ", " + std::to_string(other) + "]";
+        members.push_back("\"mirrored_buttons\": [" + pairs + "]");
+    }
     std::string hat;
     if (profile.hat_x)
         hat += "\"x\": " + quoted(name_of(*profile.hat_x));

@@ -79,6 +79,7 @@ struct Profile {
     std::string serial; ///< of one device among several of its kind; empty: any
     std::vector<AxisUse> axes;
     std::vector<ButtonUse> buttons;
+    std::vector<std::array<int, 2>> mirrored_buttons; ///< pairs that change places for a left-handed visitor
     std::optional<AxisRole> hat_x, hat_y; ///< the hat's roles: to the sides, and up and down
     std::filesystem::path file;
 };

@@ -83,6 +83,8 @@ ExhibitOptions open(const RunOptions& options)
         .words = std::move(words)};
     exhibit_options.rules = exhibit.flying;
     exhibit_options.paced_flight = exhibit.paced && options.log.empty(); // in a laboratory the throttle is the students'
+    exhibit_options.one_button = exhibit.one_button;
+    exhibit_options.left_handed = exhibit.left_handed;
     exhibit_options.exposure = exhibit.exposure;
     exhibit_options.profiles = known_profiles(exhibit.profiles);
     exhibit_options.tutorial = exhibit.tutorial;

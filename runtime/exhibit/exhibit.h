@@ -3,6 +3,7 @@
 #include "config/model/flying.h"
 #include "config/model/information.h"
 #include "config/model/layout.h"
+#include "config/model/one_button.h"
 #include "config/model/profile.h"
 #include "config/model/remote_file.h"
 #include "config/model/visiting.h"
@@ -26,6 +27,8 @@ struct ExhibitOptions {
     Words words; ///< for the visitor's texts
     Flying rules{};
     bool paced_flight = false; ///< the visitors gain speed at each world's own pace
+    std::optional<OneButton> one_button{}; ///< the visitors fly with one button; none: where they choose so
+    bool left_handed = false; ///< the controls, from the start of each visit
     Exposing exposure{};
     std::vector<Profile> profiles{};
     bool tutorial = true;

@@ -299,7 +299,10 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
     frame_->meter(session_.options.exposure.automatic);
     frame_->bloom(session_.options.exposure.bloom);
     frame_->fade(glm::smoothstep(0.0, 1.0, session_.black));
-    Shot shot = shot_of(session_.flight, session_.programme.start.scene);
+    const bool by_hand = !session_.guide || session_.guide->flies(); // a tour's own motion may roll
+    const Flight& flight = session_.flight;
+    frame_->vignette(session_.rules.comfort.vignette.value_or(Vignette()), by_hand ? flight.vignette : 0);
+    Shot shot = shot_of(flight, session_.programme.start.scene, by_hand ? session_.rules.comfort : Comfort());
     shot.exposure_ev = ev_of(session_);
     session_.lab.request(*frame_, shot, session_.flight, context_.world, hud_.typesetter);
     return shot;

@@ -4,6 +4,13 @@
 
 namespace starbow {
 
+/// True while the choices of one-button flying are shown in turn.
+static bool scans(const Session& session)
+{
+    return session.one_button && in_hand(session.visit) && !session.record_replay.replays() && !session.directions.holds
+        && (!session.guide || session.guide->flies());
+}
+
 const Panel* HudUpdater::update(const Session& session, const SceneFile& scene, double exposure_ev, int width)
 {
     const Clock::time_point now = Clock::now();
@@ -19,7 +26,7 @@ const Panel* HudUpdater::update(const Session& session, const SceneFile& scene, 
     }
     const bool covers_pattern
         = session.alignment.pattern() != Pattern::none && session.alignment.says().empty() && !shows_pins(session);
-    const bool asks = seconds_left(session.visit, session.visiting).has_value() || session.menu.open;
+    const bool asks = seconds_left(session.visit, session.visiting).has_value() || session.menu.open || scans(session);
     return (session.flight.hud || asks) && !covers_pattern ? &panel_ : nullptr;
 }
 
@@ -27,13 +34,19 @@ const Panel* HudUpdater::update(const Session& session, const SceneFile& scene, 
 static void add_visit(const Session& session, Readings& shown)
 {
     const Words& words = session.words;
+    const auto say_in_flight = [&](const std::string& text) {
+        if (shown.caption && shown.caption->menu) // the choices of one button go on
+            shown.caption->aside = text;
+        else
+            shown.caption = Caption{.text = text, .flying = true};
+    };
     if (const auto left = seconds_left(session.visit, session.visiting)) {
         const char* key = session.visit.phase == VisitPhase::asking ? "visit.asking" : "visit.ending";
         shown.caption = Caption{.text = words(key, {{"left", std::to_string(int(std::ceil(*left)))}})};
     } else if (session.flight.homing && session.flight.homing->from_boundary) {
-        shown.caption = Caption{.text = words("visit.boundary"), .flying = true};
+        say_in_flight(words("visit.boundary"));
     } else if (session.flight.homeward) {
-        shown.caption = Caption{.text = words("visit.homeward"), .flying = true};
+        say_in_flight(words("visit.homeward"));
     } else if (session.options.visiting && !in_hand(session.visit)) {
         const std::string& begin = words(session.hid.capabilities().stick ? "visit.begin_stick" : "visit.begin_keys");
         // Large for some seconds, and small beside the tour's caption, which passers-by read meanwhile.
@@ -68,9 +81,11 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
     }
     if (!session.coming.empty())
         shown.prompt = words("menu.coming", {{"world", session.coming}});
+    if (scans(session))
+        shown.caption = caption_of(session.scan, session.options.one_button.value_or(OneButton()), words);
     add_visit(session, shown);
     if (session.menu.open)
-        shown.caption = caption_of(session.menu, menu_of(session), words, capabilities);
+        shown.caption = caption_of(session.menu, menu_of(session), words, capabilities, session.one_button);
     if (shows_pins(session))
         shown.caption = Caption{.text = session.pins};
     else if (!session.directions.caption.empty())

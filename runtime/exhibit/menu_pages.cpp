@@ -2,11 +2,12 @@
 #include "config/json/error.h"
 #include "config/model/shipped.h"
 #include <algorithm>
+#include <cmath>
 
 namespace starbow {
 namespace {
 
-enum Page : std::size_t { beginning, worlds, tours, switches, languages };
+enum Page : std::size_t { beginning, worlds, tours, switches, hands, languages };
 
 MenuPage page_of(const Words& words, const std::string& title, CommandKind kind, const std::string& named,
     const std::vector<std::string>& names)
@@ -53,6 +54,18 @@ MenuPage switches_of(const Session& session)
     return page;
 }
 
+MenuPage hands_of(const Session& session)
+{
+    const Words& words = session.words;
+    MenuPage page{.title = words("menu.hands"), .items = {}, .stays = true};
+    const auto add = [&](const char* key, CommandKind kind, bool is_on) {
+        page.items.push_back({(is_on ? "☑ " : "☐ ") + words(key), Command{.kind = kind, .on = !is_on}});
+    };
+    add("menu.one_button", CommandKind::one_button, session.one_button);
+    add("menu.left_handed", CommandKind::left_handed, session.left_handed);
+    return page;
+}
+
 } // namespace
 
 std::string title_of(const Words& words, const std::string& kind, const std::string& name)
@@ -70,23 +83,44 @@ std::vector<MenuPage> menu_of(const Session& session)
     first.items.push_back({words("menu.tours"), std::size_t(tours)});
     if (can_switch) // a tour shows its own effects
         first.items.push_back({words("menu.show"), std::size_t(switches)});
+    first.items.push_back({words("menu.hands"), std::size_t(hands)});
     first.items.push_back({words("menu.language"), std::size_t(languages)});
     return {std::move(first), page_of(words, words("menu.worlds"), CommandKind::scene, "scene", session.options.menu_scenes),
         page_of(words, words("menu.tours"), CommandKind::tour, "tour", session.options.menu_tours), switches_of(session),
-        languages_of(words)};
+        hands_of(session), languages_of(words)};
 }
 
-Caption caption_of(
-    const MenuState& menu, std::span<const MenuPage> pages, const Words& words, const InputCapabilities& capabilities)
+Caption caption_of(const MenuState& menu, std::span<const MenuPage> pages, const Words& words,
+    const InputCapabilities& capabilities, bool by_one_button)
 {
     const MenuPage& page = pages[menu.page];
     Caption caption{.text = page.title, .chosen = int(menu.item), .menu = true};
     for (const MenuItem& item : page.items)
         caption.choices.push_back(item.text);
-    caption.aside = capabilities.stick && capabilities.stop_button > 0 && capabilities.home_button > 0
-        ? words("menu.hands_stick",
-            {{"take", std::to_string(capabilities.stop_button)}, {"back", std::to_string(capabilities.home_button)}})
-        : words("menu.hands_keys");
+    if (by_one_button)
+        caption.aside = words("scan.press_in_menu");
+    else
+        caption.aside = capabilities.stick && capabilities.stop_button > 0 && capabilities.home_button > 0
+            ? words("menu.hands_stick",
+                {{"take", std::to_string(capabilities.stop_button)}, {"back", std::to_string(capabilities.home_button)}})
+            : words("menu.hands_keys");
+    return caption;
+}
+
+Caption caption_of(const Scan& scan, const OneButton& rules, const Words& words)
+{
+    Caption caption{.chosen = int(scan.choice), .flying = true, .menu = true};
+    for (const char* key : {"scan.faster", "scan.slower", "scan.left", "scan.right", "scan.up", "scan.down", "scan.stop",
+             "scan.home", "scan.menu"}) // in the order of ScanChoice
+        caption.choices.push_back(words(key));
+    std::string& chosen = caption.choices[scan.choice];
+    if (scan.acts)
+        chosen = "▸ " + chosen + " ◂";
+    constexpr int dots = 8;
+    const int passed = int(std::floor(dots * passed_part(scan, rules)));
+    for (int i = 0; i < dots; ++i)
+        caption.aside += i < dots - passed ? "●" : "○";
+    caption.aside += "   " + words(scan.acts ? "scan.acts" : "scan.press");
     return caption;
 }
 

@@ -5,14 +5,18 @@
 
 namespace starbow {
 
-/// The visitors' menu in the session's language: worlds, tours, what to show, languages. Its commands are those of a docent.
+/// The visitors' menu in the session's language: worlds, tours, what to show, how to fly, languages. Its commands are those
+/// of a docent.
 std::vector<MenuPage> menu_of(const Session& session);
 
 /// The visitors' name of a world ("scene") or a tour ("tour"); of one that the words do not know, the file's own.
 std::string title_of(const Words& words, const std::string& kind, const std::string& name);
 
 /// The open menu's page as a caption, with the names of the controls at hand.
-Caption caption_of(
-    const MenuState& menu, std::span<const MenuPage> pages, const Words& words, const InputCapabilities& capabilities);
+Caption caption_of(const MenuState& menu, std::span<const MenuPage> pages, const Words& words,
+    const InputCapabilities& capabilities, bool by_one_button);
+
+/// The choices of one-button flying as a caption, with the time that is left.
+Caption caption_of(const Scan& scan, const OneButton& rules, const Words& words);
 
 } // namespace starbow

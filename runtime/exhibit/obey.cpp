@@ -102,6 +102,13 @@ void obey(Session& session, const Command& command, Controls& controls)
     case CommandKind::slow_motion:
         flight_of(session).slowness = command.on && session.options.log.empty() ? 1 : 0;
         break;
+    case CommandKind::one_button:
+        session.one_button = command.on;
+        session.scan = {};
+        break;
+    case CommandKind::left_handed:
+        session.left_handed = command.on;
+        break;
     case CommandKind::comparison:
         set_comparison(session, command.text);
         break;
@@ -181,6 +188,9 @@ void forget_visitor(Session& session)
     session.information = session.options.information;
     session.beside = Beside::none;
     session.menu = {};
+    session.one_button = session.options.one_button.has_value();
+    session.left_handed = session.options.left_handed;
+    session.scan = {};
     forget_language(session.options.state);
     session.exposure = {};
 }

@@ -30,6 +30,7 @@ void describe(const Session& session, Snapshot& out)
                                                                    : visit_phase_names[std::size_t(VisitPhase::attract)];
     out.effects = session.flight.effects, out.slow_motion = session.flight.slowness > 0;
     out.information = session.information;
+    out.one_button = session.one_button, out.left_handed = session.left_handed;
     const double rapidity = rapidity_of(session.flight.ship);
     out.speed = std::tanh(rapidity), out.gamma = std::cosh(rapidity);
     out.max_gamma = session.rules.max_gamma;

@@ -4,12 +4,14 @@
 
 namespace starbow {
 
-ReplayRenderer::ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev)
+ReplayRenderer::ReplayRenderer(
+    OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev, const Comfort& comfort)
     : renderer_(renderer)
     , layout_(renderer.layout())
     , alignment_(pattern)
     , exposing_(exposing)
     , start_ev_(start_ev)
+    , comfort_(comfort)
 {
     renderer_.frame().bloom(exposing.bloom);
     renderer_.frame().show(pattern);
@@ -40,7 +42,8 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
 std::vector<std::vector<std::uint8_t>> ReplayRenderer::picture(
     const Flight& flight, const std::string& scene, const Panel* hud)
 {
-    Shot shot = shot_of(flight, scene);
+    renderer_.frame().vignette(comfort_.vignette.value_or(Vignette()), flight.vignette);
+    Shot shot = shot_of(flight, scene, comfort_);
     shot.exposure_ev = calm_ev_.value.value_or(shown_ev(exposure_, exposing_, shot.exposure_ev, start_ev_));
     return renderer_.picture(shot, hud);
 }

@@ -11,8 +11,9 @@ namespace starbow {
 /// Draws a recorded flight's pictures off-screen, frame by frame as the exhibit shows them.
 class ReplayRenderer {
 public:
-    /// pattern: the outputs' first test pattern. start_ev: the flight's first exposure, EV.
-    ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev);
+    /// pattern: the outputs' first test pattern. start_ev: the flight's first exposure, EV. comfort: of the flight's rules.
+    ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev,
+        const Comfort& comfort = {});
 
     /// Applies a frame's controls to the pictures: head, test patterns, the builder's changes, exposure. Changes add up,
     /// so every frame must be applied. flight: after the frame. Writes no layout.
@@ -27,6 +28,7 @@ private:
     AlignmentMode alignment_;
     Exposing exposing_;
     double start_ev_;
+    Comfort comfort_;
     Exposure exposure_;
     SlowTurns calm_ev_; ///< the shown EV of a calm exhibit
 };

@@ -1,6 +1,7 @@
 #include "session.h"
 #include "config/json/reader.h"
 #include "config/model/scene_file.h"
+#include "menu_pages.h"
 #include "runtime/flight/pace.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/operation/log.h"
@@ -33,6 +34,29 @@ void hold(Controls& controls)
     controls.head = head;
     static_cast<EffectSwitches&>(controls) = {};
     static_cast<LabSwitches&>(controls) = {};
+}
+
+/// The steering of a visitor with one button, which is any but those of the window and of builders.
+void scan(Session& session, Controls& controls, std::int64_t dt_ns)
+{
+    const bool other = controls.quit || controls.full_screen || controls.pattern || controls.save || controls.choose != 0
+        || controls.turn_by != 0;
+    const AnyButton button{.pressed = controls.pressed && !other, .held = controls.held};
+    hold(controls);
+    controls.lever.reset();
+    controls.hud = false;
+    Steering& steering = controls;
+    const OneButton rules = session.options.one_button.value_or(OneButton());
+    if (session.menu.open) {
+        const std::vector<MenuPage> pages = menu_of(session);
+        const std::size_t page = session.menu.page;
+        steering = advance_in_menu(session.scan, rules, button, page, pages[page].items.size(), dt_ns);
+    } else if (session.guide && !session.guide->flies()) {
+        session.scan = {};
+        steering.home = button.pressed; // the tour's next step
+    } else {
+        steering = advance(session.scan, rules, button, dt_ns);
+    }
 }
 
 /// In an exhibit that nobody attends to, visitors press every key there is.
@@ -85,7 +109,7 @@ std::uint64_t digest(const Session& session)
         + std::to_string(session.tutorial.lesson) + std::to_string(session.exposure.locked)
         + std::to_string(session.history.empty()) + std::to_string(session.lab.shows_anything())
         + std::to_string(session.menu.open) + std::to_string(int(session.information)) + std::to_string(int(session.beside))
-        + std::to_string(session.goals.current);
+        + std::to_string(session.goals.current) + std::to_string(session.one_button) + std::to_string(session.left_handed);
     return digest(text, digest(session.flight));
 }
 
@@ -117,6 +141,8 @@ Session::Session(const ExhibitOptions& given)
     : options(given)
     , visiting(given.visiting.value_or(counted_by(given.programme)))
     , visit(given.visiting ? Visit{} : begun({}))
+    , one_button(given.one_button.has_value())
+    , left_handed(given.left_handed)
     , programme(given.visiting ? attraction_of(given, given.words, 0) : given.programme)
     , words(given.words)
     , information(given.information)
@@ -255,7 +281,8 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     entry.skipped_ns = passed.count() - entry.dt_ns;
     const double dt_s = 1e-9 * double(entry.dt_ns);
     controls = session.keyboard.read(windows, session.display.keyboard_grabbed(windows),
-        std::chrono::nanoseconds(now - session.began).count(), dt_s, session.hid.kinds());
+        std::chrono::nanoseconds(now - session.began).count(), dt_s, session.hid.kinds(), session.left_handed);
+    session.hid.left_handed(session.left_handed);
     session.hid.add(dt_s, controls);
     if (session.tracker)
         controls.head = session.tracker->read(now);
@@ -269,6 +296,8 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     const bool quits = controls.quit;
     if (session.directions.holds || (session.options.visiting && !in_hand(session.visit)))
         hold(controls);
+    else if (session.one_button && !session.record_replay.replays())
+        scan(session, controls, entry.dt_ns);
     if (session.options.exposure.calm)
         controls = session.calm_hands.let_through(controls, dt_s);
     return !quits;

@@ -8,6 +8,7 @@
 #include "input/hid.h"
 #include "input/keyboard.h"
 #include "input/presence.h"
+#include "input/scan.h"
 #include "lab.h"
 #include "layout_loader.h"
 #include "runtime/flight/flight.h"
@@ -58,6 +59,9 @@ struct Session {
     double home_black = 0; ///< the part of black on that way
     bool somebody = false; ///< has touched a control in this frame
     MenuState menu{}; ///< the visitors'
+    bool one_button; ///< the visitor flies with one
+    bool left_handed; ///< the controls are a left-handed visitor's
+    Scan scan{}; ///< of the one button
     std::string coming{}; ///< the visitors' name of a world that is being read; empty: none
     Programme programme; ///< the shown one
     Words words; ///< for the visitors' texts

@@ -1,4 +1,5 @@
 #include "boundary.h"
+#include "comfort.h"
 #include "config/model/angles.h"
 #include <algorithm>
 #include <cmath>
@@ -32,13 +33,22 @@ bool leaves(const Boundary& boundary, const Ship& ship)
 std::optional<glm::dvec3> turn_towards(const glm::dvec3& place, const Ship& ship, const Flying& rules)
 {
     constexpr double there_rad = 3 * degree;
-    const glm::dvec3 to = glm::inverse(ship.ship_from_cockpit) * (place - ship.position.total());
-    const double yaw = std::atan2(-to.x, -to.z), pitch = std::atan2(to.y, std::hypot(to.x, to.z));
+    const Comfort& comfort = rules.comfort;
+    glm::dvec3 to = place - ship.position.total();
+    if (!comfort.level_horizon)
+        to = glm::inverse(ship.ship_from_cockpit) * to;
+    Aim aim{std::atan2(-to.x, -to.z), std::atan2(to.y, std::hypot(to.x, to.z))};
+    if (comfort.level_horizon) {
+        aim.pitch = std::clamp(aim.pitch, -most_pitch_rad, most_pitch_rad);
+        const glm::dvec2 turns = turns_between(aim_of(ship.ship_from_cockpit), aim);
+        aim = {turns.y, turns.x};
+    }
+    const double yaw = aim.heading, pitch = aim.pitch;
     if (std::max(std::abs(yaw), std::abs(pitch)) < there_rad)
         return {};
     // It slows down over the last half second of the way.
     constexpr double closely_s = 0.5;
-    const double rate = degree * rules.turn_deg_per_s * closely_s;
+    const double rate = degree * (comfort.turn_steps_deg > 0 ? comfort.turn_steps_deg : rules.turn_deg_per_s * closely_s);
     // A pitch raises what lies ahead and lowers what lies behind, so it waits for the yaw.
     return glm::clamp(glm::dvec3(pitch * std::max(0.0, std::cos(yaw)), yaw, 0) / rate, -1.0, 1.0);
 }

@@ -15,7 +15,7 @@ double rapidity_within(const Boundary& boundary, const Ship& ship, const Flying&
 bool leaves(const Boundary& boundary, const Ship& ship);
 
 /// The controls' turn that leads the nose to a place, kindly: level at first, for it lies behind. Each is a part of the
-/// rules' turn rate. None once the nose points there.
+/// rules' turn rate, or of their step. None once the nose points there.
 std::optional<glm::dvec3> turn_towards(const glm::dvec3& place, const Ship& ship, const Flying& rules);
 
 } // namespace starbow

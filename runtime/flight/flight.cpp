@@ -1,5 +1,6 @@
 #include "flight.h"
 #include "boundary.h"
+#include "comfort.h"
 #include "pace.h"
 #include "pilot.h"
 #include <algorithm>
@@ -87,17 +88,23 @@ void begin_coasting(Flight& flight, const Flying& rules)
     flight.lever_rest.reset();
 }
 
-void tick(Flight& flight, const Controls& controls, const Flying& rules, double seconds_per_time_unit, const Shot& start)
+/// Returns the turn that is felt in the tick, radians.
+double fly_tick(
+    Flight& flight, const Controls& controls, const Flying& rules, double seconds_per_time_unit, const Shot& start)
 {
     flight.exposure_ev = std::clamp(flight.exposure_ev + controls.exposure * exposure_ev_per_s * tick_s, -60.0, 60.0);
     if (flight.frozen) {
-        steer(flight, controls, rules);
-        flight.look_rad += tick_s * glm::dvec2(flight.turn_rad_s.y, flight.turn_rad_s.x);
+        glm::dvec3 all = controls.turn;
+        if (rules.comfort.turn_steps_deg > 0)
+            all.z = 0; // a head that looks around does not roll
+        const glm::dvec3 turn = steer(flight, Steering{.turn = all}, rules);
+        flight.look_rad += glm::dvec2(turn.y, turn.x);
         flight.look_rad.y = std::clamp(flight.look_rad.y, -half_pi, half_pi);
-        return;
+        return glm::length(turn);
     }
     ++flight.ticks;
     if (flight.homing) {
+        const glm::dquat before = flight.ship.ship_from_cockpit;
         fly_home(flight.ship, *flight.homing, start, rules, seconds_per_time_unit);
         flight.turn_rad_s = flight.turn_lead_rad_s = glm::dvec3(0);
         if (flight.homing->arrived) {
@@ -107,7 +114,8 @@ void tick(Flight& flight, const Controls& controls, const Flying& rules, double 
                 flight.thrust_inhibited = false;
             }
         }
-        return;
+        const glm::dquat turn = glm::conjugate(before) * flight.ship.ship_from_cockpit;
+        return 2 * glm::length(glm::dvec3(turn.x, turn.y, turn.z));
     }
     const SpeedLimits limits = limits_of(flight, rules, seconds_per_time_unit);
     const bool leaving = rules.boundary && leaves(*rules.boundary, flight.ship);
@@ -117,7 +125,7 @@ void tick(Flight& flight, const Controls& controls, const Flying& rules, double 
         flight.homing = homing_from(flight.ship, felt_motion(flight, controls, rules, limits), rules);
         flight.homing->from_boundary = true;
         drop_thrust(flight, controls, true);
-        return;
+        return 0;
     }
     Steering steering = controls;
     flight.homeward = (flight.homeward || leaving) && flight.mode == FlightMode::guided;
@@ -130,7 +138,17 @@ void tick(Flight& flight, const Controls& controls, const Flying& rules, double 
     if (push.stop)
         flight.ship = stopped(flight.ship);
     const double dtau = tick_s / shown_unit_s(flight, seconds_per_time_unit);
-    flight.ship = fly(flight.ship, push.rapidity / dtau, flight.turn_rad_s * tick_s, dtau);
+    flight.ship = fly(flight.ship, push.rapidity / dtau, push.turn, dtau);
+    return glm::length(push.turn);
+}
+
+void tick(Flight& flight, const Controls& controls, const Flying& rules, double seconds_per_time_unit, const Shot& start)
+{
+    const double turned_rad = fly_tick(flight, controls, rules, seconds_per_time_unit, start);
+    glm::dquat& cockpit = flight.ship.ship_from_cockpit;
+    if (rules.comfort.level_horizon)
+        cockpit = levelled(cockpit);
+    flight.vignette = vignette_after(flight.vignette, turned_rad, rules);
 }
 
 } // namespace
@@ -139,6 +157,8 @@ Flight flight_at(const Shot& start, const Flying& rules)
 {
     Flight flight;
     flight.ship = ship_at(start);
+    if (rules.comfort.level_horizon)
+        flight.ship.ship_from_cockpit = levelled(flight.ship.ship_from_cockpit);
     flight.mode = rules.mode;
     begin_coasting(flight, rules);
     flight.effects = start.effects;
@@ -146,23 +166,37 @@ Flight flight_at(const Shot& start, const Flying& rules)
     return flight;
 }
 
-Flight step(Flight flight, const Controls& controls, std::int64_t dt_ns, const Flying& rules, double seconds_per_time_unit,
-    const Shot& start)
+Flight step(Flight flight, const Controls& given, std::int64_t dt_ns, const Flying& rules, double seconds_per_time_unit,
+    const Shot& given_start)
 {
+    const Comfort& comfort = rules.comfort;
+    Controls controls = given;
+    if (comfort.no_roll || comfort.level_horizon)
+        controls.turn.z = 0;
+    Shot start = given_start;
+    if (comfort.level_horizon) // the way home leads to a level cockpit, too
+        start.ship_from_cockpit = levelled(start.ship_from_cockpit);
     press(flight, controls, rules, seconds_per_time_unit, start);
     for (flight.left_ns += dt_ns; flight.left_ns >= tick_ns; flight.left_ns -= tick_ns)
         tick(flight, controls, rules, seconds_per_time_unit, start);
     return flight;
 }
 
-Shot shot_of(const Flight& flight, const std::string& scene)
+Shot shot_of(const Flight& flight, const std::string& scene, const Comfort& comfort)
 {
     Shot shot = shot_of(flight.ship);
     shot.scene = scene;
     shot.effects = flight.effects;
     shot.exposure_ev = flight.exposure_ev;
-    shot.ship_from_cockpit = flight.ship.ship_from_cockpit * glm::angleAxis(flight.look_rad.x, glm::dvec3(0, 1, 0))
-        * glm::angleAxis(flight.look_rad.y, glm::dvec3(1, 0, 0));
+    const glm::dquat& cockpit = flight.ship.ship_from_cockpit;
+    if (comfort.level_horizon) {
+        const Aim aim = aim_of(cockpit);
+        shot.ship_from_cockpit
+            = level_cockpit({aim.heading + flight.look_rad.x, std::clamp(aim.pitch + flight.look_rad.y, -half_pi, half_pi)});
+    } else {
+        shot.ship_from_cockpit = cockpit * glm::angleAxis(flight.look_rad.x, glm::dvec3(0, 1, 0))
+            * glm::angleAxis(flight.look_rad.y, glm::dvec3(1, 0, 0));
+    }
     return shot;
 }
 

@@ -23,6 +23,8 @@ struct Flight {
     double throttle_rate = 0; ///< rapidity per second now, along the way; guided and free
     glm::dvec3 thrust{0}; ///< rapidity per second, cockpit axes; newtonian
     glm::dvec3 turn_rad_s{0}, turn_lead_rad_s{0}; ///< the turn now, and the smoothed turn it approaches
+    std::int64_t step_wait = 0; ///< ticks before the stick turns the ship by a step again, where it turns in steps
+    double vignette = 0; ///< the part of the rules' vignette that is seen now, 0 to 1
     std::optional<Homing> homing; ///< the flight back to the start, while it lasts
     bool homeward = false; ///< at the world's end the nose turns to the start; the stick does not turn it meanwhile
     glm::dvec2 look_rad{0}; ///< the head's turn to the left and up from the nose
@@ -43,6 +45,8 @@ constexpr double follow_s = 0.5, settle_s = 0.8;
 constexpr double lever_per_s = 0.1;
 /// The thrust of a pressed key.
 constexpr double key_rapidity_per_s = 0.5;
+/// Seconds from one step of a turn to the next, where the ship turns in steps.
+constexpr double turn_step_every_s = 0.4;
 /// A throttle that has moved by so much has been touched: less may be its sensor's noise.
 constexpr double lever_touched = 0.02;
 constexpr double exposure_ev_per_s = 2;
@@ -59,7 +63,8 @@ Flight flight_at(const Shot& start, const Flying& rules = {});
 Flight step(Flight flight, const Controls& controls, std::int64_t dt_ns, const Flying& rules, double seconds_per_time_unit,
     const Shot& start);
 
-/// The arguments of the picture: the flight's instant as a shot, with the head turned.
-Shot shot_of(const Flight& flight, const std::string& scene);
+/// The arguments of the picture: the flight's instant as a shot, with the head turned. Where the rules keep the horizon, the
+/// head does so too.
+Shot shot_of(const Flight& flight, const std::string& scene, const Comfort& comfort = {});
 
 } // namespace starbow

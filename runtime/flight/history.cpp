@@ -30,6 +30,7 @@ Flight History::back(const Flight& now)
     then.hud = now.hud;
     then.frozen = now.frozen, then.slowness = now.slowness;
     then.ticks = now.ticks, then.left_ns = now.left_ns;
+    then.vignette = now.vignette;
     then.homing.reset();
     return then;
 }

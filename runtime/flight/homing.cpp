@@ -1,4 +1,5 @@
 #include "homing.h"
+#include "comfort.h"
 #include "config/model/angles.h"
 #include "flight.h"
 #include <algorithm>
@@ -74,6 +75,35 @@ template <class Function> double last_below(double high, double value, const Fun
     return 0.5 * (low + high);
 }
 
+/// The size of the way's turn, radians.
+double turned_on_way(const glm::dquat& from, const glm::dquat& to, const Comfort& comfort)
+{
+    return comfort.level_horizon ? glm::length(turns_between(aim_of(from), aim_of(to)))
+                                 : 2 * std::acos(std::min(1.0, std::abs(glm::dot(from, to))));
+}
+
+/// The number of the way's steps, where the ship turns in steps.
+double steps_on_way(double turned, const Comfort& comfort)
+{
+    constexpr double rounding = 1e-9;
+    return std::ceil(turned / (degree * comfort.turn_steps_deg) - rounding);
+}
+
+/// The cockpit after a part of the way. Without steps it follows the polynomial of fifth order.
+glm::dquat turned_by(double part, const glm::dquat& from, const glm::dquat& to, const Comfort& comfort)
+{
+    double x = part * part * part * (10 + part * (6 * part - 15));
+    if (comfort.turn_steps_deg > 0) {
+        const double steps = steps_on_way(turned_on_way(from, to, comfort), comfort);
+        x = steps > 0 ? std::min(1.0, std::floor(part * (steps + 1)) / steps) : 0;
+    }
+    if (!comfort.level_horizon)
+        return glm::normalize(glm::slerp(from, to, x));
+    const Aim aim = aim_of(from);
+    const glm::dvec2 turns = turns_between(aim, aim_of(to));
+    return level_cockpit({aim.heading + x * turns.y, aim.pitch + x * turns.x});
+}
+
 /// Plans the way from rest. A turn takes the thrust along in the cockpit, which changes it too: the turn and the thrust
 /// share the limit of its change.
 void plan_way(Homing& homing, const Shot& start, const Flying& rules, double seconds_per_time_unit)
@@ -89,10 +119,10 @@ void plan_way(Homing& homing, const Shot& start, const Flying& rules, double sec
     });
     // The polynomial of fifth order without speed and acceleration at its ends: 15/8 of the mean rate in the middle, and a
     // jerk of 60 at the ends.
-    const double turned
-        = 2 * std::acos(std::min(1.0, std::abs(glm::dot(homing.from.ship_from_cockpit, start.ship_from_cockpit))));
-    const double turn_s
-        = std::max(1.875 * turned / turn_rad_s, std::cbrt(60 * turned / (degree * rules.turn_jerk_deg_per_s3)));
+    const double turned = turned_on_way(homing.from.ship_from_cockpit, start.ship_from_cockpit, rules.comfort);
+    const double turn_s = rules.comfort.turn_steps_deg > 0
+        ? turn_step_every_s * (steps_on_way(turned, rules.comfort) + 1)
+        : std::max(1.875 * turned / turn_rad_s, std::cbrt(60 * turned / (degree * rules.turn_jerk_deg_per_s3)));
     // The number of ticks is even: the ship gains speed in half of them, loses it in the others, and arrives at rest.
     const std::int64_t half = ticks_in(std::max({least_way_s, fastest_s, turn_s}) / 2);
     homing.ticks = 2 * half;
@@ -112,14 +142,15 @@ void begin(Homing& homing, HomingLeg leg, const Ship& ship, std::int64_t ticks)
 
 double part_of(const Homing& homing) { return double(homing.elapsed) / double(homing.ticks); }
 
-void settle(Ship& ship, const Homing& homing, double dtau)
+void settle(Ship& ship, const Homing& homing, const Flying& rules, double dtau)
 {
     const double x = part_of(homing), all_s = double(homing.ticks) * tick_s;
     const FeltMotion& at_first = homing.settling;
     const glm::dvec3 turn
         = at_first.turn_rad_s * (1 + x * x * (2 * x - 3)) + at_first.turn_gain_rad_s2 * (all_s * x * (1 - x) * (1 - x));
     const double left = 1 - double(homing.elapsed - 1) / double(homing.ticks); // the first tick has the whole thrust
-    ship = fly(ship, at_first.thrust * (left * tick_s / dtau), turn * tick_s, dtau);
+    ship = fly(ship, at_first.thrust * (left * tick_s / dtau),
+        about_cockpit(turn * tick_s, ship.ship_from_cockpit, rules.comfort), dtau);
 }
 
 void brake(Ship& ship, const Homing& homing, double dtau)
@@ -130,7 +161,7 @@ void brake(Ship& ship, const Homing& homing, double dtau)
     ship = fly(ship, -way * (loss / dtau), glm::dvec3(0), dtau);
 }
 
-void fly_way(Ship& ship, const Homing& homing, const Shot& start, double dtau)
+void fly_way(Ship& ship, const Homing& homing, const Shot& start, const Flying& rules, double dtau)
 {
     const double way_s = double(homing.ticks) * tick_s, x = part_of(homing),
                  gained = homing.gain
@@ -140,8 +171,7 @@ void fly_way(Ship& ship, const Homing& homing, const Shot& start, double dtau)
     const glm::dvec3 all = start.position - homing.from.position.total(),
                      along = homing.gain > 0 ? glm::inverse(ship.ship_from_cockpit) * glm::normalize(all) : glm::dvec3(0);
     ship = fly(ship, along * (gained / dtau), glm::dvec3(0), dtau);
-    ship.ship_from_cockpit = glm::normalize(
-        glm::slerp(homing.from.ship_from_cockpit, start.ship_from_cockpit, x * x * x * (10 + x * (6 * x - 15))));
+    ship.ship_from_cockpit = turned_by(x, homing.from.ship_from_cockpit, start.ship_from_cockpit, rules.comfort);
 }
 
 /// The world stands still while the velocity grows to the start's.
@@ -178,13 +208,13 @@ void fly_home(Ship& ship, Homing& homing, const Shot& start, const Flying& rules
     ++homing.elapsed;
     switch (homing.leg) {
     case HomingLeg::settling:
-        settle(ship, homing, dtau);
+        settle(ship, homing, rules, dtau);
         return;
     case HomingLeg::braking:
         brake(ship, homing, dtau);
         return;
     case HomingLeg::way:
-        fly_way(ship, homing, start, dtau);
+        fly_way(ship, homing, start, rules, dtau);
         if (homing.elapsed < homing.ticks)
             return;
         ship = stopped(ship_at(start));

@@ -1,4 +1,5 @@
 #include "pilot.h"
+#include "comfort.h"
 #include "config/model/angles.h"
 #include <algorithm>
 #include <cmath>
@@ -15,19 +16,57 @@ double share(double seconds) { return seconds > 0 ? -std::expm1(-tick_s / second
 /// over the time constant. The largest difference is from end to end.
 double gain_share(const Flying& rules) { return share(2 * rules.rapidity_per_s / rules.rapidity_jerk_per_s2); }
 
+/// The time constant T of each stage of a smoothed turn.
+double smoothing_s(double greatest, double jerk) { return std::sqrt(2 * greatest / jerk); }
+
 /// A turn is smoothed in two such stages, each of time T, so that its acceleration has no steps. After a step of the
 /// stick by w the rate is w (1 - (1 + t/T) exp(-t/T)), whose second derivative is greatest at the start, w / T^2.
 void turn(double& rate, double& lead, double wanted, double greatest, double jerk)
 {
-    const double part = share(std::sqrt(2 * greatest / jerk));
+    const double part = share(smoothing_s(greatest, jerk));
     lead += part * (wanted - lead);
     rate += part * (lead - rate);
 }
 
-/// The velocity's direction in the cockpit at the middle of the tick, where its thrust acts; at rest the nose's.
-glm::dvec3 heading(const Flight& flight)
+/// The pitch's wanted rate, within what leads no further than the greatest pitch of a level cockpit. Once the stick is let
+/// go, the two stages turn the ship by T (rate + lead) more, and a stick that is held moves that end by its own rate.
+double pitch_within(const Flight& flight, double wanted, double greatest, double jerk)
 {
-    const glm::dvec3 u = flight.ship.u.total(), half = 0.5 * tick_s * flight.turn_rad_s;
+    const double part = share(smoothing_s(greatest, jerk)), remaining_s = tick_s * (1 - part) / part,
+                 end
+        = aim_of(flight.ship.ship_from_cockpit).pitch + remaining_s * (flight.turn_rad_s.x + flight.turn_lead_rad_s.x);
+    return std::clamp(
+        wanted, std::min(0.0, (-most_pitch_rad - end) / tick_s), std::max(0.0, (most_pitch_rad - end) / tick_s));
+}
+
+/// The turn in the tick where the ship turns in steps: pitch, yaw, roll, radians. The way round at a world's end takes a
+/// part of a step at its end; a stick takes whole ones.
+glm::dvec3 step_by(Flight& flight, const glm::dvec3& turn, const Flying& rules)
+{
+    flight.step_wait = std::max<std::int64_t>(0, flight.step_wait - 1);
+    constexpr double far = 0.5;
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::abs(turn[i]) > std::abs(turn[axis]))
+            axis = i;
+    if (flight.step_wait > 0 || std::abs(turn[axis]) <= (flight.homeward ? 0 : far))
+        return glm::dvec3(0);
+    glm::dvec3 step(0);
+    step[axis] = rules.comfort.turn_steps_deg * degree
+        * (flight.homeward ? std::clamp(turn[axis], -1.0, 1.0) : std::copysign(1.0, turn[axis]));
+    constexpr double rounding_rad = 1e-9;
+    if (axis == 0 && rules.comfort.level_horizon && !flight.frozen
+        && std::abs(aim_of(flight.ship.ship_from_cockpit).pitch + step.x) > most_pitch_rad + rounding_rad)
+        return glm::dvec3(0);
+    flight.step_wait = std::int64_t(turn_step_every_s / tick_s);
+    return step;
+}
+
+/// The velocity's direction in the cockpit at the middle of the tick, where its thrust acts; at rest the nose's. turn: in
+/// the tick, about the cockpit's axes.
+glm::dvec3 heading(const Flight& flight, const glm::dvec3& turn)
+{
+    const glm::dvec3 u = flight.ship.u.total(), half = 0.5 * turn;
     const double length = glm::length(u), angle = glm::length(half);
     if (!(length > 0))
         return nose;
@@ -48,7 +87,7 @@ glm::dvec3 across(const glm::dvec3& way, const glm::dvec3& to)
 }
 
 /// Guided and free: the throttle's place sets the speed.
-Push by_lever(Flight& flight, const Flying& rules, const SpeedLimits& limits)
+Push by_lever(Flight& flight, const glm::dvec3& turn, const Flying& rules, const SpeedLimits& limits)
 {
     const double speed = rapidity_of(flight.ship),
                  target = flight.thrust_inhibited ? 0 : flight.lever * std::acosh(rules.max_gamma);
@@ -58,14 +97,14 @@ Push by_lever(Flight& flight, const Flying& rules, const SpeedLimits& limits)
                  wanted = std::clamp(gain_to_target, -rules.rapidity_per_s, std::min(rules.rapidity_per_s, limits.gain));
     flight.throttle_rate += gain_share(rules) * (wanted - flight.throttle_rate);
     const double gain = flight.throttle_rate * tick_s;
-    Push push;
+    Push push{.turn = turn};
     if (std::min(target, limits.rapidity) == 0
         && speed + gain < 2e-3) { // slower than anyone can see; the approach would never end
         flight.throttle_rate = 0;
         push.stop = speed > 0;
         return push;
     }
-    const glm::dvec3 way = heading(flight);
+    const glm::dvec3 way = heading(flight, turn);
     push.rapidity = std::max(gain, -speed) * way;
     if (flight.mode == FlightMode::guided) {
         // A thrust across the flight turns the things ahead, as seen from the ship, by v/c. It also adds a speed of
@@ -87,7 +126,7 @@ double moved_lever(const Flight& flight, double rate, const Flying& rules, const
 }
 
 /// Newtonian: the throttle sets the thrust.
-Push by_thrust(Flight& flight, const Steering& controls, const Flying& rules)
+Push by_thrust(Flight& flight, const glm::dvec3& turn, const Steering& controls, const Flying& rules)
 {
     const double engine = controls.lever ? *controls.lever * rules.rapidity_per_s : 0;
     glm::dvec3 wanted = (nose * controls.throttle_rate + controls.push) * key_rapidity_per_s + nose * engine;
@@ -97,9 +136,9 @@ Push by_thrust(Flight& flight, const Steering& controls, const Flying& rules)
     flight.thrust += gain_share(rules) * (wanted - flight.thrust);
     if (wanted == glm::dvec3(0) && glm::length(flight.thrust) < 1e-4)
         flight.thrust = glm::dvec3(0);
-    Push push{flight.thrust * tick_s};
+    Push push{flight.thrust * tick_s, turn};
     // At the limit the speed does not grow; the velocity still turns, and the gain of speed from turning is subtracted.
-    const glm::dvec3 way = heading(flight);
+    const glm::dvec3 way = heading(flight, turn);
     const double room = std::acosh(rules.max_gamma) - rapidity_of(flight.ship);
     push.rapidity -= way * std::max(0.0, glm::dot(push.rapidity, way) - room);
     return push;
@@ -122,21 +161,28 @@ void watch_hands(Flight& flight, Steering& controls)
 
 } // namespace
 
-void steer(Flight& flight, const Steering& controls, const Flying& rules)
+glm::dvec3 steer(Flight& flight, const Steering& controls, const Flying& rules)
 {
+    if (rules.comfort.turn_steps_deg > 0)
+        return step_by(flight, controls.turn, rules);
     const glm::dvec3 rates = degree * glm::dvec3(rules.turn_deg_per_s, rules.turn_deg_per_s, rules.roll_deg_per_s);
-    for (int i = 0; i < 3; ++i)
-        turn(flight.turn_rad_s[i], flight.turn_lead_rad_s[i], std::clamp(controls.turn[i], -1.0, 1.0) * rates[i], rates[i],
-            degree * rules.turn_jerk_deg_per_s3);
+    const double jerk = degree * rules.turn_jerk_deg_per_s3;
+    for (int i = 0; i < 3; ++i) {
+        double wanted = std::clamp(controls.turn[i], -1.0, 1.0) * rates[i];
+        if (i == 0 && rules.comfort.level_horizon && !flight.frozen)
+            wanted = pitch_within(flight, wanted, rates[i], jerk);
+        turn(flight.turn_rad_s[i], flight.turn_lead_rad_s[i], wanted, rates[i], jerk);
+    }
+    return tick_s * flight.turn_rad_s;
 }
 
 Push pilot(Flight& flight, const Steering& input, const Flying& rules, const SpeedLimits& limits)
 {
     Steering controls = input;
     watch_hands(flight, controls);
-    steer(flight, controls, rules);
+    const glm::dvec3 turn = about_cockpit(steer(flight, controls, rules), flight.ship.ship_from_cockpit, rules.comfort);
     if (flight.coasting)
-        return {};
+        return {.turn = turn};
     // Visitors with thrusters alone, as on a space mouse, set the speed too.
     if (flight.mode != FlightMode::newtonian)
         controls.throttle_rate -= input.push.z;
@@ -150,7 +196,8 @@ Push pilot(Flight& flight, const Steering& input, const Flying& rules, const Spe
     flight.thrust_inhibited = flight.thrust_inhibited && !let_go;
     if (flight.thrust_inhibited && !controls.lever)
         flight.lever = 0;
-    return flight.mode == FlightMode::newtonian ? by_thrust(flight, controls, rules) : by_lever(flight, rules, limits);
+    return flight.mode == FlightMode::newtonian ? by_thrust(flight, turn, controls, rules)
+                                                : by_lever(flight, turn, rules, limits);
 }
 
 FeltMotion felt_motion(Flight flight, const Steering& controls, const Flying& rules, const SpeedLimits& limits)

@@ -1,4 +1,5 @@
 #include "record.h"
+#include "config/model/comfort_reader.h"
 #include "config/model/exposing_reader.h"
 #include "config/model/shot_reader.h"
 #include <algorithm>
@@ -34,15 +35,17 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
     [[maybe_unused]] const auto& [hud, full_screen, quit, information, beside] = static_cast<const WindowSwitches&>(c);
     [[maybe_unused]] const auto& [aberration_on, doppler_on, headlight_on, comparison_shown, false_colours_on] = s.effects;
     [[maybe_unused]] const auto& [pattern, save, choose, turn_by] = static_cast<const AlignmentKeys&>(c);
-    [[maybe_unused]] const auto& [key_pressed] = static_cast<const Touches&>(c); // not kept: a record is one visit
+    [[maybe_unused]] const auto& [key_pressed, key_held] = static_cast<const Touches&>(c); // not kept: a record is one visit
     [[maybe_unused]] const auto& [commands] = static_cast<const RemoteCommands&>(c);
     [[maybe_unused]] const auto& [mode, max_gamma, turn_deg_per_s, roll_deg_per_s, turn_jerk_deg_per_s3, rapidity_per_s,
-        rapidity_jerk_per_s2, boundary, pace]
+        rapidity_jerk_per_s2, boundary, pace, comfort]
         = f;
+    [[maybe_unused]] const auto& [no_roll, level_horizon, turn_steps_deg, vignette] = f.comfort;
+    [[maybe_unused]] const auto& [elevation_deg, clear_deg, soft_deg, darkness] = *vignette;
     [[maybe_unused]] const auto& [automatic, min_ev, max_ev, bloom, calm] = e;
     [[maybe_unused]] const auto& [ship, flight_mode, flight_lever, coasting, lever_waits, lever_rest, frozen, slowness,
-        homeward, thrust_inhibited, rate, thrust, turn_rad_s, turn_lead_rad_s, homing, flight_look_rad, effects, exposure_ev,
-        flight_hud, ticks, left_ns]
+        homeward, thrust_inhibited, rate, thrust, turn_rad_s, turn_lead_rad_s, step_wait, vignette_part, homing,
+        flight_look_rad, effects, exposure_ev, flight_hud, ticks, left_ns]
         = s;
 }
 
@@ -115,6 +118,22 @@ Json json_of(const Effects& effects)
         {"comparison", comparison_names[std::size_t(effects.comparison)]}, {"false_colours", effects.false_colours}};
 }
 
+/// Without what is not used.
+Json json_of(const Comfort& comfort)
+{
+    Json json = Json::object();
+    if (comfort.no_roll)
+        json["no_roll"] = true;
+    if (comfort.level_horizon)
+        json["level_horizon"] = true;
+    if (comfort.turn_steps_deg > 0)
+        json["turn_steps_deg"] = comfort.turn_steps_deg;
+    if (comfort.vignette)
+        json["vignette"] = {{"elevation_deg", comfort.vignette->elevation_deg}, {"clear_deg", comfort.vignette->clear_deg},
+            {"soft_deg", comfort.vignette->soft_deg}, {"darkness", comfort.vignette->darkness}};
+    return json;
+}
+
 /// Reads the start. It is not in the form of a shot's file, where a speed and directions would be rounded.
 Shot read_start(const Place& place)
 {
@@ -151,8 +170,10 @@ Flying read_rules(const Place& place)
 {
     reject_unknown_members(place,
         {"mode", "max_gamma", "turn_deg_per_s", "roll_deg_per_s", "turn_jerk_deg_per_s3", "rapidity_per_s",
-            "rapidity_jerk_per_s2", "boundary", "pace"});
+            "rapidity_jerk_per_s2", "boundary", "pace", "comfort"});
     Flying rules;
+    if (auto p = find_member(place, "comfort"))
+        rules.comfort = read_comfort(*p);
     if (auto p = find_member(place, "pace"))
         rules.pace = read_pace(*p);
     if (auto p = find_member(place, "boundary")) {
@@ -284,6 +305,9 @@ std::string text_of(const RecordHeader& header)
         for (const auto& [low, high] : rules.pace->things)
             pace["things"].push_back({low.x, low.y, low.z, high.x, high.y, high.z});
     }
+    json["flying"]["comfort"] = json_of(rules.comfort);
+    if (json["flying"]["comfort"].empty())
+        json["flying"].erase("comfort");
     json["exposure"] = {{"automatic", header.exposing.automatic}, {"min_ev", header.exposing.min_ev},
         {"max_ev", header.exposing.max_ev}, {"bloom", header.exposing.bloom}};
     if (header.exposing.calm)
@@ -384,7 +408,7 @@ std::uint64_t digest(const Flight& flight)
     all.add(flight.lever_rest.value_or(0)), all.add(flight.frozen);
     all.add(std::int64_t(flight.slowness)), all.add(flight.homeward);
     all.add(flight.lever), all.add(flight.thrust_inhibited), all.add(flight.throttle_rate), all.add(flight.thrust);
-    all.add(flight.turn_rad_s), all.add(flight.turn_lead_rad_s);
+    all.add(flight.turn_rad_s), all.add(flight.turn_lead_rad_s), all.add(flight.step_wait), all.add(flight.vignette);
     all.add(flight.homing.has_value());
     if (flight.homing) {
         const Homing& homing = *flight.homing;

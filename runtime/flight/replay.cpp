@@ -11,6 +11,12 @@ namespace {
 /// Far longer than any written line. A longer line belongs to no record and is not read to its end.
 constexpr std::size_t longest_line = 1 << 16;
 
+/// True for a command that tells who steers: a record holds what that hand did.
+bool changes_hands_alone(const Command& command)
+{
+    return command.kind == CommandKind::one_button || command.kind == CommandKind::left_handed;
+}
+
 } // namespace
 
 Replay::Replay(const fs::path& file)
@@ -112,10 +118,11 @@ void fly_again(Replay& replay, const std::function<bool(const RecordEntry&, cons
     History history;
     long shown = 0;
     while (const auto entry = replay.next()) {
-        if (!entry->controls.commands.empty())
+        const std::vector<Command>& commands = entry->controls.commands;
+        const auto other = std::ranges::find_if_not(commands, changes_hands_alone);
+        if (other != commands.end())
             throw InputError(replay.file() + ": frame " + std::to_string(shown) + " has a remote's command, "
-                + one_line(words_of(entry->controls.commands[0])[0])
-                + ", that only an exhibit carries out; starbow run --replay is right");
+                + one_line(words_of(*other)[0]) + ", that only an exhibit carries out; starbow run --replay is right");
         flight = flown(
             flight, history, entry->controls, entry->dt_ns, header.rules, header.seconds_per_time_unit, header.start);
         replay.compare(flight);

@@ -21,11 +21,15 @@ std::string prompt(const Tutorial& tutorial, const InputCapabilities& capabiliti
 {
     switch (tutorial.lesson) {
     case 0:
-        return words(capabilities.lever ? "tutorial.go_throttle"
-                : capabilities.trigger  ? "tutorial.go_trigger"
-                                        : "tutorial.go_key");
+        if (capabilities.lever)
+            return words("tutorial.go_throttle");
+        if (capabilities.trigger)
+            return words(capabilities.left_handed ? "tutorial.go_left_trigger" : "tutorial.go_trigger");
+        return words(capabilities.left_handed ? "tutorial.go_left_key" : "tutorial.go_key");
     case 1:
-        return words(capabilities.stick ? "tutorial.turn_stick" : "tutorial.turn_keys");
+        return words(capabilities.stick    ? "tutorial.turn_stick"
+                : capabilities.left_handed ? "tutorial.turn_left_keys"
+                                           : "tutorial.turn_keys");
     case 2:
         return capabilities.stop_button > 0
             ? words("tutorial.stop_button", {{"button", std::to_string(capabilities.stop_button)}})

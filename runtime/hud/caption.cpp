@@ -84,8 +84,10 @@ std::string verdict_of(const Caption& caption)
     return verdict;
 }
 
-/// Writes a menu's page: its title small at the top, the chosen choice large in the middle, its neighbours at the sides.
-static void write_menu(Panel& panel, const Typesetter& typesetter, const Caption& caption)
+/// Writes a menu's page: its title small at the top, or while the visitor flies the figures; the chosen choice large in the
+/// middle, its neighbours at the sides.
+static void write_menu(Panel& panel, const Typesetter& typesetter, const Caption& caption,
+    const std::vector<std::pair<std::string, std::string>>& fields)
 {
     const double width = panel.size.x, height = panel.size.y;
     const auto write
@@ -98,7 +100,11 @@ static void write_menu(Panel& panel, const Typesetter& typesetter, const Caption
           };
     const int count = int(caption.choices.size()), chosen = caption.chosen;
     const auto at = [&](int i) { return caption.choices[std::size_t((i + count) % count)]; };
-    write(caption.text, 0.5, 0.25, 0.19, 0.9, 0.8);
+    std::string top = caption.text;
+    if (caption.flying)
+        for (std::size_t i = 0; i < fields.size() && i < 4; ++i)
+            top += (top.empty() ? "" : "     ") + fields[i].first + " " + fields[i].second;
+    write(top, 0.5, 0.25, 0.19, 0.9, 0.8);
     write(at(chosen), 0.5, 0.62, 0.34, 0.5, 1);
     if (count > 1)
         write(at(chosen + 1) + " ›", 0.87, 0.6, 0.17, 0.21, 0.6);
@@ -111,7 +117,7 @@ void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& ca
     const std::vector<std::pair<std::string, std::string>>& fields)
 {
     if (caption.menu)
-        return write_menu(panel, typesetter, caption);
+        return write_menu(panel, typesetter, caption, fields);
     const double width = panel.size.x, height = panel.size.y, left = 0.04 * width, right = 0.97 * width;
     // Above: the controls at the right, and at the left as many of the figures as fit.
     const int small = std::max(6, int(0.13 * height));

@@ -17,7 +17,7 @@ struct Snapshot {
     bool paused = false, fade = false, hold = false;
     std::string visit; ///< one of visit_phase_names
     Effects effects;
-    bool slow_motion = false;
+    bool slow_motion = false, one_button = false, left_handed = false;
     Information information = Information::laboratory;
     double speed = 0; ///< v/c
     double gamma = 1;

@@ -25,6 +25,7 @@ void FrameRenderer::draw(
             continue; // minimised, or its monitor is away
         for (std::size_t layer = 0; layer < views_.outputs[output].layers(); ++layer) { // one, unless viewports overlap
             passes_.warp_layer(outputs, output, layer, targets[output]); // stars and bloom included
+            passes_.draw_vignette(outputs, output, layer, targets[output]);
             measurement_.draw(outputs, output, layer, targets[output]); // the overlay
             passes_.draw_hud(outputs, output, layer, targets[output]);
             passes_.end_layer(outputs, output, layer);

@@ -59,6 +59,9 @@ public:
     void bloom(double part) { state_.bloom = part; }
     /// part: of black over the finished picture, 0 to 1. At 0 the pass takes no time.
     void fade(double part) { state_.fade = part; }
+    /// part: of the vignette that is seen, 0 to 1. At 0 the pass takes no time. It darkens the world alone: instruments and
+    /// the head-up display stay as they are, and so does the exposure's measure.
+    void vignette(const Vignette& vignette, double part) { state_.vignette = vignette, state_.vignette_part = part; }
     void meter(bool on) { state_.meters = on; }
     /// Lays placards over all views, beside the head-up display, from the next frame on. They must last until it is drawn.
     void place(std::span<const Placard> placards) { passes_.place(placards); }

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/model/flying.h"
 #include "config/model/layout.h"
 #include "config/model/quality.h"
 #include "config/model/shot.h"
@@ -21,6 +22,8 @@ struct FrameState {
     Pattern pattern = Pattern::none;
     double bloom = 0; ///< the part of the light that glows around bright things, 0 to 1
     double fade = 0; ///< the part of black over the finished picture, 0 to 1
+    Vignette vignette;
+    double vignette_part = 0; ///< that is seen, 0 to 1
     bool meters = false; ///< luminance is sampled beside the picture
     Shot shot; ///< the instant that is drawn
     bool all_light = false; ///< light counts however dim; otherwise none is drawn that no screen shows

@@ -35,6 +35,7 @@
 #include "spirv/star_one_frame_vert.h"
 #include "spirv/star_own_eye_vert.h"
 #include "spirv/star_vert.h"
+#include "spirv/vignette_frag.h"
 #include "spirv/warp_dark_frag.h"
 #include "spirv/warp_frag.h"
 #include "spirv/warp_one_frame_frag.h"
@@ -390,6 +391,17 @@ vk::Pipeline Pipelines::fade(vk::Format target)
         .fragment = fade_frag,
         .layout = *layouts.picture_layout,
         .target = {{target}},
+        .blend = true});
+}
+
+vk::Pipeline Pipelines::vignette(bool map, vk::Format target)
+{
+    return find_or_make({.name = "vignette pipeline",
+        .vertex = screen_vert,
+        .fragment = vignette_frag,
+        .layout = *layouts.warp_layout,
+        .target = {{target}},
+        .constants = {map},
         .blend = true});
 }
 

@@ -163,6 +163,7 @@ public:
     vk::Pipeline layer(bool plain);
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
     vk::Pipeline fade(vk::Format target);
+    vk::Pipeline vignette(bool map, vk::Format target);
     vk::Pipeline pattern(bool map, int pattern, vk::Format target);
 
     /// The number of pipelines made so far. It grows when a recorded pass needs a new one.

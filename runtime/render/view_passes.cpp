@@ -1,4 +1,5 @@
 #include "view_passes.h"
+#include "config/model/angles.h"
 #include "debug.h"
 #include "pattern_label.h"
 #include "runtime/hud/hud_place.h"
@@ -251,6 +252,27 @@ void ViewPasses::lay_over(vk::CommandBuffer commands, std::size_t output, std::s
                 draw(i, target.format);
         device_.end_rendering(commands);
     }
+}
+
+void ViewPasses::draw_vignette(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last)
+{
+    if (state_.vignette_part <= 0 || state_.pattern != Pattern::none)
+        return;
+    const Label label(device_, commands, "vignette");
+    const Vignette& vignette = state_.vignette;
+    // Axes of its own: z along the middle of the clear part, x to the right.
+    const double up = degree * vignette.elevation_deg;
+    const glm::dvec3 right(1, 0, 0), along(0, std::sin(up), -std::cos(up));
+    const glm::dmat3 own_from_cockpit = glm::transpose(glm::dmat3(right, glm::cross(along, right), along));
+    const glm::vec4 edge(degree * vignette.clear_deg, degree * (vignette.clear_deg + vignette.soft_deg),
+        vignette.darkness * state_.vignette_part, 0);
+    lay_over(commands, output, layer, last, [&](std::size_t i, vk::Format target) {
+        const ViewState& view = views_.all[i];
+        shared::ViewPush constants = constants_.push(view, own_from_cockpit);
+        constants.boost = edge;
+        draw_warp(commands, view, pipelines_.vignette(view.compiled.map != nullptr, target), constants,
+            view.geometry().corner, view.geometry().size);
+    });
 }
 
 void ViewPasses::draw_hud(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last)

@@ -24,6 +24,7 @@ public:
 
     /// The views of one layer of an output through the cube maps, stars and bloom included, or the test pattern.
     void warp_layer(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last);
+    void draw_vignette(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last);
     void draw_hud(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last);
     /// Adds a layer to the output's light where there are several.
     void end_layer(vk::CommandBuffer commands, std::size_t output, std::size_t layer);

@@ -142,6 +142,7 @@ bool WarmUp::step(const Panel* hud)
         frame_.adopt(quality);
         frame_.show(state.pattern);
         frame_.fade(state.fade);
+        frame_.vignette({}, state.fade);
         frame_.measure({}); // the device has finished the overlay before
         if (state.overlay != Overlay::off)
             frame_.measure(Measuring{.probes = {{glm::dvec3(0, 0, -1)}},

@@ -5,10 +5,10 @@
 namespace starbow {
 
 /// Draws, off-screen, a small picture for each state of the switches that a visitor can reach, so that no frame in flight
-/// waits for a compiler. The states are effects, comparisons, false colours, overlays, a fade and test patterns, at rest and
-/// in flight. Software renderers compile when they draw, so pictures are drawn and not only pipelines made. They take up to
-/// a tenth of a second for each pipeline and therefore leave out combinations of a comparison or false colours with effects
-/// switched off; these are compiled at their first use.
+/// waits for a compiler. The states are effects, comparisons, false colours, overlays, a fade with a vignette, and test
+/// patterns, at rest and in flight. Software renderers compile when they draw, so pictures are drawn and not only pipelines
+/// made. They take up to a tenth of a second for each pipeline and therefore leave out combinations of a comparison or false
+/// colours with effects switched off; these are compiled at their first use.
 class WarmUp {
 public:
     /// start: a shot in the world, which is warmed up in this quality. format: of the outputs' targets. meters: the exposure

@@ -90,6 +90,57 @@ TEST(ExhibitFileTest, EveryMemberIsRead)
     EXPECT_FALSE(load_exhibit(write_text("exhibit.json", "{}")).visiting);
 }
 
+TEST(ExhibitFileTest, OneButtonAndTheLeftHandAreRead)
+{
+    EXPECT_FALSE(load_exhibit(write_text("exhibit.json", "{}")).one_button);
+    EXPECT_FALSE(load_exhibit(write_text("exhibit.json", "{}")).left_handed);
+    const std::string text = R"({ "one_button": { "scan_s": 2.5, "act_s": 0.7 }, "left_handed": true })";
+    EXPECT_TRUE(schema_accepts(json::parse(text)));
+    const Exhibit exhibit = load_exhibit(write_text("exhibit.json", text));
+    ASSERT_TRUE(exhibit.one_button);
+    EXPECT_EQ(exhibit.one_button->scan_s, 2.5);
+    EXPECT_EQ(exhibit.one_button->act_s, 0.7);
+    EXPECT_TRUE(exhibit.left_handed);
+    const Exhibit usual = load_exhibit(write_text("exhibit.json", R"({ "one_button": {} })"));
+    const json schema = json::parse(read_text(source_dir() / "config/schema/exhibit.schema.json"));
+    const json& times = schema["properties"]["one_button"]["properties"];
+    ASSERT_TRUE(usual.one_button);
+    EXPECT_EQ(usual.one_button->scan_s, times["scan_s"]["default"].get<double>());
+    EXPECT_EQ(usual.one_button->act_s, times["act_s"]["default"].get<double>());
+}
+
+TEST(ExhibitFileTest, ComfortIsReadAndWithoutItsBlockThereIsNone)
+{
+    const Comfort none = load_exhibit(write_text("exhibit.json", "{}")).flying.comfort;
+    EXPECT_FALSE(none.no_roll || none.level_horizon || none.vignette);
+    EXPECT_EQ(none.turn_steps_deg, 0);
+    const auto read = [](const std::string& text) {
+        EXPECT_TRUE(schema_accepts(json::parse(text))) << text;
+        return load_exhibit(write_text("exhibit.json", text)).flying.comfort;
+    };
+    const Comfort steps = read(R"({ "comfort": { "no_roll": true, "turn_steps_deg": 22.5 } })");
+    EXPECT_TRUE(steps.no_roll);
+    EXPECT_FALSE(steps.level_horizon);
+    EXPECT_EQ(steps.turn_steps_deg, 22.5);
+    const Comfort smooth = read(
+        R"({ "comfort": { "level_horizon": true, "vignette": { "elevation_deg": 30, "clear_deg": 50, "soft_deg": 12, "darkness": 0.5 } } })");
+    EXPECT_FALSE(smooth.no_roll);
+    EXPECT_TRUE(smooth.level_horizon);
+    ASSERT_TRUE(smooth.vignette);
+    EXPECT_EQ(smooth.vignette->elevation_deg, 30);
+    EXPECT_EQ(smooth.vignette->clear_deg, 50);
+    EXPECT_EQ(smooth.vignette->soft_deg, 12);
+    EXPECT_EQ(smooth.vignette->darkness, 0.5);
+    const Comfort usual = read(R"({ "comfort": { "vignette": {} } })");
+    const json schema = json::parse(read_text(source_dir() / "config/schema/exhibit.schema.json"));
+    const json& edge = schema["properties"]["comfort"]["properties"]["vignette"]["properties"];
+    ASSERT_TRUE(usual.vignette);
+    EXPECT_EQ(usual.vignette->elevation_deg, edge["elevation_deg"]["default"].get<double>());
+    EXPECT_EQ(usual.vignette->clear_deg, edge["clear_deg"]["default"].get<double>());
+    EXPECT_EQ(usual.vignette->soft_deg, edge["soft_deg"]["default"].get<double>());
+    EXPECT_EQ(usual.vignette->darkness, edge["darkness"]["default"].get<double>());
+}
+
 TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
 {
     const json schema = json::parse(read_text(source_dir() / "config/schema/exhibit.schema.json"));
@@ -140,7 +191,19 @@ TEST(ExhibitFileTest, WrongExhibitsAreRefusedByReaderAndSchema)
              {R"({ "flying": { "max_gamma": 1e7 } })", "/flying/max_gamma: 10000000"},
              {R"({ "flying": { "turn_deg_per_s": 0 } })", "/flying/turn_deg_per_s: 0"},
              {R"({ "flying": { "turn_jerk_deg_per_s3": -1 } })", "/flying/turn_jerk_deg_per_s3: -1"},
-             {R"({ "calm": 1 })", "/calm: 1"}, {R"({ "exposure": { "calm": true } })", "calm"},
+             {R"({ "comfort": { "no_roll": 1 } })", "/comfort/no_roll: 1"},
+             {R"({ "comfort": { "turn_steps_deg": 4 } })", "/comfort/turn_steps_deg: 4 is too small"},
+             {R"({ "comfort": { "turn_steps_deg": 46 } })", "/comfort/turn_steps_deg: 46 is too large"},
+             {R"({ "comfort": { "vignette": true } })", "/comfort/vignette"},
+             {R"({ "comfort": { "vignette": { "darkness": 0 } } })", "/comfort/vignette/darkness: 0"},
+             {R"({ "comfort": { "vignette": { "soft_deg": 0 } } })", "/comfort/vignette/soft_deg: 0"},
+             {R"({ "comfort": { "vignette": { "elevation_deg": 91 } } })", "/comfort/vignette/elevation_deg: 91"},
+             {R"({ "comfort": { "vignette": { "clear_deg": 121 } } })", "/comfort/vignette/clear_deg: 121"},
+             {R"({ "flying": { "no_roll": true } })", "no_roll"}, {R"({ "one_button": true })", "/one_button"},
+             {R"({ "one_button": { "scan_s": 0.4 } })", "/one_button/scan_s: 0.4 is too small"},
+             {R"({ "one_button": { "act_s": 11 } })", "/one_button/act_s: 11 is too large"},
+             {R"({ "left_handed": 1 })", "/left_handed: 1"}, {R"({ "calm": 1 })", "/calm: 1"},
+             {R"({ "exposure": { "calm": true } })", "calm"},
              {R"({ "exposure": { "bloom": 1.5 } })", "/exposure/bloom: 1.5 is too large"},
              {R"({ "exposure": { "min_ev": -61 } })", "/exposure/min_ev: -61"},
              {R"({ "exposure": { "ev": 0 } })", "/exposure"},
@@ -159,6 +222,9 @@ TEST(ExhibitFileTest, WrongExhibitsAreRefusedByReaderAndSchema)
         const std::string text = message_for(std::string(R"({ "exposure": { )") + limits + " } }");
         EXPECT_NE(text.find("/exposure/"), std::string::npos) << text;
     }
+    EXPECT_NE(
+        message_for(R"({ "comfort": { "turn_steps_deg": 15, "vignette": {} } })").find("one too many beside turn_steps"),
+        std::string::npos);
     EXPECT_NE(message_for(R"({ "scene": "avenue", "shot": "gamma100" })").find("one too many"), std::string::npos);
     EXPECT_NE(
         message_for(R"({ "scene": "avenue", "tour": "rainbow" })").find("one too many beside a tour"), std::string::npos);

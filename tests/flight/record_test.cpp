@@ -113,6 +113,7 @@ RecordHeader some_header()
     header.rules.mode = FlightMode::newtonian;
     header.rules.max_gamma = 123.456;
     header.rules.boundary = {{0.1, 0, 1.0 / 3}, 1e12};
+    header.rules.comfort = {.no_roll = true, .level_horizon = true, .vignette = Vignette{-0.1, 1.0 / 3, 7, 0.7}};
     header.rules.pace = {1.0 / 7, 0.3, {{{-1, -0.1, 0}, {1, 2, 1.0 / 3}}, {{5, 5, 5}, {6, 6, 6}}}};
     return header;
 }
@@ -179,6 +180,16 @@ TEST(Record, TheHeaderIsReadBackToTheBit)
     EXPECT_EQ(digest(flight_at(read.start, read.rules)), digest(flight_at(header.start, header.rules)));
     EXPECT_EQ(read.start.position, header.start.position);
     EXPECT_EQ(read.rules.max_gamma, header.rules.max_gamma);
+    EXPECT_TRUE(read.rules.comfort.no_roll);
+    EXPECT_TRUE(read.rules.comfort.level_horizon);
+    ASSERT_TRUE(read.rules.comfort.vignette);
+    EXPECT_EQ(read.rules.comfort.vignette->elevation_deg, -0.1);
+    EXPECT_EQ(read.rules.comfort.vignette->clear_deg, header.rules.comfort.vignette->clear_deg);
+    EXPECT_EQ(read.rules.comfort.vignette->soft_deg, 7);
+    EXPECT_EQ(read.rules.comfort.vignette->darkness, 0.7);
+    RecordHeader in_steps = header;
+    in_steps.rules.comfort = {.turn_steps_deg = 50.0 / 3};
+    EXPECT_EQ(parse_record_header("f", text_of(in_steps)).rules.comfort.turn_steps_deg, 50.0 / 3);
     ASSERT_TRUE(read.rules.pace);
     EXPECT_EQ(read.rules.pace->per_s2, header.rules.pace->per_s2);
     EXPECT_EQ(read.rules.pace->least, header.rules.pace->least);

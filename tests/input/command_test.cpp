@@ -29,6 +29,8 @@ TEST(Command, EveryKindComesBackFromItsWords)
         {{"beside", "at-rest"}, {CommandKind::beside, false, 0, "at-rest"}},
         {{"information", "guide"}, {CommandKind::information, false, 0, "guide"}},
         {{"slow-motion", "on"}, {CommandKind::slow_motion, true, 0, ""}},
+        {{"one-button", "on"}, {CommandKind::one_button, true, 0, ""}},
+        {{"left-handed", "off"}, {CommandKind::left_handed, false, 0, ""}},
         {{"comparison", "galilean"}, {CommandKind::comparison, false, 0, "galilean"}},
         {{"language", "de"}, {CommandKind::language, false, 0, "de"}},
         {{"caption", "Grüße an alle: γ = 4"}, {CommandKind::caption, false, 0, "Grüße an alle: γ = 4"}},

@@ -136,6 +136,38 @@ TEST(RatesTest, HandsDoNotAddUpBeyondAFullRate)
     EXPECT_EQ(together({}, twice).throttle_rate, 1);
 }
 
+TEST(PadTest, ALeftHandHasTheOtherSideOfThePad)
+{
+    GLFWgamepadstate pad = at_rest();
+    pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_X] = 1;
+    pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y] = -1;
+    pad.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER] = 1;
+    Controls controls;
+    add_pad(mirrored(pad), 0.1, controls);
+    EXPECT_EQ(controls.turn, glm::dvec3(1, -1, 0)) << "the right stick turns";
+    EXPECT_EQ(controls.throttle_rate, 1) << "the left trigger makes faster";
+    EXPECT_EQ(controls.look_rad, glm::dvec2(0));
+    pad = at_rest();
+    pad.axes[GLFW_GAMEPAD_AXIS_LEFT_X] = 1;
+    controls = {};
+    add_pad(mirrored(pad), 0.1, controls);
+    EXPECT_LT(controls.look_rad.x, 0) << "the left one looks around";
+    PadButtons buttons;
+    pad.buttons[GLFW_GAMEPAD_BUTTON_LEFT_BUMPER] = GLFW_PRESS;
+    const GLFWgamepadstate seen = mirrored(pad);
+    buttons.take(0, &seen);
+    controls = {};
+    buttons.add(controls);
+    EXPECT_TRUE(controls.headlight);
+    EXPECT_FALSE(controls.look_ahead);
+    EXPECT_TRUE(controls.held);
+    const GLFWgamepadstate rests = at_rest();
+    buttons.take(0, &rests);
+    controls = {};
+    buttons.add(controls);
+    EXPECT_FALSE(controls.held);
+}
+
 // Lines of SDL's public list of gamepads (gamecontrollerdb.txt, Linux), with the numbers that the USB ID list gives.
 TEST(PadTest, GuidsNameTheDevice)
 {

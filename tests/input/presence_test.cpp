@@ -71,6 +71,14 @@ TEST(PresenceTest, EveryControlAloneIsASign)
     }
 }
 
+TEST(PresenceTest, AButtonThatIsDownIsASignWhenItGoesDownAlone)
+{
+    Presence presence;
+    presence.take({}, dt_s);
+    EXPECT_TRUE(presence.take(controls_with(Touches{.pressed = true, .held = true}), dt_s));
+    EXPECT_EQ(signs(presence, 100, controls_with(Touches{.held = true})), 0);
+}
+
 TEST(PresenceTest, AThrottleThatStandsSomewhereIsNobody)
 {
     Presence presence;

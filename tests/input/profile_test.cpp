@@ -163,6 +163,54 @@ TEST(ProfileTest, AStickMovesTheShipAsTheHandMoves)
     EXPECT_EQ(controls_now().turn, glm::dvec3(0));
 }
 
+// A pad of known make: for a left hand the right stick turns, the left trigger makes faster, the bumpers change places.
+TEST(ProfileTest, ALeftHandHasTheOtherSideOfAPad)
+{
+    const Descriptor descriptor = descriptor_of(*device("054c", "09cc"));
+    const Profile right = load_profile(source_dir() / "config/profiles/sony-dualshock-4.json");
+    const auto does = [&](const Profile& profile, Usage usage, std::int64_t raw) {
+        DeviceState state = at_rest(descriptor);
+        for (const std::uint16_t trigger : {51, 52})
+            state.raw[field(descriptor, {1, trigger})] = 0;
+        state.presses.resize(descriptor.fields.size());
+        state.raw[field(descriptor, usage)] = raw;
+        if (usage.page == 9)
+            state.presses[field(descriptor, usage)] = {raw};
+        Controls controls;
+        Mapping(descriptor, profile).add(state, 0, 0.1, controls);
+        return controls;
+    };
+    const Profile left = left_handed(right);
+    for (const auto& [usual, mirrored] : {std::pair<std::uint16_t, std::uint16_t>{48, 50}, {49, 53}, {52, 51}})
+        for (const std::int64_t raw : {0, 40, 255}) {
+            const Controls by_right = does(right, {1, usual}, raw), by_left = does(left, {1, mirrored}, raw);
+            EXPECT_EQ(by_right.turn, by_left.turn) << usual;
+            EXPECT_EQ(by_right.throttle_rate, by_left.throttle_rate) << usual;
+            EXPECT_EQ(by_right.look_rad, by_left.look_rad) << usual;
+            const Controls looked = does(right, {1, mirrored}, raw), by_other = does(left, {1, usual}, raw);
+            EXPECT_EQ(looked.look_rad, by_other.look_rad) << mirrored;
+            EXPECT_EQ(looked.throttle_rate, by_other.throttle_rate) << mirrored;
+        }
+    EXPECT_EQ(does(left, {1, 50}, 255).turn, glm::dvec3(0, -1, 0));
+    EXPECT_EQ(does(left, {1, 53}, 255).turn, glm::dvec3(1, 0, 0)) << "pulled back, the nose goes up";
+    EXPECT_TRUE(does(right, {9, 5}, 1).look_ahead);
+    EXPECT_TRUE(does(left, {9, 6}, 1).look_ahead);
+    EXPECT_TRUE(does(left, {9, 5}, 1).aberration);
+    EXPECT_TRUE(does(left, {9, 2}, 1).stop) << "the other buttons stay";
+    EXPECT_TRUE(does(left, {9, 2}, 1).held);
+    EXPECT_FALSE(does(left, {9, 2}, 0).held);
+    const Profile again = left_handed(left);
+    EXPECT_EQ(again.axes, right.axes);
+    EXPECT_EQ(again.buttons, right.buttons);
+}
+
+TEST(ProfileTest, AStickWithoutASecondOneStaysAsItIsForALeftHand)
+{
+    const Profile stick = load_profile(source_dir() / "config/profiles/thrustmaster-t16000m.json");
+    EXPECT_EQ(left_handed(stick).axes, stick.axes);
+    EXPECT_EQ(left_handed(stick).buttons, stick.buttons);
+}
+
 TEST(ProfileTest, AxesHaveDeadZonesCurvesAndDetents)
 {
     const Field stick{.bits = 16, .logical_min = 0, .logical_max = 1000};
@@ -228,6 +276,8 @@ TEST(ProfileTest, WrongProfilesAreRefused)
              {R"(, "axes": [{ "usage": 48, "role": "none", "dead_zone": 0.9 }])", "/axes/0/dead_zone: 0.9 is too large"},
              {R"(, "axes": [{ "usage": 48, "role": "none", "range": [0, 9, 5] }])", "not between its ends"},
              {R"(, "buttons": [{ "button": 0, "role": "stop" }])", "/buttons/0/button: 0 is too small"},
+             {R"(, "mirrored_buttons": [[5]])", "/mirrored_buttons/0"},
+             {R"(, "mirrored_buttons": [[5, 0]])", "/mirrored_buttons/0/1: 0 is too small"},
              {R"(, "hat": { "z": "none" })", "/hat/z"}})
         EXPECT_NE(result_of(head + more + "}").find(problem), std::string::npos) << result_of(head + more + "}");
     EXPECT_NE(result_of(R"({ "name": "a", "vendor": "44f", "product": "b10a" })").find("four hexadecimal digits"),
@@ -245,6 +295,7 @@ TEST(ProfileTest, WrittenProfilesReadBackTheSame)
     full.axes = {{2, 0xbb, 3, AxisRole::throttle, true, 0.123, 2.5, std::array{4294967295.0, 0.5, -2147483648.0}, {0.1, 1}},
         {1, 0x30, 0, AxisRole::none, false, 0, 1, std::array{-0.25, 1.0 / 3, 1e9}}};
     full.buttons = {{128, ButtonRole::darker}, {1, ButtonRole::none}};
+    full.mirrored_buttons = {{1, 128}, {7, 8}};
     full.hat_y = AxisRole::push_back;
     all.push_back(full);
     Profile bare;
@@ -262,6 +313,7 @@ TEST(ProfileTest, WrittenProfilesReadBackTheSame)
         EXPECT_EQ(back.serial, profile.serial);
         EXPECT_EQ(back.axes, profile.axes);
         EXPECT_EQ(back.buttons, profile.buttons);
+        EXPECT_EQ(back.mirrored_buttons, profile.mirrored_buttons);
         EXPECT_EQ(back.hat_x, profile.hat_x);
         EXPECT_EQ(back.hat_y, profile.hat_y);
     }

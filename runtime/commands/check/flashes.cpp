@@ -227,7 +227,8 @@ int measure_record(const FlashOptions& options)
         std::filesystem::path(options.film).stem().string(), from.scene, seen_layout(from.layout, pixel_deg * degree)};
     const Words words = words_in("en");
     return measure(options, film, [&](OffscreenRenderer& renderer, const SceneFile& scene, const auto& take) {
-        ReplayRenderer pictures(renderer, pattern_named(header.pattern), header.exposing, header.start.exposure_ev);
+        ReplayRenderer pictures(
+            renderer, pattern_named(header.pattern), header.exposing, header.start.exposure_ev, header.rules.comfort);
         const Typesetter typesetter;
         Progress progress;
         long frame = 0;

@@ -54,7 +54,7 @@ int render_replay(const ReplayOptions& options)
     const SceneFile& scene = context.world.scene;
     OffscreenRenderer renderer(
         context.device, context.pipelines, context.world, from.layout, default_quality(context.device, true), false);
-    ReplayRenderer replay_renderer(renderer, pattern, header.exposing, header.start.exposure_ev);
+    ReplayRenderer replay_renderer(renderer, pattern, header.exposing, header.start.exposure_ev, header.rules.comfort);
     Typesetter typesetter;
     const Words words = words_in(options.language);
     std::error_code error; // write_png reports it

@@ -67,6 +67,7 @@ void SeededVisitor::press_keys(Controls& controls, double dt_s)
     controls.turn = turn_, controls.push = push_;
     controls.throttle_rate = std::clamp(lever_, -1.0, 1.0);
     controls.look_rad = glm::dvec2(uniform(-0.05, 0.05), uniform(-0.05, 0.05));
+    controls.pressed = controls.held = chance(dt_s / held_key_s);
     controls.exposure = chance(0.1) ? uniform(-1, 1) : 0;
 }
 
