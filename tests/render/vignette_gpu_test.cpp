@@ -54,7 +54,7 @@ void expect_darkened(const Layout& layout, const Vignette& vignette, double part
             const double part_lost = lost(between(*n, dvec3(0, std::sin(up), -std::cos(up))) / degree, vignette, part);
             for (std::size_t k = at; k < at + 3; ++k)
                 worst = std::max(worst, std::abs(encoded(decoded(usual[k]) * (1 - part_lost)) - dark[k]));
-            darker += part_lost > 0.5;
+            darker += part_lost > 0.5 * part * vignette.darkness;
             same += part_lost == 0;
         }
     EXPECT_LE(worst, codes);
