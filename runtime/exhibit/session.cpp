@@ -44,7 +44,7 @@ void scan(Session& session, Controls& controls, std::int64_t dt_ns)
     const AnyButton button{.pressed = controls.pressed && !other, .held = controls.held};
     hold(controls);
     controls.lever.reset();
-    controls.hud = false;
+    controls.hud = controls.information = controls.beside = false;
     Steering& steering = controls;
     const OneButton rules = session.options.one_button.value_or(OneButton());
     if (session.menu.open) {
