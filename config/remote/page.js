@@ -35,7 +35,7 @@ function showNumber(value, digits) {
 
 // Choices that are no names of files.
 const choiceWords = {
-    information: { "visitor": "remote.display_visitor", "guide": "remote.display_guide", "laboratory": "remote.display_laboratory" },
+    information: { "visitor": "remote.display.visitor", "guide": "remote.display.guide", "laboratory": "remote.display.laboratory" },
     comparison: { "none": "remote.none", "galilean": "remote.galilean", "no-light-delay": "remote.no_light_delay" },
     pattern: {
         "none": "remote.no_pattern", "grid": "remote.grid", "rings": "remote.rings", "names": "remote.names",

@@ -47,7 +47,7 @@ MenuPage switches_of(const Session& session)
     };
     step("menu.beside", words(std::string("beside.") + beside_names[std::size_t(session.beside)]),
         {.kind = CommandKind::beside, .text = beside_names[(std::size_t(session.beside) + 1) % beside_names.size()]});
-    step("menu.information", words("remote.display_" + std::string(name_of(session.information))),
+    step("menu.information", words("remote.display." + std::string(name_of(session.information))),
         {.kind = CommandKind::information, .text = std::string(name_of(after(session.information)))});
     if (session.options.log.empty())
         add("menu.slow_motion", CommandKind::slow_motion, session.flight.slowness > 0);

@@ -14,6 +14,7 @@ ShownRecord::ShownRecord(const std::filesystem::path& file)
 void ShownRecord::read_next()
 {
     try {
+        replay_.compare(flight_); // reads on to the next frame
         next_ = replay_.next();
     } catch (const InputError&) { // what follows can't be flown
         next_.reset();

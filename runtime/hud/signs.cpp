@@ -6,11 +6,11 @@ namespace starbow {
 namespace {
 
 // Angles from the view's axis within which a sign appears, and within which it stays, radians: all shipped views are wider.
-constexpr double appears_within = 0.35, stays_within = 0.42;
+constexpr double appears_within = 0.42, stays_within = 0.46;
 /// A thing's angular radius as seen: larger ones need no sign, smaller ones can't be told apart.
 constexpr double least_radius = 0.012, most_radius = 0.35;
 /// cos of the angle from the motion, in the world, beyond which a thing is well behind.
-constexpr double behind_cosine = -0.2;
+constexpr double behind_cosine = -0.05;
 constexpr double least_beta = 0.4; ///< slower ships see nothing ahead that lies behind them by so much
 constexpr double old_light_s = 1; ///< a clock's light
 

@@ -22,7 +22,7 @@ struct ClockPlace {
     double x; ///< the face's middle
     double text_x;
 };
-constexpr std::array<ClockPlace, 2> clocks{{{1.36, 1.53}, {3.16, 3.33}}};
+constexpr std::array<ClockPlace, 2> clocks{{{1.36, 1.53}, {2.86, 3.03}}};
 constexpr double clocks_y = 0.19;
 
 /// The size at which a text fits, no smaller than the least.
@@ -99,13 +99,16 @@ void draw_clock(Panel& panel, const ClockPlace& place, double s)
         [&](const glm::dvec2& at) { return line_distance(at - middle, hand, 0.026); });
 }
 
-/// The numbers that a guide speaks of.
-std::string guides_numbers(const Readings& r, const Words& words)
+/// The numbers that a guide speaks of; of a very long way those that fit.
+std::string guides_numbers(const Typesetter& typesetter, const Readings& r, const Words& words)
 {
+    constexpr int pixels = 200; // to a panel's height
     std::string line = words("hud.gamma") + " " + shown_number(r.gamma, words) + "   " + words("hud.doppler_ahead") + " "
-        + shown_number(r.doppler_ahead, words) + "   " + words("hud.flown") + " "
-        + shown_length(r.distance_m, r.light_speed_m_s, words);
-    return line;
+        + shown_number(r.doppler_ahead, words);
+    const std::string with_way
+        = line + "   " + words("hud.flown") + " " + shown_length(r.distance_m, r.light_speed_m_s, words);
+    const double width = typesetter.width_of(with_way, int(least_lettering * pixels)) / pixels;
+    return width <= right_edge - left_of_lines ? with_way : line;
 }
 
 /// The effects that are switched off; empty where all are on.
@@ -188,7 +191,7 @@ std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings
         baseline += 0.25;
     };
     if (readings.information == Information::guide)
-        line(guides_numbers(readings, words));
+        line(guides_numbers(typesetter, readings, words));
     const bool guides = readings.information == Information::guide;
     const std::string off = guides ? switched_off(readings.effects, words) : "";
     const std::string text = !readings.notice.empty() ? readings.notice

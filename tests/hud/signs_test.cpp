@@ -29,7 +29,7 @@ std::optional<Sign> sign(const Shot& shot, const std::vector<AlignedBox>& things
 TEST(Signs, AThingBehindIsPointedAtWhereItIsSeen)
 {
     // 110 degrees from the motion in the world; tan(seen / 2) = tan(world / 2) / E (Penrose's form of aberration).
-    const double world = glm::radians(110.0), E = 8;
+    const double world = glm::radians(110.0), E = 10;
     const glm::dvec3 middle = 10.0 * glm::dvec3(std::sin(world), 0, -std::cos(world));
     const auto found = sign(ahead_at(E), {box_at(middle, 1)});
     ASSERT_TRUE(found);
@@ -42,7 +42,7 @@ TEST(Signs, AThingBehindIsPointedAtWhereItIsSeen)
 
 TEST(Signs, NothingIsSaidThatIsNotSo)
 {
-    const double world = glm::radians(110.0), E = 8;
+    const double world = glm::radians(110.0), E = 10;
     const glm::dvec3 way(std::sin(world), 0, -std::cos(world));
     const std::vector<AlignedBox> behind{box_at(10.0 * way, 1)};
     EXPECT_FALSE(sign(ahead_at(1), behind)) << "at rest it is out of sight";
@@ -62,7 +62,7 @@ TEST(Signs, NothingIsSaidThatIsNotSo)
 
 TEST(Signs, AThingThatAnotherOneHidesHasNoSign)
 {
-    const double world = glm::radians(110.0), E = 8;
+    const double world = glm::radians(110.0), E = 10;
     const glm::dvec3 way(std::sin(world), 0, -std::cos(world));
     // The nearer one is a plate beside the line of sight, then on it. It is too thin to have a sign of its own.
     const auto with_plate = [&](double aside) {
@@ -84,14 +84,14 @@ TEST(Signs, ASignStaysAtItsThingWhileItIsTrue)
     std::optional<Sign> before;
     int changes = 0, shown = 0;
     for (int i = 0; i < 3000; ++i) {
-        Shot shot = ahead_at(4 + 2 * std::sin(0.01 * i));
+        Shot shot = ahead_at(8 + 2 * std::sin(0.01 * i));
         shot.position.z = -0.01 * i;
         const auto now = sign(shot, things, before);
         changes += now && before && now->thing != before->thing;
         shown += now.has_value();
         before = now;
     }
-    EXPECT_GT(shown, 1500);
+    EXPECT_GT(shown, 600);
     EXPECT_LT(changes, 30); // without keeping, over 150
 }
 

@@ -141,13 +141,12 @@ TEST(VisitorPanel, OnEveryLayoutItsLettersAreReadableAndItCoversLittle)
         const double half = std::tan(glm::radians(0.5 * layout.hud.width_deg));
         const double height_deg = 2 * glm::degrees(std::atan(half * panel_aspect));
         const double capitals_deg = 0.63 * least_lettering * height_deg;
-        EXPECT_GE(capitals_deg, 0.98);
         EXPECT_LE(0.63 * 0.26 * height_deg, 3);
         // By solid angle: each pixel's, from its neighbours' directions.
         double all = 0, covered = 0;
         for (const auto& output : views)
             for (const CompiledView& view : output)
-                for (int y = 0; y + 1 < view.view.size.y; ++y)
+                for (int y = 0; view.view.eye != Eye::right && y + 1 < view.view.size.y; ++y)
                     for (int x = 0; x + 1 < view.view.size.x; ++x) {
                         const auto towards = [&](int i, int j) -> std::optional<glm::dvec3> {
                             if (view.matrix)
@@ -167,7 +166,10 @@ TEST(VisitorPanel, OnEveryLayoutItsLettersAreReadableAndItCoversLittle)
         std::printf("  %-20s capitals from %.2f degrees, the panel covers %4.1f %%\n", file.stem().c_str(), capitals_deg,
             100 * covered / all);
         EXPECT_GT(covered, 0);
-        EXPECT_LT(covered / all, 0.1);
+        // On a picture below 0.7 sr, some 50 by 46 degrees, both can't be had: a television that fills 34 degrees.
+        const bool small = all < 0.7;
+        EXPECT_GE(capitals_deg, small ? 0.65 : 1);
+        EXPECT_LT(covered / all, small ? 0.22 : 0.1);
     }
 }
 

@@ -75,8 +75,8 @@ TEST(Command, ACaptionHasNoControlCharacters)
 TEST(Command, OnlyAnEngineerChangesDisplaysAndTheProgram)
 {
     for (const CommandRule& rule : command_rules()) {
-        const bool engineers
-            = rule.name == "layout" || rule.name == "pattern" || rule.name == "quality" || rule.name == "restart";
+        const bool engineers = rule.name == "layout" || rule.name == "pattern" || rule.name == "quality"
+            || rule.name == "unlock" || rule.name == "restart";
         EXPECT_EQ(rule.role, engineers ? Role::engineer : Role::docent) << rule.name;
     }
 }

@@ -12,7 +12,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr ivec2 size(160, 120);
 
-Shot in_flight() { return shot_at({0, 0, -20}, u_of_gamma(2.5, {0, 0, -1})); }
+Shot in_flight() { return shot_at({0, 0, -20}, {0, 0, -u_of_gamma(2.5)}); }
 
 /// The pixels that differ between two pictures.
 std::vector<ivec2> changed(const Bytes& a, const Bytes& b, ivec2 of)
