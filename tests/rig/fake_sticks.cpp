@@ -166,16 +166,23 @@ struct Stick {
         master = slave = -1;
     }
 
-    /// Waits until the program has read everything that was written.
-    void drain() const
+    /// Waits until the number of bytes that the program has still to read is right, at most so many tenths of a
+    /// millisecond.
+    template <class Right> void wait_until(Right right, int most) const
     {
-        for (int i = 0; i < 50'000; ++i) { // a busy machine's frame may take seconds
+        for (int i = 0; i < most; ++i) {
             int waiting = 0;
             ioctl(slave, FIONREAD, &waiting);
-            if (waiting == 0)
+            if (right(waiting))
                 break;
             usleep(100);
         }
+    }
+
+    /// Waits until the program has read everything that was written. A busy machine's frame may take seconds.
+    void drain() const
+    {
+        wait_until([](int waiting) { return waiting == 0; }, 50'000);
     }
 
     /// Sends one report for each read, because a terminal would join two waiting ones.
@@ -184,6 +191,7 @@ struct Stick {
         drain();
         if (write(master, bytes.data(), bytes.size()) != ssize_t(bytes.size()))
             std::perror("fake_sticks: write");
+        wait_until([](int waiting) { return waiting > 0; }, 500); // the kernel's worker hands it on; or it is read already
     }
 };
 
