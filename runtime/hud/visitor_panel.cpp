@@ -203,9 +203,9 @@ std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings
     while (size > least_lettering && lines_of(typesetter, text, size).size() > 2)
         size -= 0.005;
     const std::vector<std::string> wrapped_lines = lines_of(typesetter, text, size);
-    const double pitch = guides ? 0.215 : 0.29;
+    const double pitch = guides ? 0.205 : 0.29;
     if (guides)
-        baseline = wrapped_lines.size() > 1 ? 0.745 : 0.85;
+        baseline = wrapped_lines.size() > 1 ? 0.725 : 0.85;
     else
         baseline = wrapped_lines.size() > 1 ? 0.58 : 0.7;
     for (const std::string& one : wrapped_lines) {
