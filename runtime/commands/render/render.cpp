@@ -144,13 +144,11 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
                            ->check(CLI::IsMember(std::vector<std::string>(why_names.begin(), why_names.end())))
                            ->capture_default_str();
     CLI::Option* hud = command->add_flag("--hud", options->hud, "With the head-up display");
-    std::vector<std::string> displays;
-    for (const auto& [name, information] : informations)
-        displays.emplace_back(name);
+    const std::vector<std::string_view> displays = names_of(informations);
     CLI::Option* information
         = command
               ->add_option("--information", options->information, "The head-up display for a visitor, guide or laboratory")
-              ->check(CLI::IsMember(displays))
+              ->check(CLI::IsMember(std::vector<std::string>(displays.begin(), displays.end())))
               ->needs(hud)
               ->capture_default_str();
     add_language(*command, options->language);
