@@ -90,6 +90,8 @@ int render(const RenderOptions& options)
         Readings shown = readings(ship_at(shot), context.world.scene, shot.effects);
         shown.exposure_ev = shot.exposure_ev;
         shown.information = information_named(options.information);
+        if (shown.information != Information::laboratory) // the shot is the start, where both clocks show 0
+            shown.world_s = 0;
         panel = Typesetter().draw(shown, words, renderer.frame().views().hud_width());
     }
     render_still(options.out, renderer, shot, options.exr, panel ? &*panel : nullptr);
