@@ -1,4 +1,5 @@
 #include "signs.h"
+#include "shaders/physics/physics.h"
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +14,9 @@ constexpr double least_radius = 0.012, most_radius = 0.35;
 constexpr double behind_cosine = -0.05;
 constexpr double least_beta = 0.4; ///< slower ships see nothing ahead that lies behind them by so much
 constexpr double old_light_s = 1; ///< a clock's light
+/// A thing's D over that straight ahead: with the headlight effect light goes with D^3, and a darker thing is not seen
+/// beside the bright middle.
+constexpr double least_D_part = 0.2;
 
 double from_axis(const glm::dvec3& towards) { return std::acos(std::clamp(-towards.z, -1.0, 1.0)); }
 
@@ -74,9 +78,12 @@ Apparent apparent(const Shot& shot, const Thing& thing, double seconds_per_time_
         .light_s = distance * seconds_per_time_unit};
     seen.radius = thing.radius / (distance * ray.D); // aberration makes small things smaller by 1 / D
     const double speed = glm::length(shot.u), beta = speed / std::sqrt(1 + speed * speed);
-    seen.is_true = thing.kind == Sign::Kind::clock
+    const bool coloured = shot.effects.doppler || shot.effects.headlight;
+    const bool is_lit = !coloured || ray.D > least_D_part * physics::exp_rapidity(speed);
+    const bool says_so = thing.kind == Sign::Kind::clock
         ? seen.sign.light_s > old_light_s
         : beta > least_beta && glm::dot(way, shot.u) < behind_cosine * distance * speed;
+    seen.is_true = is_lit && says_so;
     return seen;
 }
 

@@ -11,7 +11,7 @@ constexpr double wide = 1 / panel_aspect, right_edge = wide - 0.12;
 
 // The dial at the left, open below; angles clockwise from straight up, radians.
 constexpr glm::dvec2 dial_middle{0.62, 0.47};
-constexpr double dial_radius = 0.35, dial_width = 0.075;
+constexpr double dial_radius = 0.375, dial_width = 0.055;
 constexpr double dial_end = 0.75 * std::numbers::pi; ///< from -dial_end to dial_end
 
 constexpr double left_of_lines = 1.25, clock_radius = 0.1;
