@@ -32,6 +32,9 @@ std::string shown_number(double x, int decimals, const Words& words);
 std::string shown_duration(double s, const Words& words, int decimals = 1);
 std::string shown_length(double m, double light_speed_m_s, const Words& words);
 
+/// The faintest letters that can be read on a plate before any picture.
+constexpr double faintest_letters = 0.6;
+
 /// Height of the panel over its width.
 constexpr double panel_aspect = 0.2;
 
@@ -77,7 +80,8 @@ public:
     ~Typesetter();
     Panel draw(const Readings& readings, const Words& words, int width) const;
 
-    /// Draws a line (UTF-8) from x on its baseline (pixels), `size` pixels high, at `strength` of full white.
+    /// Draws a line (UTF-8) from x on its baseline (pixels), `size` pixels high, at `strength` of full white: at least
+    /// `faintest_letters` on a plate.
     void write(Panel& panel, const std::string& line, double x, double baseline, int size, double strength) const;
     double width_of(const std::string& line, int size) const;
 

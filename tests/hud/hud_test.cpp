@@ -79,6 +79,42 @@ TEST(Hud, EveryPanelHasLettersInsideItsPlate)
         }
 }
 
+// Each letter's core, the most that its strokes cover, is no fainter than what a contrast of 4.5 to 1 needs.
+TEST(Hud, NoLetterIsTooFaintToRead)
+{
+    Typesetter typesetter;
+    for (const Information information : {Information::visitor, Information::guide, Information::laboratory})
+        for (int kind = 0; kind < 4; ++kind) {
+            Readings shown = at_gamma(4);
+            shown.information = information;
+            if (kind > 0)
+                shown.caption = Caption{.text = "HIIH", .aside = "IHHI"};
+            if (kind > 1)
+                shown.caption->choices = {"HI", "IH", "HH"}, shown.caption->chosen = 1;
+            if (kind > 2)
+                shown.caption->menu = true;
+            const Panel panel = typesetter.draw(shown, starbow::testing::words(), 1200);
+            // A stroke is where some texel is brighter than all around it; letters at this size have full cores.
+            const auto letter = [&](int x, int y) {
+                return int(panel.texels[2 * (std::size_t(y) * std::size_t(panel.size.x) + std::size_t(x))]);
+            };
+            constexpr int reach = 6;
+            int letters = 0;
+            for (int y = reach; y < panel.size.y - reach; ++y)
+                for (int x = panel.size.x / 30; x < panel.size.x - reach; ++x) { // beside the lever's track
+                    if (letter(x, y) < 20)
+                        continue;
+                    int brightest = 0;
+                    for (int j = -reach; j <= reach; ++j)
+                        for (int i = -reach; i <= reach; ++i)
+                            brightest = std::max(brightest, letter(x + i, y + j));
+                    EXPECT_GE(brightest, int(faintest_letters * 255) - 1) << int(information) << kind << ": " << x << ", " << y;
+                    ++letters;
+                }
+            EXPECT_GT(letters, 500);
+        }
+}
+
 TEST(Hud, ADamagedFontIsRefused)
 {
     const std::string whole = read_text(hud_font);

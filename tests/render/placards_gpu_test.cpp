@@ -61,6 +61,35 @@ TEST(Placards, TheSmallPictureIsThatOfItsOwnShot)
     }
 }
 
+// WCAG 2.2, 1.4.3: relative luminances, the lighter and the darker one, each with 0.05 of stray light.
+TEST(Placards, TheFaintestLettersHaveTheirContrastBeforeAnyPicture)
+{
+    OffscreenRenderer whole = renderer(avenue().world, one_view(Planar{60}, size), false);
+    const auto luminance = [](const std::uint8_t* pixel) {
+        const auto linear = [](int code) {
+            const double c = code / 255.0;
+            return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+        };
+        return 0.2126 * linear(pixel[0]) + 0.7152 * linear(pixel[1]) + 0.0722 * linear(pixel[2]);
+    };
+    Panel panel = plate({80, 60}, 8);
+    for (int y = 15; y < 45; ++y)
+        for (int x = 30; x < 50; ++x)
+            panel.texels[2 * (std::size_t(y) * 80 + std::size_t(x))] = std::uint8_t(faintest_letters * 255);
+    const Placard placard{.letters = &panel, .place = {glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, -1), {0.3, 0.225}}};
+    whole.frame().place({&placard, 1});
+    for (const double ev : {40.0, 0.0, -40.0}) {
+        Shot shot = in_flight();
+        shot.exposure_ev = ev;
+        const Bytes picture = whole.picture(shot)[0];
+        const auto at = [&](int x, int y) { return luminance(&picture[4 * (std::size_t(y) * size.x + std::size_t(x))]); };
+        if (ev > 0)
+            EXPECT_EQ(at(4, 4), 1); // it is the brightest picture
+        const double letters = at(80, 60), plate_beside = at(80 - 24, 60);
+        EXPECT_GE((letters + 0.05) / (plate_beside + 0.05), 4.5) << ev << ": " << letters << " on " << plate_beside;
+    }
+}
+
 TEST(Placards, TheArrowEndsAtItsDirection)
 {
     const Typesetter typesetter;
