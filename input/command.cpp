@@ -50,6 +50,15 @@ std::string digits_of(double number)
     return std::string(digits.data(), std::size_t(end - digits.data()));
 }
 
+/// The same as people write it: 1e6.
+std::string plain_digits_of(double number)
+{
+    std::string digits = digits_of(number);
+    if (const std::size_t at = digits.find("e+0"); at != digits.npos)
+        digits.replace(at, 3, "e");
+    return digits;
+}
+
 std::string form_of(const CommandRule& rule)
 {
     const std::string name(rule.name);
@@ -59,8 +68,8 @@ std::string form_of(const CommandRule& rule)
     case Value::on:
         return name + " on or " + name + " off";
     case Value::number:
-        return name + (rule.range.above ? " and a number above " : " and a number from ") + digits_of(rule.range.least)
-            + (rule.range.above ? " up to " : " to ") + digits_of(rule.range.most);
+        return name + (rule.range.above ? " and a number above " : " and a number from ") + plain_digits_of(rule.range.least)
+            + (rule.range.above ? " up to " : " to ") + plain_digits_of(rule.range.most);
     case Value::name:
         return name + " and a name";
     case Value::text:

@@ -167,14 +167,17 @@ void Presenter::note(const Command& command, const std::string& refusal, const W
     pressed_ = true;
 }
 
-void Presenter::give(std::optional<Command> command)
+void Presenter::press(int key)
 {
-    if (command)
+    if (size_.x == 0)
+        return; // nothing is shown yet that could be meant
+    if (std::optional<Command> command = starbow::press(sheet_, hands_, key)) {
+        state_ = foreseen(std::move(state_), *command);
         given_.push_back(std::move(*command));
+    }
+    sheet_ = sheet_of(state_, hands_, words_); // the next key may come before the next picture
     pressed_ = true;
 }
-
-void Presenter::press(int key) { give(starbow::press(sheet_, hands_, key)); }
 
 void Presenter::click(glm::ivec2 at)
 {
@@ -209,13 +212,15 @@ bool Presenter::wants_view()
 
 void Presenter::paint(const Session& session, glm::ivec2 size, bool blue_first)
 {
-    PresenterState state = state_of(session);
-    state.said = said_, state.refused = refused_;
-    state.scenes = titled(session.words, "scene", scenes_), state.tours = titled(session.words, "tour", tours_);
+    state_ = state_of(session);
+    if (words_.language != session.words.language)
+        words_ = session.words;
+    state_.said = said_, state_.refused = refused_;
+    state_.scenes = titled(session.words, "scene", scenes_), state_.tours = titled(session.words, "tour", tours_);
     for (const std::string& name : shots_)
-        state.shots.emplace_back(name, name);
-    state.languages = languages_;
-    sheet_ = sheet_of(state, hands_, session.words);
+        state_.shots.emplace_back(name, name);
+    state_.languages = languages_;
+    sheet_ = sheet_of(state_, hands_, words_);
     size_ = size;
     PresenterPainter::Order& order = painter_->next();
     order.sheet = sheet_, order.view = view_, order.size = size, order.blue_first = blue_first;

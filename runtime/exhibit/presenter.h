@@ -74,12 +74,12 @@ public:
     std::optional<WindowPlace> kept_place{}; ///< of the window before the loss of a device
 
 private:
-    void give(std::optional<Command> command);
-
     std::unique_ptr<PresenterPainter> painter_; ///< null without a guide's window
     bool closed_ = false;
     PresenterHands hands_{};
-    PresenterSheet sheet_; ///< as last painted
+    PresenterState state_; ///< as last painted, and after the commands since
+    PresenterSheet sheet_; ///< of it
+    Words words_; ///< the exhibit's
     glm::ivec2 size_{0}; ///< the window's, then
     std::vector<Command> given_;
     std::string said_;

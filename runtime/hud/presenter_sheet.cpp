@@ -235,6 +235,47 @@ std::optional<Command> press(const PresenterSheet& sheet, PresenterHands& hands,
     return {};
 }
 
+PresenterState foreseen(PresenterState state, const Command& command)
+{
+    switch (command.kind) {
+    case Order::fade:
+        state.fade = command.on;
+        break;
+    case Order::hold:
+        state.hold = command.on;
+        break;
+    case Order::pause:
+        state.paused = command.on;
+        break;
+    case Order::aberration:
+        state.effects.aberration = command.on;
+        break;
+    case Order::doppler:
+        state.effects.doppler = command.on;
+        break;
+    case Order::headlight:
+        state.effects.headlight = command.on;
+        break;
+    case Order::false_colours:
+        state.effects.false_colours = command.on;
+        break;
+    case Order::slow_motion:
+        state.slow_motion = command.on;
+        break;
+    case Order::comparison:
+        for (std::size_t i = 0; i < comparison_names.size(); ++i)
+            if (comparison_names[i] == command.text)
+                state.effects.comparison = Comparison(i);
+        break;
+    case Order::exposure:
+        state.exposure_ev = command.number;
+        break;
+    default:
+        break; // its key gives the same command again
+    }
+    return state;
+}
+
 void type(PresenterHands& hands, char32_t c)
 {
     if (!hands.typed || c < 32 || c == 127 || c > 0x10ffff)

@@ -94,6 +94,8 @@ PresenterSheet sheet_of(const PresenterState& state, const PresenterHands& hands
 
 /// A key of the sheet, or one that types; nothing happens at any other. Returns the command that it gives.
 std::optional<Command> press(const PresenterSheet& sheet, PresenterHands& hands, int key);
+/// The state that a command will lead to, as far as keys depend on it: a second press may come before the first one's frame.
+PresenterState foreseen(PresenterState state, const Command& command);
 /// A character that is typed into a caption.
 void type(PresenterHands& hands, char32_t character);
 

@@ -37,18 +37,18 @@ at_guides() { xdotool windowfocus "$guide"; for key in "$@"; do xdotool key "$ke
 at_visitors() { xdotool windowfocus "$visitors"; for key in "$@"; do xdotool key "$key"; sleep 0.1; done; }
 
 # Keys in the guide's window are commands, and W does not steer there.
-at_guides h && is hold true
+at_guides h && is hold on
 at_guides w && is gamma 1
-at_guides h && is hold false
-at_guides b && is fade true
-at_guides b && is fade false
-at_guides d && is doppler false
+at_guides h && is hold off
+at_guides b && is fade on
+at_guides b && is fade off
+at_guides d && is doppler off
 at_guides Up Up && is exposure 1
 ok
 # In the visitors' window they are none.
 at_visitors h h b w
 sleep 1
-is hold false && is fade false
+is hold off && is fade off
 ok
 # Scenes, tours and their steps, a limit, a caption.
 at_guides w 4 && is scene clocks 60
@@ -56,11 +56,11 @@ at_guides t 2 && is tour rainbow 60 && is step 1
 at_guides Right && is step 2
 at_guides Next && is step 3
 at_guides Left && is step 2
-at_guides p && is paused true
-at_guides p && is paused false
+at_guides p && is paused on
+at_guides p && is paused off
 at_guides g 2 && is max-gamma 2.2942
 at_guides k && xdotool type 'Hi h' && xdotool key Return
-is caption 'Hi h' && is hold false
+is caption 'Hi h' && is hold off
 at_guides l 1 && is language de
 at_guides l 2 && is language en
 ok
@@ -69,10 +69,10 @@ click() { # OF 1280 x 800 pixels
     eval "$(xdotool getwindowgeometry --shell "$guide" | grep -E 'X|Y|WIDTH|HEIGHT')"
     xdotool mousemove $((X + $1 * WIDTH / 1280)) $((Y + $2 * HEIGHT / 800)) click 1
 }
-click 730 530 && is hold true
+click 730 530 && is hold on
 xdotool windowsize "$guide" 900 620
 sleep 1
-click 730 530 && is hold false
+click 730 530 && is hold off
 until_true 20 drawn || fail "no picture after a change of the size"
 ok
 

@@ -150,6 +150,26 @@ TEST(Presenter, KeysGiveTheCommandsThatTheyName)
     EXPECT_EQ(after(state, hands, {'X'}), std::nullopt);
 }
 
+TEST(Presenter, ASecondPressWithinAFrameGoesOnFromTheFirst)
+{
+    PresenterState state = some_state();
+    state.effects.headlight = false;
+    PresenterHands hands;
+    const auto twice = [&](int key) {
+        const std::optional<Command> first = after(state, hands, {key});
+        return after(foreseen(state, first.value()), hands, {key}).value();
+    };
+    using enum CommandKind;
+    for (const auto& [key, kind] :
+        {std::pair{'H', hold}, {'B', fade}, {'P', pause}, {'E', headlight}, {'F', false_colours}, {'S', slow_motion}})
+        EXPECT_EQ(twice(key), on(kind, false));
+    for (const auto& [key, kind] : {std::pair{'A', aberration}, {'D', doppler}}) // they are on
+        EXPECT_EQ(twice(key), on(kind));
+    EXPECT_EQ(twice('C'), (Command{.kind = comparison, .text = "no-light-delay"}));
+    EXPECT_EQ(twice(presenter_keys::up), (Command{.kind = exposure, .number = 1}));
+    EXPECT_EQ(twice(presenter_keys::right), Command{.kind = next});
+}
+
 TEST(Presenter, EveryGivenCommandIsOneThatARecordReadsBack)
 {
     const PresenterState state = some_state();
