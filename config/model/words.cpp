@@ -346,6 +346,7 @@ const std::vector<Known> known{
     {"presenter.tours"},
     {"presenter.views"},
     {"presenter.more"},
+    {"presenter.beside"},
     {"presenter.freeze"},
     {"presenter.brighter"},
     {"presenter.darker"},

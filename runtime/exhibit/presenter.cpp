@@ -73,6 +73,8 @@ PresenterState state_of(const Session& session)
     state.effects = session.flight.effects, state.slow_motion = session.flight.slowness > 0;
     const double rapidity = rapidity_of(session.flight.ship);
     state.speed = std::tanh(rapidity), state.gamma = std::cosh(rapidity), state.max_gamma = session.rules.max_gamma;
+    state.beside = session.beside, state.information = session.information;
+    state.one_button = session.one_button, state.left_handed = session.left_handed;
     state.exposure_ev = session.directions.exposure_ev;
     state.caption = session.directions.caption;
     return state;

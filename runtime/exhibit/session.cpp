@@ -25,11 +25,11 @@ RecordReplay record_replay_of(const ExhibitOptions& options, const Flying& rules
         options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
 }
 
-/// A visitor's hands do nothing while a docent holds the exhibit. Devices and the head tracker are read as always. held: the
-/// docent has the stick, and the ship comes to coasting.
-void hold(Controls& controls, bool held)
+/// A visitor's hands do nothing while a docent holds the exhibit. Devices and the head tracker are read as always. taken:
+/// the docent has the stick, and the ship comes to coasting.
+void hold(Controls& controls, bool taken)
 {
-    static_cast<Steering&>(controls) = {.lever = controls.lever, .held = held};
+    static_cast<Steering&>(controls) = {.lever = controls.lever, .taken = taken};
     const Head head = controls.head;
     static_cast<Looking&>(controls) = {};
     controls.head = head;
@@ -43,7 +43,7 @@ void scan(Session& session, Controls& controls, std::int64_t dt_ns)
     const bool other = controls.quit || controls.full_screen || controls.pattern || controls.save || controls.choose != 0
         || controls.turn_by != 0;
     const AnyButton button{.pressed = controls.pressed && !other, .held = controls.held};
-    hold(controls);
+    hold(controls, false);
     controls.lever.reset();
     controls.hud = controls.information = controls.beside = false;
     Steering& steering = controls;

@@ -199,10 +199,10 @@ glm::dvec3 steer(Flight& flight, const Steering& controls, const Flying& rules)
 Push pilot(Flight& flight, const Steering& input, const Flying& rules, const SpeedLimits& limits)
 {
     Steering controls = input;
-    if (!input.held)
+    if (!input.taken)
         watch_hands(flight, controls);
     const glm::dvec3 turn = about_cockpit(steer(flight, controls, rules), flight.ship.ship_from_cockpit, rules.comfort);
-    if (input.held)
+    if (input.taken)
         return let_coast(flight, turn, rules, limits);
     if (flight.coasting)
         return {.turn = turn};

@@ -201,7 +201,7 @@ PresenterPlaces places_of(const PresenterSheet& sheet, glm::ivec2 size)
     const auto box = [](double x, double y, double w, double h) {
         return PresenterBox{{int(x), int(y)}, {std::max(0, int(w)), std::max(0, int(h))}};
     };
-    constexpr int columns = 6;
+    constexpr int columns = 5;
     const std::size_t count = sheet.keys.size(), rest = count % columns;
     const double keys_top = 0.635 * height, upper = 0.565 * height, // the end of what stands above the line about commands
         left = 0.31 * width, list = 0.25 * width;

@@ -120,6 +120,12 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
         return Command{
             .kind = Order::exposure, .number = std::clamp(steps * exposure_step_ev, -most_exposure_ev, most_exposure_ev)};
     };
+    const auto step = [&](int key, const char* label, Command command, std::string state_text, bool on) -> PresenterKey& {
+        const char name[]{char(key), 0};
+        PresenterKey& added = deed(key, name, label, std::move(command));
+        added.state = std::move(state_text), added.on = on;
+        return added;
+    };
     const bool toured = !state.cues.empty();
     PresenterKey& back = deed(left, "←", "remote.back", Command{.kind = Order::back});
     back.also = page_up, back.usable = toured;
@@ -128,7 +134,12 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
     toggle('P', toured ? "remote.pause" : "presenter.freeze", Order::pause, state.paused);
     toggle('H', "remote.hold", Order::hold, state.hold);
     toggle('B', "remote.fade", Order::fade, state.fade);
+
     deed(space, words("presenter.space").c_str(), "remote.stop", Command{.kind = Order::stop});
+    deed('R', "R", "remote.reset", Command{.kind = Order::reset});
+    list('W', "presenter.worlds", PresenterList::worlds);
+    list('T', "presenter.tours", PresenterList::tours);
+    list('V', "presenter.views", PresenterList::views);
 
     for (const auto& [key, label, kind, on] :
         {std::tuple{'A', "remote.aberration", Order::aberration, state.effects.aberration},
@@ -137,19 +148,22 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
             {'F', "remote.false_colours", Order::false_colours, state.effects.false_colours},
             {'S', "remote.slow_motion", Order::slow_motion, state.slow_motion}})
         toggle(key, label, kind, on).usable = state.own_effects;
-    constexpr const char* texts[]{"remote.none", "remote.galilean", "remote.no_light_delay"};
-    const std::size_t shown = std::size_t(state.effects.comparison), after = (shown + 1) % comparison_names.size();
-    PresenterKey& comparison = deed(
-        'C', "C", "remote.comparison", Command{.kind = Order::comparison, .text = std::string(comparison_names[after])});
-    comparison.state = words(texts[shown]), comparison.on = shown > 0, comparison.usable = state.own_effects;
 
-    list('W', "presenter.worlds", PresenterList::worlds);
-    list('T', "presenter.tours", PresenterList::tours);
-    list('V', "presenter.views", PresenterList::views);
-    list('G', "remote.speed_limit", PresenterList::limits).state = limit_text(state.max_gamma, words);
+    constexpr const char* comparisons[]{"remote.none", "remote.galilean", "remote.no_light_delay"};
+    const std::size_t compared = std::size_t(state.effects.comparison), beside = std::size_t(state.beside);
+    step('C', "remote.comparison",
+        {.kind = Order::comparison, .text = std::string(comparison_names[(compared + 1) % comparison_names.size()])},
+        words(comparisons[compared]), compared > 0)
+        .usable
+        = state.own_effects;
+    step('X', "presenter.beside", {.kind = Order::beside, .text = beside_names[(beside + 1) % beside_names.size()]},
+        words(std::string("beside.") + beside_names[beside]), beside > 0);
+    step('I', "remote.information", {.kind = Order::information, .text = std::string(name_of(after(state.information)))},
+        words("remote.display_" + std::string(name_of(state.information))), false);
     deed(down, "↓", "presenter.darker", brighter(-exposure_step_ev)).state = exposure_text(state.exposure_ev, words);
     deed(up, "↑", "presenter.brighter", brighter(exposure_step_ev)).state = exposure_text(state.exposure_ev, words);
 
+    list('G', "remote.speed_limit", PresenterList::limits).state = limit_text(state.max_gamma, words);
     PresenterKey& language = list('L', "remote.language", PresenterList::languages);
     for (const auto& [name, text] : state.languages)
         if (name == state.language)
@@ -157,7 +171,8 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
     PresenterKey& caption = deed('K', "K", "remote.caption", TypeCaption{});
     caption.on = !state.caption.empty();
     caption.state = words(caption.on ? "hud.on" : "hud.off");
-    deed('R', "R", "remote.reset", Command{.kind = Order::reset});
+    toggle('O', "remote.one_button", Order::one_button, state.one_button);
+    toggle('N', "remote.left_handed", Order::left_handed, state.left_handed);
 }
 
 const PresenterKey* key_found(const std::vector<PresenterKey>& keys, int key)
@@ -261,6 +276,20 @@ PresenterState foreseen(PresenterState state, const Command& command)
         break;
     case Order::slow_motion:
         state.slow_motion = command.on;
+        break;
+    case Order::one_button:
+        state.one_button = command.on;
+        break;
+    case Order::left_handed:
+        state.left_handed = command.on;
+        break;
+    case Order::beside:
+        for (std::size_t i = 0; i < beside_names.size(); ++i)
+            if (beside_names[i] == command.text)
+                state.beside = Beside(i);
+        break;
+    case Order::information:
+        state.information = information_named(command.text);
         break;
     case Order::comparison:
         for (std::size_t i = 0; i < comparison_names.size(); ++i)

@@ -1,5 +1,6 @@
 #pragma once
-#include "config/model/shot.h"
+#include "config/model/beside.h"
+#include "config/model/information.h"
 #include "config/model/words.h"
 #include "input/command.h"
 #include <optional>
@@ -29,6 +30,9 @@ struct PresenterState {
     bool fade = false, hold = false, slow_motion = false;
     bool own_effects = true; ///< the flight's effects can be switched; a tour shows its own
     Effects effects{};
+    Beside beside = Beside::none;
+    Information information = Information::visitor;
+    bool one_button = false, left_handed = false;
     double speed = 0, gamma = 1, max_gamma = 1;
     double exposure_ev = 0; ///< the guide's change
     std::string caption; ///< the guide's

@@ -69,10 +69,10 @@ click() { # OF 1280 x 800 pixels
     eval "$(xdotool getwindowgeometry --shell "$guide" | grep -E 'X|Y|WIDTH|HEIGHT')"
     xdotool mousemove $((X + $1 * WIDTH / 1280)) $((Y + $2 * HEIGHT / 800)) click 1
 }
-click 730 530 && is hold on
+click 890 535 && is hold on
 xdotool windowsize "$guide" 900 620
 sleep 1
-click 730 530 && is hold off
+click 890 535 && is hold off
 until_true 20 drawn || fail "no picture after a change of the size"
 ok
 

@@ -37,7 +37,7 @@ TEST(Held, TheShipComesToCoastingWithinTheLimitsThatAreFelt)
     for (const FlightMode mode : {FlightMode::guided, FlightMode::free, FlightMode::newtonian}) {
         const Flying rules = soft(mode);
         const Controls hand = controls_with(Steering{.lever = 0.8, .turn = {0.5, 1, 0.7}}),
-                       held = controls_with(Steering{.lever = 0.8, .held = true});
+                       held = controls_with(Steering{.lever = 0.8, .taken = true});
         Flight flight = fly(flight_at({}, rules), hand, 1500, rules);
         const Flight before = flight;
         ASSERT_GT(glm::length(before.turn_rad_s), 0.1);
@@ -72,7 +72,7 @@ TEST(Held, AThrottleIsLeftOutAfterwardsUntilItIsMoved)
     for (const FlightMode mode : {FlightMode::guided, FlightMode::newtonian}) {
         const Flying rules = soft(mode);
         Flight flight = fly(flight_at({}, rules), controls_with(Steering{.lever = 0.8}), 2000, rules);
-        flight = fly(flight, controls_with(Steering{.lever = 0.8, .held = true}), 4000, rules);
+        flight = fly(flight, controls_with(Steering{.lever = 0.8, .taken = true}), 4000, rules);
         const double held = rapidity(flight);
         // The visitor has moved it meanwhile: that is no wish either.
         flight = fly(flight, controls_with(Steering{.lever = 0.5}), 3000, rules);
@@ -86,7 +86,7 @@ TEST(Held, KeysGoOnFromTheSpeedThatTheShipHas)
 {
     const Flying rules = soft(FlightMode::guided);
     Flight flight = fly(flight_at({}, rules), controls_with(Steering{.throttle_rate = 4}), 2000, rules);
-    flight = fly(flight, controls_with(Steering{.held = true}), 3000, rules);
+    flight = fly(flight, controls_with(Steering{.taken = true}), 3000, rules);
     const double held = rapidity(flight);
     flight = fly(flight, {}, 3000, rules);
     EXPECT_NEAR(rapidity(flight), held, 1e-3);
@@ -95,7 +95,7 @@ TEST(Held, KeysGoOnFromTheSpeedThatTheShipHas)
 TEST(Held, AShipAtRestStaysAtRest)
 {
     const Flying rules = soft(FlightMode::guided);
-    const Flight flight = fly(flight_at({}, rules), controls_with(Steering{.lever = 0.7, .held = true}), 3000, rules);
+    const Flight flight = fly(flight_at({}, rules), controls_with(Steering{.lever = 0.7, .taken = true}), 3000, rules);
     EXPECT_EQ(rapidity(flight), 0);
 }
 

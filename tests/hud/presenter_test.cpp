@@ -98,7 +98,7 @@ TEST(Presenter, NoKeyMeansTwoThings)
                 EXPECT_TRUE(key.key != 'Y' && key.key != 'Z') << key.label;
                 EXPECT_TRUE(key.key > 255 || key.key == ' ' || key.name == std::string(1, char(key.key))) << key.label;
             }
-        EXPECT_EQ(sheet.keys.size(), 21u);
+        EXPECT_EQ(sheet.keys.size(), 25u);
     }
 }
 
@@ -166,6 +166,10 @@ TEST(Presenter, ASecondPressWithinAFrameGoesOnFromTheFirst)
     for (const auto& [key, kind] : {std::pair{'A', aberration}, {'D', doppler}}) // they are on
         EXPECT_EQ(twice(key), on(kind));
     EXPECT_EQ(twice('C'), (Command{.kind = comparison, .text = "no-light-delay"}));
+    EXPECT_EQ(twice('X'), (Command{.kind = beside, .text = "aberration"}));
+    EXPECT_EQ(twice('I'), (Command{.kind = information, .text = "laboratory"}));
+    EXPECT_EQ(twice('O'), on(one_button, false));
+    EXPECT_EQ(twice('N'), on(left_handed, false));
     EXPECT_EQ(twice(presenter_keys::up), (Command{.kind = exposure, .number = 1}));
     EXPECT_EQ(twice(presenter_keys::right), Command{.kind = next});
 }
