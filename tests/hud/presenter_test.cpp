@@ -147,7 +147,7 @@ TEST(Presenter, KeysGiveTheCommandsThatTheyName)
     EXPECT_EQ(after(state, hands, {'0'}), std::nullopt); // there are no ten tours
     EXPECT_EQ(after(state, hands, {presenter_keys::escape, '0'}), (Command{.kind = scene, .text = state.scenes[9].first}));
     EXPECT_EQ(after(state, hands, {'V', 'M', '1'}), (Command{.kind = shot, .text = state.shots[10].first}));
-    EXPECT_EQ(after(state, hands, {'X'}), std::nullopt);
+    EXPECT_EQ(after(state, hands, {'Q'}), std::nullopt);
 }
 
 TEST(Presenter, ASecondPressWithinAFrameGoesOnFromTheFirst)
