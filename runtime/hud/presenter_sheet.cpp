@@ -150,7 +150,6 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
         toggle(key, label, kind, on).usable = state.own_effects;
 
     constexpr const char* comparisons[]{"remote.none", "remote.galilean", "remote.no_light_delay"};
-    constexpr const char* displays[]{"remote.display_visitor", "remote.display_guide", "remote.display_laboratory"};
     const std::size_t compared = std::size_t(state.effects.comparison), beside = std::size_t(state.beside);
     step('C', "remote.comparison",
         {.kind = Order::comparison, .text = std::string(comparison_names[(compared + 1) % comparison_names.size()])},
@@ -160,7 +159,7 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
     step('X', "presenter.beside", {.kind = Order::beside, .text = beside_names[(beside + 1) % beside_names.size()]},
         words(std::string("beside.") + beside_names[beside]), beside > 0);
     step('I', "remote.information", {.kind = Order::information, .text = std::string(name_of(after(state.information)))},
-        words(displays[std::size_t(state.information)]), false);
+        words("remote.display." + std::string(name_of(state.information))), false);
     deed(down, "↓", "presenter.darker", brighter(-exposure_step_ev)).state = exposure_text(state.exposure_ev, words);
     deed(up, "↑", "presenter.brighter", brighter(exposure_step_ev)).state = exposure_text(state.exposure_ev, words);
 

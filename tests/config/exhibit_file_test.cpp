@@ -183,7 +183,7 @@ TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
 
 TEST(ExhibitFileTest, TheGuidesWindowIsAskedForAndMayNameItsMonitor)
 {
-    EXPECT_FALSE(load_exhibit(write_text("none.json", "{}")).presenter);
+    EXPECT_FALSE(load_exhibit(write_text("own.json", "{}")).presenter);
     for (const auto& [text, connector] : {std::pair{R"({ "presenter": {} })", ""},
              {R"({ "presenter": { "monitor": { "connector": "HDMI-1" } } })", "HDMI-1"}}) {
         const Exhibit exhibit = load_exhibit(write_text("presenter.json", text));
