@@ -42,7 +42,7 @@ public:
     /// Adds the controls of all devices. An unplugged device adds none: its axes are neutral from then on.
     void add(double dt_s, Controls& controls);
 
-    /// Whether the devices are a left-handed visitor's, from the next add() on.
+    /// Sets the devices for a left-handed visitor, or for a right-handed one, from the next add() on.
     void left_handed(bool is);
 
     /// A line for the visitors' display while a device is missing, or while a stuck or noisy axis is ignored; otherwise

@@ -106,6 +106,15 @@ std::string one_of(const Place& place, const std::vector<std::string_view>& choi
     complain(place, "is not known here; " + choice(choices) + " is right");
 }
 
+std::size_t index_named(std::string_view name, const std::vector<std::string_view>& names, const std::string& kind)
+{
+    const auto at = std::ranges::find(names, name);
+    if (at == names.end())
+        throw InputError(
+            "the " + kind + " " + one_line(std::string(name), 40) + " is not known; " + choice(names) + " is right");
+    return std::size_t(at - names.begin());
+}
+
 std::vector<Place> items(const Place& place, std::size_t least, std::size_t most, const std::string& what)
 {
     const std::string right = "a list of " + (least == most ? "" : std::to_string(least) + " to ") + std::to_string(most)

@@ -65,12 +65,23 @@ glm::dvec2 vec2(const Place& place, Range range); ///< every component in range
 glm::dvec3 vec3(const Place& place, Range range);
 glm::dvec4 vec4(const Place& place, Range range);
 
-/// The named value of the text at a place.
-template <class Value> Value chosen(const Place& place, const std::vector<std::pair<std::string_view, Value>>& choices)
+/// The index of a name among others, which is none of a file's. kind: the named thing. Throws InputError "the KIND NAME is
+/// not known; A, B or C is right".
+std::size_t index_named(std::string_view name, const std::vector<std::string_view>& names, const std::string& kind);
+
+/// The names of named values.
+template <class Value> std::vector<std::string_view> names_of(const std::vector<std::pair<std::string_view, Value>>& choices)
 {
     std::vector<std::string_view> names;
     for (const auto& choice : choices)
         names.push_back(choice.first);
+    return names;
+}
+
+/// The named value of the text at a place.
+template <class Value> Value chosen(const Place& place, const std::vector<std::pair<std::string_view, Value>>& choices)
+{
+    const std::vector<std::string_view> names = names_of(choices);
     const std::string name = one_of(place, names);
     return choices[std::size_t(std::find(names.begin(), names.end(), name) - names.begin())].second;
 }

@@ -8,6 +8,8 @@ namespace starbow {
 /// that steps through them.
 enum class Beside { none, at_rest, aberration, doppler, headlight };
 constexpr std::array<const char*, 5> beside_names = {"none", "at-rest", "aberration", "doppler", "headlight"};
+inline Beside after(Beside beside) { return Beside((std::size_t(beside) + 1) % beside_names.size()); }
+inline const char* name_of(Beside beside) { return beside_names[std::size_t(beside)]; }
 
 /// The shot of the small picture. start_ev: the exposure of the small picture, EV; headlight alone has the shot's own, as
 /// its light is as bright.

@@ -47,7 +47,7 @@ struct Vignette {
     double darkness = 1; ///< the part of the light that is lost there, in a turn at half of the rules' rate or faster
 };
 
-/// What spares visitors whose whole field of view turns, as under a dome or in a headset.
+/// Rules against motion sickness, for a dome or a headset, where the whole field of view turns.
 struct Comfort {
     bool no_roll = false; ///< the controls' roll does nothing
     bool level_horizon = false; ///< the cockpit's right axis stays at right angles to the ship's y

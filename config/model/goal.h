@@ -1,21 +1,10 @@
 #pragma once
 #include "measure.h"
+#include "saying.h"
 #include <limits>
-#include <map>
-#include <string>
+#include <vector>
 
 namespace starbow {
-
-struct Words;
-
-/// A text of a scene's file: a key of the words that begins with "goal.", or the text itself in some languages.
-struct Saying {
-    std::string key; ///< empty: the texts are here
-    std::map<std::string, std::string> texts; ///< by language
-};
-/// The text in the words' language; where it has none, in English, or in the first that it has. Of a key that the words do
-/// not know, the key.
-std::string said(const Saying& saying, const Words& words);
 
 /// A measure's number is at least `from` and below `below`.
 struct GoalCondition {

@@ -1,23 +1,14 @@
 #include "goal_reader.h"
 #include "measure_reader.h"
-#include "words.h"
 
 namespace starbow {
 namespace {
 
-Saying read_saying(const Place& place)
+Saying read_goal_text(const Place& place)
 {
-    if (place.json->is_string()) {
-        const std::string key = text(place);
-        if (!key.starts_with("goal."))
-            complain(place, "is no text; a key of the words that begins with \"goal.\", or { \"en\": \"...\" } is right");
-        return {.key = key, .texts = {}};
-    }
-    if (!place.json->is_object() || place.json->empty())
+    Saying saying = read_saying(place);
+    if (!saying.key.empty() && !saying.key.starts_with("goal."))
         complain(place, "is no text; a key of the words that begins with \"goal.\", or { \"en\": \"...\" } is right");
-    Saying saying;
-    for (const auto& [language, value] : place.json->items())
-        saying.texts[language] = text(member(place, language));
     return saying;
 }
 
@@ -37,24 +28,13 @@ GoalCondition read_condition(const Place& place)
 
 } // namespace
 
-std::string said(const Saying& saying, const Words& words)
-{
-    if (!saying.key.empty()) {
-        const auto found = words.texts.find(saying.key);
-        return found == words.texts.end() ? saying.key : found->second;
-    }
-    for (const std::string& language : {words.language, std::string("en")})
-        if (const auto found = saying.texts.find(language); found != saying.texts.end())
-            return found->second;
-    return saying.texts.empty() ? "" : saying.texts.begin()->second;
-}
-
 std::vector<Goal> read_goals(const Place& place)
 {
     std::vector<Goal> goals;
     for (const Place& one : items(place, 0, 20, "goals")) {
         reject_unknown_members(one, {"ask", "reward", "conditions"});
-        Goal goal{.ask = read_saying(member(one, "ask")), .reward = read_saying(member(one, "reward")), .conditions = {}};
+        Goal goal{
+            .ask = read_goal_text(member(one, "ask")), .reward = read_goal_text(member(one, "reward")), .conditions = {}};
         for (const Place& condition : items(member(one, "conditions"), 1, 5, "conditions"))
             goal.conditions.push_back(read_condition(condition));
         goals.push_back(std::move(goal));

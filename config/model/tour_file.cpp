@@ -1,5 +1,6 @@
 #include "tour_file.h"
 #include "measure_reader.h"
+#include "saying.h"
 #include "shot_reader.h"
 #include <algorithm>
 #include <cmath>
@@ -18,24 +19,12 @@ struct Reader {
     /// Reads a key of the words, or the text itself in some languages.
     std::string read_text(const Place& place) const
     {
-        if (place.json->is_string()) {
-            const std::string key = text(place);
-            if (const std::string* found = words.tour(key))
-                return *found;
+        const Saying saying = read_saying(place);
+        if (!saying.key.empty() && !words.tour(saying.key))
             complain(place,
                 "is no text in " + words.file.filename().string()
                     + "; a key there that begins with \"tour.\", or { \"en\": \"...\" } is right");
-        }
-        if (!place.json->is_object() || place.json->empty())
-            complain(place, "is no text; a key of the words, or { \"en\": \"...\", \"de\": \"...\" } is right");
-        std::vector<std::string_view> languages;
-        for (const auto& [language, value] : place.json->items())
-            languages.push_back(language);
-        reject_unknown_members(place, languages);
-        if (const auto own = find_member(place, words.language))
-            return text(*own);
-        const auto english = find_member(place, "en");
-        return text(english ? *english : member(place, place.json->begin().key()));
+        return said(saying, words);
     }
 
     /// Throws if a caption has {measured} without a measure, or another placeholder.

@@ -69,7 +69,7 @@ struct Step {
     glm::dvec2 ease_s{0}; ///< durations in which the ship's time starts at the step's beginning and stops at its end
     std::variant<Coast, Cut, Glide, Thrust, Turning, Try> motion;
     std::string caption; ///< or empty
-    std::string description; ///< of the picture, for who cannot see it; or empty
+    std::string description; ///< of the picture, for people who cannot see it; or empty
     std::optional<Measure> measure; ///< the value of {measured} in the caption
     std::optional<Effects> effects; ///< nullopt: as before
     std::optional<double> exposure_ev; ///< reached at once with a cut, else by the step's end; nullopt: as before

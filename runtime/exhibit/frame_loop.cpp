@@ -320,7 +320,7 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
     frame_->meter(session_.options.exposure.automatic);
     frame_->bloom(session_.options.exposure.bloom);
     frame_->fade(glm::smoothstep(0.0, 1.0, session_.black));
-    const bool by_hand = !session_.guide || session_.guide->flies(); // a tour's own motion may roll
+    const bool by_hand = visitor_flies(session_); // a tour's own motion may roll
     const Flight& flight = session_.flight;
     frame_->vignette(session_.rules.comfort.vignette.value_or(Vignette()), by_hand ? flight.vignette : 0);
     Shot shot = shot_of(flight, session_.programme.start.scene, by_hand ? session_.rules.comfort : Comfort());
@@ -447,7 +447,7 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
     const bool same_tracker = session_.layout.head_tracker == layout.head_tracker;
     std::unique_ptr<HeadTracker> tracker = same_tracker ? nullptr : tracker_of(layout);
     frame_ = renderer(layout, quality_of(session_, device_), std::move(prepared));
-    forget_warm_up();
+    forget_drawn();
     if (!same_tracker)
         session_.tracker = std::move(tracker);
     session_.layout = std::move(layout);

@@ -41,8 +41,8 @@ private:
     void warm_up_at_rest(const Shot& shot);
     /// Null where a viewport is too narrow for a small picture. Throws NoRoom.
     std::unique_ptr<WarmUp> warm_up_in(const Quality& quality);
-    /// Another world, layout or quality: begins the warm-up at rest anew, and the placards.
-    void forget_warm_up() { at_rest_.reset(), rested_ = false, placards_.forget(); }
+    /// Another world, layout or quality: the warm-up at rest and the placards begin anew.
+    void forget_drawn() { at_rest_.reset(), rested_ = false, placards_.forget(); }
     void fit(std::size_t output);
     void watch_sizes(const std::vector<Target>& targets);
     /// Waits for the frame's turn and for the device. Returns the exposure for the frame before, if it was metered.

@@ -69,7 +69,7 @@ void FrameLoop::show_programme(Programme programme, bool visitors)
         session_.service.loads("Loads the world " + programme.scene.filename().string() + ".", loading_limit_s);
         LoadedScene loaded = worlds_.take(programme.scene);
         GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), spectral_level_of(session_)); });
-        forget_warm_up(); // it draws the old world
+        forget_drawn(); // it draws the old world
         std::swap(context_.world, world);
         try {
             frame_ = renderer(session_.layout, quality_of(session_, device_));
@@ -89,7 +89,7 @@ void FrameLoop::show_quality(const std::string& name)
 {
     const Quality quality = load_quality(shipped_file("qualities", name));
     frame_->adopt(within(device_, quality));
-    forget_warm_up();
+    forget_drawn();
     session_.quality = quality, session_.quality_name = name;
     session_.governor.reset();
 }

@@ -5,11 +5,7 @@
 namespace starbow {
 
 /// True while the choices of one-button flying are shown in turn.
-static bool scans(const Session& session)
-{
-    return session.one_button && in_hand(session.visit) && !session.record_replay.replays() && !session.directions.holds
-        && (!session.guide || session.guide->flies());
-}
+static bool scans(const Session& session) { return by_one_button(session) && visitor_flies(session); }
 
 const Panel* HudUpdater::update(const Session& session, const SceneFile& scene, double exposure_ev, int width)
 {
@@ -71,13 +67,15 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
     Readings shown = readings(session.flight.ship, scene, session.flight.effects);
     shown.frames_per_s = rate_;
     shown.information = session.information;
+    if (shown.information != Information::laboratory) // both clocks begin at 0
+        shown.world_s -= session.programme.start.time * scene.seconds_per_time_unit();
     shown.mode = session.flight.mode, shown.frozen = session.flight.frozen, shown.lever = session.flight.lever;
     if (session.guide) {
         shown.prompt = session.guide->prompt(words);
         shown.caption = session.guide->caption(words, capabilities);
     } else if (session.options.tutorial)
         shown.prompt = prompt(session.tutorial, capabilities, words);
-    if (shown.prompt.empty() && !session.guide && session.information != Information::laboratory)
+    if (shown.prompt.empty() && seeks_goals(session))
         shown.prompt = goal_line(session.goals, scene.goals, words);
     if (session.flight.slowness > 0) {
         const double board_s = time_rates[session.flight.slowness];
@@ -94,7 +92,7 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
     if (shows_pins(session))
         shown.caption = Caption{.text = session.pins};
     else if (!session.directions.caption.empty())
-        shown.caption = Caption{.text = session.directions.caption, .flying = !session.guide || session.guide->flies()};
+        shown.caption = Caption{.text = session.directions.caption, .flying = visitor_flies(session)};
     if (shown.caption && !shown.caption->flying)
         shown.lever.reset();
     shown.exposure_ev = exposure_ev, shown.exposure_locked = session.exposure.locked;

@@ -31,39 +31,43 @@ MenuPage languages_of(const Words& words)
     return page;
 }
 
+/// An item that switches something on or off.
+MenuItem switch_of(const Words& words, const char* key, CommandKind kind, bool is_on)
+{
+    return {(is_on ? "☑ " : "☐ ") + words(key), Command{.kind = kind, .on = !is_on}};
+}
+
+/// An item with its present value, which leads to the next one.
+MenuItem next_of(const Words& words, const char* key, const std::string& value, CommandKind kind, std::string_view next)
+{
+    return {words(key) + ": " + words(value), Command{.kind = kind, .text = std::string(next)}};
+}
+
 MenuPage switches_of(const Session& session)
 {
     const Words& words = session.words;
     const Effects& on = session.flight.effects;
-    MenuPage page{.title = words("menu.show"), .items = {}, .stays = true};
-    const auto add = [&](const char* key, CommandKind kind, bool is_on) {
-        page.items.push_back({(is_on ? "☑ " : "☐ ") + words(key), Command{.kind = kind, .on = !is_on}});
-    };
-    add("menu.aberration", CommandKind::aberration, on.aberration);
-    add("menu.doppler", CommandKind::doppler, on.doppler);
-    add("menu.headlight", CommandKind::headlight, on.headlight);
-    const auto step = [&](const char* key, const std::string& value, Command command) {
-        page.items.push_back({words(key) + ": " + value, std::move(command)});
-    };
-    step("menu.beside", words(std::string("beside.") + beside_names[std::size_t(session.beside)]),
-        {.kind = CommandKind::beside, .text = beside_names[(std::size_t(session.beside) + 1) % beside_names.size()]});
-    step("menu.information", words("remote.display." + std::string(name_of(session.information))),
-        {.kind = CommandKind::information, .text = std::string(name_of(after(session.information)))});
+    MenuPage page{.title = words("menu.show"),
+        .items = {switch_of(words, "menu.aberration", CommandKind::aberration, on.aberration),
+            switch_of(words, "menu.doppler", CommandKind::doppler, on.doppler),
+            switch_of(words, "menu.headlight", CommandKind::headlight, on.headlight),
+            next_of(words, "menu.beside", std::string("beside.") + name_of(session.beside), CommandKind::beside,
+                name_of(after(session.beside))),
+            next_of(words, "menu.information", "remote.display." + std::string(name_of(session.information)),
+                CommandKind::information, name_of(after(session.information)))},
+        .stays = true};
     if (session.options.log.empty())
-        add("menu.slow_motion", CommandKind::slow_motion, session.flight.slowness > 0);
+        page.items.push_back(switch_of(words, "menu.slow_motion", CommandKind::slow_motion, session.flight.slowness > 0));
     return page;
 }
 
 MenuPage hands_of(const Session& session)
 {
     const Words& words = session.words;
-    MenuPage page{.title = words("menu.hands"), .items = {}, .stays = true};
-    const auto add = [&](const char* key, CommandKind kind, bool is_on) {
-        page.items.push_back({(is_on ? "☑ " : "☐ ") + words(key), Command{.kind = kind, .on = !is_on}});
-    };
-    add("menu.one_button", CommandKind::one_button, session.one_button);
-    add("menu.left_handed", CommandKind::left_handed, session.left_handed);
-    return page;
+    return {.title = words("menu.hands"),
+        .items = {switch_of(words, "menu.one_button", CommandKind::one_button, session.one_button),
+            switch_of(words, "menu.left_handed", CommandKind::left_handed, session.left_handed)},
+        .stays = true};
 }
 
 } // namespace
@@ -77,11 +81,10 @@ std::string title_of(const Words& words, const std::string& kind, const std::str
 std::vector<MenuPage> menu_of(const Session& session)
 {
     const Words& words = session.words;
-    const bool can_switch = !session.guide || session.guide->flies();
     MenuPage first{.title = words("menu.title"), .items = {}};
     first.items.push_back({words("menu.worlds"), std::size_t(worlds)});
     first.items.push_back({words("menu.tours"), std::size_t(tours)});
-    if (can_switch) // a tour shows its own effects
+    if (visitor_flies(session)) // a tour shows its own effects
         first.items.push_back({words("menu.show"), std::size_t(switches)});
     first.items.push_back({words("menu.hands"), std::size_t(hands)});
     first.items.push_back({words("menu.language"), std::size_t(languages)});
@@ -91,13 +94,13 @@ std::vector<MenuPage> menu_of(const Session& session)
 }
 
 Caption caption_of(const MenuState& menu, std::span<const MenuPage> pages, const Words& words,
-    const InputCapabilities& capabilities, bool by_one_button)
+    const InputCapabilities& capabilities, bool with_one_button)
 {
     const MenuPage& page = pages[menu.page];
     Caption caption{.text = page.title, .chosen = int(menu.item), .menu = true};
     for (const MenuItem& item : page.items)
         caption.choices.push_back(item.text);
-    if (by_one_button)
+    if (with_one_button)
         caption.aside = words("scan.press_in_menu");
     else
         caption.aside = capabilities.stick && capabilities.stop_button > 0 && capabilities.home_button > 0

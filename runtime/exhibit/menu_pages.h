@@ -14,7 +14,7 @@ std::string title_of(const Words& words, const std::string& kind, const std::str
 
 /// The open menu's page as a caption, with the names of the controls at hand.
 Caption caption_of(const MenuState& menu, std::span<const MenuPage> pages, const Words& words,
-    const InputCapabilities& capabilities, bool by_one_button);
+    const InputCapabilities& capabilities, bool with_one_button);
 
 /// The choices of one-button flying as a caption, with the time that is left.
 Caption caption_of(const Scan& scan, const OneButton& rules, const Words& words);

@@ -1,5 +1,5 @@
 #include "obey.h"
-#include "config/json/error.h"
+#include "config/json/reader.h"
 #include "config/model/shipped.h"
 #include "runtime/operation/last_language.h"
 #include <algorithm>
@@ -18,23 +18,6 @@ Flight& flight_of(Session& session)
 }
 
 Effects& effects_of(Session& session) { return flight_of(session).effects; }
-
-void set_comparison(Session& session, const std::string& name)
-{
-    const auto at = std::ranges::find(comparison_names, name);
-    if (at == comparison_names.end())
-        throw InputError("the comparison " + name + " is not known; none, galilean or no-light-delay is right");
-    effects_of(session).comparison = Comparison(at - comparison_names.begin());
-}
-
-Beside beside_named(const std::string& name)
-{
-    const auto at = std::ranges::find(beside_names, name);
-    if (at == beside_names.end())
-        throw InputError(
-            "the small picture " + name + " is not known; none, at-rest, aberration, doppler or headlight is right");
-    return Beside(at - beside_names.begin());
-}
 
 /// The same tour in other words keeps its step and its time.
 void set_words(Session& session, Words words)
@@ -67,7 +50,7 @@ void obey(Session& session, const Command& command, Controls& controls)
         session.directions.fades = command.on;
         break;
     case CommandKind::stop:
-        if (session.guide && !session.guide->flies())
+        if (!visitor_flies(session))
             session.guide->pause(true);
         else
             controls.stop = true;
@@ -79,7 +62,7 @@ void obey(Session& session, const Command& command, Controls& controls)
         step_tour(session, controls.undo);
         break;
     case CommandKind::pause:
-        if (session.guide && !session.guide->flies())
+        if (!visitor_flies(session))
             session.guide->pause(command.on);
         else
             controls.freeze = session.flight.frozen != command.on;
@@ -113,14 +96,15 @@ void obey(Session& session, const Command& command, Controls& controls)
         session.left_handed = command.on;
         break;
     case CommandKind::comparison:
-        set_comparison(session, command.text);
+        effects_of(session).comparison
+            = Comparison(index_named(command.text, {comparison_names.begin(), comparison_names.end()}, "comparison"));
         break;
     case CommandKind::language:
         set_words(session, words_in(command.text));
         keep_language(session.options.state, command.text);
         break;
     case CommandKind::beside:
-        session.beside = beside_named(command.text);
+        session.beside = Beside(index_named(command.text, {beside_names.begin(), beside_names.end()}, "small picture"));
         break;
     case CommandKind::information:
         session.information = information_named(command.text);

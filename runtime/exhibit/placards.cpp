@@ -12,7 +12,7 @@ namespace {
 bool wants_signs(const Session& session)
 {
     return session.information != Information::laboratory && session.flight.hud && !session.menu.open
-        && in_hand(session.visit) && (!session.guide || session.guide->flies());
+        && in_hand(session.visit) && visitor_flies(session);
 }
 
 /// Half the extent of a panel on the plane z = 1.
@@ -46,9 +46,12 @@ void Placards::prepare(vk::CommandBuffer commands, const Session& session, const
     frame.place(placards_);
 }
 
-void Placards::add_sign(const Session& session, const Shot& shot, const GpuWorld& world, const ViewSet& views,
-    double degree_px, const Typesetter& typesetter)
+/// The boxes of the world's things. The rules of a flight with a pace hold them; without one they are read at their first
+/// use.
+std::span<const AlignedBox> Placards::things_in(const Session& session, const GpuWorld& world)
 {
+    if (session.rules.pace)
+        return session.rules.pace->things;
     if (!things_) {
         try {
             things_ = things_at_rest(world.scene);
@@ -56,7 +59,13 @@ void Placards::add_sign(const Session& session, const Shot& shot, const GpuWorld
             things_.emplace();
         }
     }
-    sign_ = sign_for(shot, *things_, world.world, world.scene.seconds_per_time_unit(), sign_);
+    return *things_;
+}
+
+void Placards::add_sign(const Session& session, const Shot& shot, const GpuWorld& world, const ViewSet& views,
+    double degree_px, const Typesetter& typesetter)
+{
+    sign_ = sign_for(shot, things_in(session, world), world.world, world.scene.seconds_per_time_unit(), sign_);
     if (!sign_)
         return;
     std::vector<std::string> lines = lines_of(*sign_, session.words);
@@ -84,7 +93,7 @@ void Placards::add_inset(vk::CommandBuffer commands, const Session& session, con
         }
     }
     inset_->record(commands, beside(shot, session.beside, session.programme.start.exposure_ev));
-    const std::string name = session.words(std::string("beside.") + beside_names[std::size_t(session.beside)]);
+    const std::string name = session.words(std::string("beside.") + name_of(session.beside));
     if (name != name_ || name_panel_.size.x == 0) {
         name_ = name;
         name_panel_ = draw_name(typesetter, name_, degree_px);

@@ -23,6 +23,7 @@ public:
     void forget();
 
 private:
+    std::span<const AlignedBox> things_in(const Session& session, const GpuWorld& world);
     void add_sign(const Session& session, const Shot& shot, const GpuWorld& world, const ViewSet& views, double degree_px,
         const Typesetter& typesetter);
     void add_inset(vk::CommandBuffer commands, const Session& session, const Shot& shot, const GpuWorld& world,
@@ -30,7 +31,7 @@ private:
 
     Device& device_;
     Pipelines& pipelines_;
-    std::optional<std::vector<AlignedBox>> things_; ///< of the world; nullopt: not read yet
+    std::optional<std::vector<AlignedBox>> things_; ///< of a world without a pace; nullopt: not read yet
     std::optional<Sign> sign_;
     std::vector<std::string> sign_lines_;
     Panel sign_panel_, name_panel_;

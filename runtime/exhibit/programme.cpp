@@ -23,8 +23,7 @@ Programme programme_of_shot(const std::string& shot)
 Programme programme_of_record(const std::filesystem::path& record)
 {
     const ShownRecord flown(record);
-    const Replay replay(record);
-    const RecordHeader& header = replay.header();
+    const RecordHeader& header = flown.header();
     return {.scene = find_flown(record, header, "desk", [](LogKind, const std::string&) {}).scene,
         .start = header.start,
         .record = record};

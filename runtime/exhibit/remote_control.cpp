@@ -24,7 +24,7 @@ void describe(const Session& session, Snapshot& out)
     out.pattern = pattern_names[std::size_t(session.alignment.pattern())];
     out.step = session.guide ? int(session.guide->step()) + 1 : 0;
     out.steps = programme.tour ? int(programme.tour->steps.size()) : 0;
-    out.paused = session.guide && !session.guide->flies() ? session.guide->paused() : session.flight.frozen;
+    out.paused = visitor_flies(session) ? session.flight.frozen : session.guide->paused();
     out.fade = session.directions.fades, out.hold = session.directions.holds;
     out.visit = session.options.visiting || knows_visitor(session) ? visit_phase_names[std::size_t(session.visit.phase)]
                                                                    : visit_phase_names[std::size_t(VisitPhase::attract)];

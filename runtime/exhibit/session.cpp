@@ -52,7 +52,7 @@ void scan(Session& session, Controls& controls, std::int64_t dt_ns)
         const std::vector<MenuPage> pages = menu_of(session);
         const std::size_t page = session.menu.page;
         steering = advance_in_menu(session.scan, rules, button, page, pages[page].items.size(), dt_ns);
-    } else if (session.guide && !session.guide->flies()) {
+    } else if (!visitor_flies(session)) {
         session.scan = {};
         steering.home = button.pressed; // the tour's next step
     } else {
@@ -82,6 +82,18 @@ void unlock_builders_keys(Session& session)
 Visiting counted_by(const Programme& programme)
 {
     return {.idle_s = programme.tour ? programme.tour->again_after_s : Visiting().idle_s, .ask_s = 0, .fade_s = 0};
+}
+
+bool visitor_flies(const Session& session) { return !session.guide || session.guide->flies(); }
+
+bool by_one_button(const Session& session)
+{
+    return session.one_button && in_hand(session.visit) && !session.record_replay.replays() && !session.directions.holds;
+}
+
+bool seeks_goals(const Session& session)
+{
+    return session.information != Information::laboratory && in_hand(session.visit) && !session.guide;
 }
 
 bool knows_visitor(const Session& session)
@@ -298,7 +310,7 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     const bool quits = controls.quit;
     if (session.directions.holds || (session.options.visiting && !in_hand(session.visit)))
         hold(controls, session.directions.holds);
-    else if (session.one_button && !session.record_replay.replays())
+    else if (by_one_button(session))
         scan(session, controls, entry.dt_ns);
     if (session.options.exposure.calm)
         controls = session.calm_hands.let_through(controls, dt_s);
@@ -349,14 +361,13 @@ void keep_calm(Session& session, double dt_s)
     session.black = *session.calm_black.value;
     const SlowTurns before = std::exchange(session.calm_ev, {});
     // A tour shows its own exposures; the first view of a world is exposed at once.
-    if ((session.exposure.ev || !session.options.exposure.automatic) && !(session.guide && !session.guide->flies()))
+    if ((session.exposure.ev || !session.options.exposure.automatic) && visitor_flies(session))
         session.calm_ev = calmed_ev(before, ev_of(session), dt_s);
 }
 
 void seek_goals(Session& session, const SceneFile& scene, std::int64_t dt_ns)
 {
-    const bool seeks = session.information != Information::laboratory && in_hand(session.visit) && !session.guide;
-    if (seeks && !session.flight.frozen)
+    if (seeks_goals(session) && !session.flight.frozen)
         session.goals = advance(session.goals, scene.goals, session.flight.ship, ship_at(session.programme.start),
             scene.seconds_per_time_unit(), dt_ns);
 }
@@ -376,7 +387,7 @@ void step(Session& session, RecordEntry& entry, const std::optional<double>& met
     if (controls.information)
         session.information = after(session.information);
     if (controls.beside)
-        session.beside = Beside((std::size_t(session.beside) + 1) % beside_names.size());
+        session.beside = after(session.beside);
     if (session.record_replay.replays())
         session.exposure = adapted_to(session.exposure, entry.exposure_ev, exposing, start.exposure_ev);
     else

@@ -120,6 +120,13 @@ inline double seconds(std::chrono::steady_clock::duration d) { return std::chron
 void unlock_builders_keys(Session& session);
 /// The rules by which visits are counted where somebody else attends to them.
 Visiting counted_by(const Programme& programme);
+/// True where the visitor's controls steer: no tour shows its own motion.
+bool visitor_flies(const Session& session);
+/// True where the choices of one-button flying are the visitor's controls.
+bool by_one_button(const Session& session);
+/// True where the goals of the world are requested of the visitor: in a free flight, on the displays for visitors and
+/// guides.
+bool seeks_goals(const Session& session);
 /// True while somebody's visit goes on.
 bool knows_visitor(const Session& session);
 /// Counts a visit that has ended, from its beginning to its last touch.

@@ -3,55 +3,50 @@
 namespace starbow {
 namespace {
 
-/// Without the sign that leads a goal's line.
-std::string without_sign(const std::string& line)
+bool shows_tour(const Session& session) { return session.guide && !session.guide->over(); }
+
+/// The moment in a tour. It changes when a text shall begin.
+std::string moment_of(const Session& session)
 {
-    const std::size_t space = line.find(' ');
-    return space == line.npos ? line : line.substr(space + 1);
+    return session.programme.tour_name + "/" + std::to_string(session.guide->step()) + (session.guide->answered() ? "a" : "")
+        + "/" + session.words.language;
 }
 
-std::string with_stop(const std::string& text)
+/// A tour's text: sentence after sentence.
+std::string text_of_tour(const Session& session)
 {
-    return text.empty() || text.ends_with('.') || text.ends_with('!') || text.ends_with('?') ? text : text + ".";
+    std::string all;
+    const auto add = [&](const std::string& text) {
+        if (text.empty())
+            return;
+        const bool ends = text.ends_with('.') || text.ends_with('!') || text.ends_with('?');
+        all += (all.empty() ? "" : " ") + text + (ends ? "" : ".");
+    };
+    if (!session.guide->answered())
+        add(session.guide->description());
+    if (const auto caption = session.guide->caption(session.words, session.hid.capabilities())) {
+        add(caption->text);
+        if (caption->right < 0)
+            for (const std::string& choice : caption->choices)
+                add(choice);
+    }
+    return all;
 }
 
 } // namespace
-
-Spoken spoken_now(const Session& session, const SceneFile& scene)
-{
-    const Words& words = session.words;
-    if (session.guide && !session.guide->over()) {
-        const std::optional<Caption> caption = session.guide->caption(words, session.hid.capabilities());
-        Spoken spoken{.moment = session.programme.tour_name + "/" + std::to_string(session.guide->step())
-                + (session.guide->answered() ? "a" : "") + "/" + words.language,
-            .text = session.guide->answered() ? "" : session.guide->description()};
-        const auto add = [&](const std::string& text) {
-            if (!text.empty())
-                spoken.text += (spoken.text.empty() ? "" : " ") + with_stop(text);
-        };
-        if (caption) {
-            add(caption->text);
-            if (caption->right < 0)
-                for (const std::string& choice : caption->choices)
-                    add(choice);
-        }
-        return spoken;
-    }
-    const std::string line = session.information == Information::laboratory || session.guide || !in_hand(session.visit)
-        ? ""
-        : goal_line(session.goals, scene.goals, words);
-    return {.moment = line, .text = line.empty() ? "" : without_sign(line)};
-}
 
 void speak(Session& session, const SceneFile& scene)
 {
     if (!session.speaker)
         return;
-    Spoken now = spoken_now(session, scene);
-    if (now.moment == session.spoken)
+    const bool tour = shows_tour(session);
+    std::string moment = tour  ? moment_of(session)
+        : seeks_goals(session) ? goal_text(session.goals, scene.goals, session.words)
+                               : "";
+    if (moment == session.spoken)
         return;
-    session.speaker->say(now.text, session.words.language);
-    session.spoken = std::move(now.moment);
+    session.speaker->say(tour ? text_of_tour(session) : moment, session.words.language);
+    session.spoken = std::move(moment);
 }
 
 } // namespace starbow

@@ -6,7 +6,7 @@
 
 namespace starbow {
 
-/// Where a level cockpit's nose points, in the ship frame: to the left of -z about y, and up. Radians.
+/// The direction of a level cockpit's nose in the ship frame: heading to the left of -z about y, and pitch up. Radians.
 struct Aim {
     double heading = 0, pitch = 0;
 };

@@ -17,9 +17,9 @@ GoalState advance(GoalState state, std::span<const Goal> goals, const Ship& ship
 {
     if (state.current >= goals.size())
         return state;
-    state.asked_ns += dt_ns;
+    state.phase_ns += dt_ns;
     if (state.reached) {
-        if (state.asked_ns > reward_ns)
+        if (state.phase_ns > reward_ns)
             state = {.current = state.current + 1};
         return state;
     }
@@ -29,16 +29,22 @@ GoalState advance(GoalState state, std::span<const Goal> goals, const Ship& ship
     return state;
 }
 
-std::string goal_line(const GoalState& state, std::span<const Goal> goals, const Words& words)
+std::string goal_text(const GoalState& state, std::span<const Goal> goals, const Words& words)
 {
-    constexpr std::int64_t turn_ns = 24'000'000'000, rests_ns = 6'000'000'000, asks_until_ns = 16'000'000'000;
+    constexpr std::int64_t turn_ns = 24'000'000'000, rests_ns = 6'000'000'000, requests_until_ns = 16'000'000'000;
     if (state.current >= goals.size())
         return {};
     const Goal& goal = goals[state.current];
     if (state.reached)
-        return "★ " + said(goal.reward, words);
-    const std::int64_t at = state.asked_ns % turn_ns; // in between the picture is explained
-    return at >= rests_ns && at < asks_until_ns ? "▸ " + said(goal.ask, words) : "";
+        return said(goal.reward, words);
+    const std::int64_t at = state.phase_ns % turn_ns; // in between the picture is explained
+    return at >= rests_ns && at < requests_until_ns ? said(goal.ask, words) : "";
+}
+
+std::string goal_line(const GoalState& state, std::span<const Goal> goals, const Words& words)
+{
+    const std::string text = goal_text(state, goals, words);
+    return text.empty() ? "" : (state.reached ? "★ " : "▸ ") + text;
 }
 
 } // namespace starbow

@@ -8,9 +8,9 @@ namespace starbow {
 
 /// A visitor's way through a world's goals, one after the other.
 struct GoalState {
-    std::size_t current = 0; ///< index of the goal that is asked for; beyond the last there is none
+    std::size_t current = 0; ///< index of the requested goal; beyond the last none is requested
     std::int64_t held_ns = 0; ///< its conditions have held for so long
-    std::int64_t asked_ns = 0; ///< it has been asked for, or its reward shown, for so long
+    std::int64_t phase_ns = 0; ///< since the request for it began, or since its reward is shown
     bool reached = false; ///< its reward is shown
 };
 
@@ -25,7 +25,9 @@ bool holds(const Goal& goal, const Ship& ship, const Ship& start, double seconds
 GoalState advance(GoalState state, std::span<const Goal> goals, const Ship& ship, const Ship& start,
     double seconds_per_time_unit, std::int64_t dt_ns);
 
-/// The line to show now: a reward, or for some seconds of every half minute the goal; empty otherwise.
+/// The text of now: a reward, or for some seconds of every half minute the goal's request; empty otherwise.
+std::string goal_text(const GoalState& state, std::span<const Goal> goals, const Words& words);
+/// The same as a line of the display, with a sign for a request or a reward before it.
 std::string goal_line(const GoalState& state, std::span<const Goal> goals, const Words& words);
 
 } // namespace starbow

@@ -111,6 +111,13 @@ std::string Replay::verdict() const
     return text;
 }
 
+const Command* exhibits_command(const RecordEntry& entry)
+{
+    const std::vector<Command>& commands = entry.controls.commands;
+    const auto at = std::ranges::find_if_not(commands, changes_hands_alone);
+    return at == commands.end() ? nullptr : &*at;
+}
+
 void fly_again(Replay& replay, const std::function<bool(const RecordEntry&, const Flight&)>& each)
 {
     const RecordHeader& header = replay.header();
@@ -118,9 +125,7 @@ void fly_again(Replay& replay, const std::function<bool(const RecordEntry&, cons
     History history;
     long shown = 0;
     while (const auto entry = replay.next()) {
-        const std::vector<Command>& commands = entry->controls.commands;
-        const auto other = std::ranges::find_if_not(commands, changes_hands_alone);
-        if (other != commands.end())
+        if (const Command* other = exhibits_command(*entry))
             throw InputError(replay.file() + ": frame " + std::to_string(shown) + " has a remote's command, "
                 + one_line(words_of(*other)[0]) + ", that only an exhibit carries out; starbow run --replay is right");
         flight = flown(

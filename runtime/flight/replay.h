@@ -56,6 +56,9 @@ private:
     std::string differs_; ///< the first difference
 };
 
+/// The first of a frame's commands that only an exhibit carries out; null: it has none.
+const Command* exhibits_command(const RecordEntry& entry);
+
 /// Flies a record again to its end, and compares the flight with the record's checks. each: is called after each frame, also
 /// after those that were on no screen; it returns false to end before. Throws InputError also where the record has a
 /// remote's command, which only an exhibit carries out.

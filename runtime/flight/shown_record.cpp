@@ -16,6 +16,8 @@ void ShownRecord::read_next()
     try {
         replay_.compare(flight_); // reads on to the next frame
         next_ = replay_.next();
+        if (next_ && exhibits_command(*next_))
+            next_.reset();
     } catch (const InputError&) { // what follows can't be flown
         next_.reset();
     }

@@ -10,10 +10,12 @@ public:
     /// Throws InputError, also where the record's first frames are wrong.
     explicit ShownRecord(const std::filesystem::path& file);
 
-    /// The flight dt_ns nanoseconds later. A record that turns out to be damaged is over there.
+    /// The flight dt_ns nanoseconds later. A record is over where it is damaged, and at a command that only an exhibit
+    /// carries out.
     const Flight& flown(std::int64_t dt_ns);
     bool over() const { return !next_; }
     const Flight& flight() const { return flight_; }
+    const RecordHeader& header() const { return replay_.header(); }
 
 private:
     void read_next();

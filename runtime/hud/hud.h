@@ -39,7 +39,7 @@ constexpr double panel_aspect = 0.2;
 struct Readings {
     double beta_deficit; ///< 1 - v/c, without cancellation
     double gamma, doppler_ahead;
-    double ship_s, world_s, distance_m;
+    double ship_s, world_s, distance_m; ///< world_s: on the displays for visitors and guides since the start
     double light_speed_m_s;
     double frames_per_s;
     Effects effects;

@@ -1,4 +1,5 @@
 #include "signs.h"
+#include "shaders/physics/physics.h"
 #include <algorithm>
 #include <cmath>
 
@@ -7,12 +8,15 @@ namespace {
 
 // Angles from the view's axis within which a sign appears, and within which it stays, radians: all shipped views are wider.
 constexpr double appears_within = 0.42, stays_within = 0.46;
-/// A thing's angular radius as seen: larger ones need no sign, smaller ones can't be told apart.
+/// Angular radii as seen: a larger thing needs no sign, a smaller one can't be distinguished.
 constexpr double least_radius = 0.012, most_radius = 0.35;
 /// cos of the angle from the motion, in the world, beyond which a thing is well behind.
 constexpr double behind_cosine = -0.05;
 constexpr double least_beta = 0.4; ///< slower ships see nothing ahead that lies behind them by so much
 constexpr double old_light_s = 1; ///< a clock's light
+/// A thing's D over that straight ahead: with the headlight effect light goes with D^3, and a darker thing is not seen
+/// beside the bright middle.
+constexpr double least_D_part = 0.2;
 
 double from_axis(const glm::dvec3& towards) { return std::acos(std::clamp(-towards.z, -1.0, 1.0)); }
 
@@ -44,40 +48,44 @@ bool is_hidden(const glm::dvec3& from, const glm::dvec3& at, std::span<const Ali
     });
 }
 
-struct Sight {
-    Sign sign;
-    double radius = 0; ///< as seen, radians
-    bool is_true = false;
-};
-
-Sight sight_of(const Shot& shot, Sign::Kind kind, std::size_t thing, const glm::dvec3& middle, double radius,
-    double seconds_per_time_unit)
-{
-    const MeasuringObserver observer = measuring_observer_of(shot);
-    const glm::dvec3 way = middle - observer.place;
-    const double distance = glm::length(way);
-    if (!(distance > radius))
-        return {};
-    const Ray ray = ray_from_world(observer, way / distance);
-    Sight sight;
-    sight.sign = {.kind = kind,
-        .thing = thing,
-        .towards = glm::conjugate(shot.ship_from_cockpit) * ray.ship,
-        .light_s = distance * seconds_per_time_unit};
-    sight.radius = radius / (distance * ray.D); // aberration makes small things smaller by 1 / D
-    const double speed = glm::length(shot.u), beta = speed / std::sqrt(1 + speed * speed);
-    sight.is_true = kind == Sign::Kind::clock
-        ? sight.sign.light_s > old_light_s
-        : beta > least_beta && glm::dot(way, shot.u) < behind_cosine * distance * speed;
-    return sight;
-}
-
+/// A thing that may have a sign, with the sphere around it, scene units.
 struct Thing {
     Sign::Kind kind;
     std::size_t index;
     glm::dvec3 middle;
     double radius;
 };
+
+/// A sign with its thing as seen.
+struct Apparent {
+    Sign sign;
+    double radius = 0; ///< as seen, radians
+    bool is_true = false;
+};
+
+Apparent apparent(const Shot& shot, const Thing& thing, double seconds_per_time_unit)
+{
+    const MeasuringObserver observer = measuring_observer_of(shot);
+    const glm::dvec3 way = thing.middle - observer.place;
+    const double distance = glm::length(way);
+    if (!(distance > thing.radius))
+        return {};
+    const Ray ray = ray_from_world(observer, way / distance);
+    Apparent seen;
+    seen.sign = {.kind = thing.kind,
+        .thing = thing.index,
+        .towards = glm::conjugate(shot.ship_from_cockpit) * ray.ship,
+        .light_s = distance * seconds_per_time_unit};
+    seen.radius = thing.radius / (distance * ray.D); // aberration makes small things smaller by 1 / D
+    const double speed = glm::length(shot.u), beta = speed / std::sqrt(1 + speed * speed);
+    const bool coloured = shot.effects.doppler || shot.effects.headlight;
+    const bool is_lit = !coloured || ray.D > least_D_part * physics::exp_rapidity(speed);
+    const bool says_so = thing.kind == Sign::Kind::clock
+        ? seen.sign.light_s > old_light_s
+        : beta > least_beta && glm::dot(way, shot.u) < behind_cosine * distance * speed;
+    seen.is_true = is_lit && says_so;
+    return seen;
+}
 
 std::optional<Thing> clock_at(const World& world, std::size_t instance)
 {
@@ -107,16 +115,16 @@ std::optional<Sign> sign_for(const Shot& shot, std::span<const AlignedBox> thing
     std::optional<Sign> best;
     double best_angle = appears_within;
     for (const Thing& thing : all) {
-        const Sight sight = sight_of(shot, thing.kind, thing.index, thing.middle, thing.radius, seconds_per_time_unit);
+        const Apparent seen = apparent(shot, thing, seconds_per_time_unit);
         const bool kept = before && before->kind == thing.kind && before->thing == thing.index;
-        const double angle = from_axis(sight.sign.towards);
+        const double angle = from_axis(seen.sign.towards);
         const double slack = kept ? 1.5 : 1;
-        if (!sight.is_true || angle > (kept ? stays_within : best_angle) || sight.radius < least_radius / slack
-            || sight.radius > most_radius * slack || is_hidden(shot.position, thing.middle, things))
+        if (!seen.is_true || angle > (kept ? stays_within : best_angle) || seen.radius < least_radius / slack
+            || seen.radius > most_radius * slack || is_hidden(shot.position, thing.middle, things))
             continue;
         if (kept)
-            return sight.sign;
-        best = sight.sign;
+            return seen.sign;
+        best = seen.sign;
         best_angle = angle;
     }
     return best;

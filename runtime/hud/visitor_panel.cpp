@@ -11,7 +11,7 @@ constexpr double wide = 1 / panel_aspect, right_edge = wide - 0.12;
 
 // The dial at the left, open below; angles clockwise from straight up, radians.
 constexpr glm::dvec2 dial_middle{0.62, 0.47};
-constexpr double dial_radius = 0.35, dial_width = 0.075;
+constexpr double dial_radius = 0.375, dial_width = 0.055;
 constexpr double dial_end = 0.75 * std::numbers::pi; ///< from -dial_end to dial_end
 
 constexpr double left_of_lines = 1.25, clock_radius = 0.1;
@@ -25,19 +25,24 @@ struct ClockPlace {
 constexpr std::array<ClockPlace, 2> clocks{{{1.36, 1.53}, {2.86, 3.03}}};
 constexpr double clocks_y = 0.19;
 
+/// The width of a text in parts of the panel's height, as its size.
+double width_of(const Typesetter& typesetter, const std::string& text, double size)
+{
+    constexpr int pixels = 200; // to the panel's height; enough to compare widths
+    return typesetter.width_of(text, int(size * pixels)) / pixels;
+}
+
 /// The size at which a text fits, no smaller than the least.
 double fitting(const Typesetter& typesetter, const std::string& text, double room, double largest)
 {
-    constexpr int pixels = 200; // to a panel's height; enough to compare widths
-    const double width = typesetter.width_of(text, int(largest * pixels)) / pixels;
+    const double width = width_of(typesetter, text, largest);
     return width <= room ? largest : std::max(least_lettering, largest * room / width);
 }
 
 std::vector<std::string> lines_of(const Typesetter& typesetter, const std::string& text, double size)
 {
-    constexpr int pixels = 200;
-    return wrapped(text, (right_edge - left_of_lines) * pixels,
-        [&](const std::string& line) { return typesetter.width_of(line, int(size * pixels)); });
+    return wrapped(
+        text, right_edge - left_of_lines, [&](const std::string& line) { return width_of(typesetter, line, size); });
 }
 
 /// Draws a shape by its distance function, which is negative within, in parts of the panel's height.
@@ -102,13 +107,11 @@ void draw_clock(Panel& panel, const ClockPlace& place, double s)
 /// The numbers that a guide speaks of; of a very long way those that fit.
 std::string guides_numbers(const Typesetter& typesetter, const Readings& r, const Words& words)
 {
-    constexpr int pixels = 200; // to a panel's height
     std::string line = words("hud.gamma") + " " + shown_number(r.gamma, words) + "   " + words("hud.doppler_ahead") + " "
         + shown_number(r.doppler_ahead, words);
     const std::string with_way
         = line + "   " + words("hud.flown") + " " + shown_length(r.distance_m, r.light_speed_m_s, words);
-    const double width = typesetter.width_of(with_way, int(least_lettering * pixels)) / pixels;
-    return width <= right_edge - left_of_lines ? with_way : line;
+    return width_of(typesetter, with_way, least_lettering) <= right_edge - left_of_lines ? with_way : line;
 }
 
 /// The effects that are switched off; empty where all are on.
@@ -165,13 +168,9 @@ std::string plain_sentence(const Readings& r, const Words& words)
 std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings& readings, const Words& words)
 {
     std::vector<Lettering> lines;
-    const auto width_of = [&](const std::string& text, double size) {
-        constexpr int pixels = 200;
-        return typesetter.width_of(text, int(size * pixels)) / pixels;
-    };
     const auto middle = [&](const std::string& text, double x, double baseline, double room, double largest) {
         const double size = fitting(typesetter, text, room, largest);
-        lines.push_back({text, x - 0.5 * width_of(text, size), baseline, size});
+        lines.push_back({text, x - 0.5 * width_of(typesetter, text, size), baseline, size});
     };
     middle(shown_percent(readings.beta_deficit, words), dial_middle.x, dial_middle.y + 0.09, 0.52, 0.24);
     middle(words("say.of_light"), dial_middle.x, 0.94, 0.9, least_lettering);
@@ -184,32 +183,26 @@ std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings
         lines.push_back({text, clocks[i].text_x, first_line, fitting(typesetter, text, room, 0.22)});
     }
 
-    double baseline = first_line + below_first;
-    const auto line = [&](const std::string& text) {
-        const double size = fitting(typesetter, text, right_edge - left_of_lines, 0.23);
-        lines.push_back({text, left_of_lines, baseline, size});
-        baseline += 0.25;
-    };
-    if (readings.information == Information::guide)
-        line(guides_numbers(typesetter, readings, words));
     const bool guides = readings.information == Information::guide;
+    if (guides) {
+        const std::string numbers = guides_numbers(typesetter, readings, words);
+        lines.push_back({numbers, left_of_lines, first_line + below_first,
+            fitting(typesetter, numbers, right_edge - left_of_lines, 0.23)});
+    }
     const std::string off = guides ? switched_off(readings.effects, words) : "";
     const std::string text = !readings.notice.empty() ? readings.notice
         : !readings.prompt.empty()                    ? readings.prompt
         : !off.empty()                                ? off
                                                       : plain_sentence(readings, words);
-    // As large as two lines allow; a guide's has room for one, or for two small ones.
+    // The largest size at which two lines hold the text. The guides' numbers leave less room.
     double size = guides ? 0.21 : 0.24;
     while (size > least_lettering && lines_of(typesetter, text, size).size() > 2)
         size -= 0.005;
-    const std::vector<std::string> wrapped_lines = lines_of(typesetter, text, size);
+    const std::vector<std::string> sentence = lines_of(typesetter, text, size);
     const double pitch = guides ? 0.205 : 0.29;
-    if (guides)
-        baseline = wrapped_lines.size() > 1 ? 0.725 : 0.85;
-    else
-        baseline = wrapped_lines.size() > 1 ? 0.58 : 0.7;
-    for (const std::string& one : wrapped_lines) {
-        lines.push_back({one, left_of_lines, baseline, size});
+    double baseline = sentence.size() > 1 ? (guides ? 0.725 : 0.58) : (guides ? 0.85 : 0.7);
+    for (const std::string& line : sentence) {
+        lines.push_back({line, left_of_lines, baseline, size});
         baseline += pitch;
     }
     return lines;

@@ -66,7 +66,7 @@ std::vector<Stroke> light_around(Why why, double E, double t_s)
             const double half = why == Why::doppler ? 0.05 : 0.02;
             strokes.push_back({r * way - half * across, r * way + half * across, why == Why::doppler ? 0.014 : 0.035, 1});
         }
-        if (why == Why::doppler && apart <= 0.02) // too close to be told apart
+        if (why == Why::doppler && apart <= 0.02) // too close to be distinguished
             strokes.push_back({from_radius * way, to_radius * way, 0.09, 0.9});
     }
     add_ship(strokes);
@@ -81,7 +81,7 @@ std::vector<Stroke> late_light(double beta, double t_s)
     const double speed = beta * light_per_s;
     const double now_y = speed > 1e-3 ? top - part_of(speed * t_s / (2 * top)) * 2 * top : 0.4;
     const auto thing = [&](double before_s) { return glm::dvec2(aside, now_y + speed * before_s); };
-    // Where it is seen: light that left there `age` ago has come the way by now.
+    // The retarded position: light that left it `age` ago reaches the ship now.
     double age = 0;
     for (int i = 0; i < 60; ++i)
         age = glm::length(thing(age)) / light_per_s;

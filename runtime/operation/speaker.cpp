@@ -39,8 +39,17 @@ void Speaker::say(const std::string& text, const std::string& language)
     posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+    // The program ignores SIGPIPE; the other one may rely on it.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t pipe_ends;
+    sigemptyset(&pipe_ends);
+    sigaddset(&pipe_ends, SIGPIPE);
+    posix_spawnattr_setsigdefault(&attributes, &pipe_ends);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
     const int error
-        = posix_spawnp(&child_, program_.c_str(), &actions, nullptr, const_cast<char**>(arguments.data()), environ);
+        = posix_spawnp(&child_, program_.c_str(), &actions, &attributes, const_cast<char**>(arguments.data()), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (error == 0)
         return;

@@ -206,8 +206,7 @@ std::string lists_text(const std::vector<std::string>& patterns)
         names[command] = shipped_names(folder);
     std::erase_if(names["quality"].get_ref<json::array_t&>(), [](const json& name) { return !is_quality(name); });
     names["comparison"] = comparison_names;
-    for (const auto& [name, information] : informations)
-        names["information"].push_back(name);
+    names["information"] = names_of(informations);
     names["pattern"] = patterns;
     return dump({{"commands", commands}, {"names", names}});
 }

@@ -60,6 +60,14 @@ void ViewPasses::prepare(const Panel* hud)
         hud_->prepare_view(i, views_.map_of(views_.all[i]), descriptors_.nearest());
 }
 
+vk::DeviceSize ViewPasses::memory() const
+{
+    vk::DeviceSize bytes = stars_.picture().bytes + (hud_ ? hud_->memory() : 0);
+    for (const auto& pass : placard_passes_)
+        bytes += pass->panel.memory();
+    return bytes;
+}
+
 void ViewPasses::prepare_placards()
 {
     while (placard_passes_.size() < placards_.size())

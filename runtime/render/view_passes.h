@@ -62,7 +62,7 @@ public:
     /// Draws the first view through Pipelines::lookup: the bare cost of a cube map's look-up.
     void look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set);
 
-    vk::DeviceSize memory() const { return stars_.picture().bytes + (hud_ ? hud_->memory() : 0); }
+    vk::DeviceSize memory() const;
 
 private:
     bool plain_pattern() const;

@@ -60,6 +60,21 @@ TEST(Signs, NothingIsSaidThatIsNotSo)
     EXPECT_FALSE(sign(shot, behind)) << "the visitor looks back";
 }
 
+TEST(Signs, AThingInTheDarkHasNoSign)
+{
+    // Seen at 20 degrees: at E = 100 its D is 0.33 where straight ahead it is 100, and 3.6e-8 of the light is left.
+    const double E = 100, seen = glm::radians(20.0), world = 2 * std::atan(E * std::tan(seen / 2));
+    const std::vector<AlignedBox> things{box_at(10.0 * glm::dvec3(std::sin(world), 0, -std::cos(world)), 0.2)};
+    Shot shot = ahead_at(E);
+    EXPECT_TRUE(sign(shot, things)) << "shapes alone";
+    shot.effects = {};
+    EXPECT_FALSE(sign(shot, things));
+    const double slower = 8, world_there = 2 * std::atan(slower * std::tan(seen / 2));
+    shot = ahead_at(slower);
+    shot.effects = {};
+    EXPECT_TRUE(sign(shot, {box_at(10.0 * glm::dvec3(std::sin(world_there), 0, -std::cos(world_there)), 0.4)}));
+}
+
 TEST(Signs, AThingThatAnotherOneHidesHasNoSign)
 {
     const double world = glm::radians(110.0), E = 10;

@@ -90,6 +90,8 @@ int render(const RenderOptions& options)
         Readings shown = readings(ship_at(shot), context.world.scene, shot.effects);
         shown.exposure_ev = shot.exposure_ev;
         shown.information = information_named(options.information);
+        if (shown.information != Information::laboratory) // the shot is the start, where both clocks show 0
+            shown.world_s = 0;
         panel = Typesetter().draw(shown, words, renderer.frame().views().hud_width());
     }
     render_still(options.out, renderer, shot, options.exr, panel ? &*panel : nullptr);
@@ -144,13 +146,11 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
                            ->check(CLI::IsMember(std::vector<std::string>(why_names.begin(), why_names.end())))
                            ->capture_default_str();
     CLI::Option* hud = command->add_flag("--hud", options->hud, "With the head-up display");
-    std::vector<std::string> displays;
-    for (const auto& [name, information] : informations)
-        displays.emplace_back(name);
+    const std::vector<std::string_view> displays = names_of(informations);
     CLI::Option* information
         = command
               ->add_option("--information", options->information, "The head-up display for a visitor, guide or laboratory")
-              ->check(CLI::IsMember(displays))
+              ->check(CLI::IsMember(std::vector<std::string>(displays.begin(), displays.end())))
               ->needs(hud)
               ->capture_default_str();
     add_language(*command, options->language);
