@@ -115,8 +115,8 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     reject_unknown_members(top,
         {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "frame_budget_ms",
-            "ladder", "flying", "exposure", "textfile", "remote", "presenter", "visit", "menu", "calm", "information", "speech",
-            "comfort", "one_button", "left_handed"});
+            "ladder", "flying", "exposure", "textfile", "remote", "presenter", "visit", "menu", "calm", "information",
+            "speech", "comfort", "one_button", "left_handed"});
     Exhibit exhibit;
     for (const auto& [name, value] :
         {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}, {"tour", &exhibit.tour},
