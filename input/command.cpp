@@ -16,7 +16,8 @@ constexpr std::array rules{CommandRule{fade, "fade", Role::docent, Value::on},
     CommandRule{tour, "tour", Role::docent, Value::name}, CommandRule{next, "next", Role::docent, Value::none},
     CommandRule{back, "back", Role::docent, Value::none}, CommandRule{pause, "pause", Role::docent, Value::on},
     CommandRule{scene, "scene", Role::docent, Value::name}, CommandRule{shot, "shot", Role::docent, Value::name},
-    CommandRule{speed_limit, "speed-limit", Role::docent, Value::number},
+    CommandRule{speed_limit, "speed-limit", Role::docent, Value::number, {1, 1e6, true}},
+    CommandRule{exposure, "exposure", Role::docent, Value::number, {-most_exposure_ev, most_exposure_ev}},
     CommandRule{aberration, "aberration", Role::docent, Value::on}, CommandRule{doppler, "doppler", Role::docent, Value::on},
     CommandRule{headlight, "headlight", Role::docent, Value::on},
     CommandRule{false_colours, "false-colours", Role::docent, Value::on},
@@ -41,6 +42,23 @@ constexpr bool in_order()
 }
 static_assert(in_order());
 
+/// The shortest digits that mean this number.
+std::string digits_of(double number)
+{
+    std::array<char, 32> digits;
+    const auto [end, error] = std::to_chars(digits.begin(), digits.end(), number);
+    return std::string(digits.data(), std::size_t(end - digits.data()));
+}
+
+/// The same as people write it: 1e6.
+std::string plain_digits_of(double number)
+{
+    std::string digits = digits_of(number);
+    if (const std::size_t at = digits.find("e+0"); at != digits.npos)
+        digits.replace(at, 3, "e");
+    return digits;
+}
+
 std::string form_of(const CommandRule& rule)
 {
     const std::string name(rule.name);
@@ -50,7 +68,8 @@ std::string form_of(const CommandRule& rule)
     case Value::on:
         return name + " on or " + name + " off";
     case Value::number:
-        return name + " and a number above 1 up to 1e6";
+        return name + (rule.range.above ? " and a number above " : " and a number from ") + plain_digits_of(rule.range.least)
+            + (rule.range.above ? " up to " : " to ") + plain_digits_of(rule.range.most);
     case Value::name:
         return name + " and a name";
     case Value::text:
@@ -105,7 +124,9 @@ Command command_of(std::span<const std::string> words)
         break;
     case Value::number: {
         const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), command.number);
-        if (error != std::errc() || end != value.data() + value.size() || !(command.number > 1 && command.number <= 1e6))
+        const CommandRange& range = rule->range;
+        const bool within = range.above ? command.number > range.least : command.number >= range.least;
+        if (error != std::errc() || end != value.data() + value.size() || !(within && command.number <= range.most))
             refuse(*rule, "has the value " + one_line(value, 40));
         break;
     }
@@ -133,12 +154,9 @@ std::vector<std::string> words_of(const Command& command)
     case Value::on:
         words.emplace_back(command.on ? "on" : "off");
         break;
-    case Value::number: {
-        std::array<char, 32> digits;
-        const auto [end, error] = std::to_chars(digits.begin(), digits.end(), command.number);
-        words.emplace_back(digits.begin(), end);
+    case Value::number:
+        words.push_back(digits_of(command.number));
         break;
-    }
     case Value::name:
     case Value::text:
         words.push_back(command.text);

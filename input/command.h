@@ -21,6 +21,7 @@ enum class CommandKind : std::uint8_t {
     scene,
     shot,
     speed_limit, ///< number: greatest gamma
+    exposure, ///< number: EV, added to whatever is shown
     aberration,
     doppler,
     headlight,
@@ -44,19 +45,26 @@ enum class CommandKind : std::uint8_t {
 /// The one value that a command has, or none.
 enum class CommandValue : std::uint8_t { none, on, number, name, text };
 
+/// The numbers that a command may have.
+struct CommandRange {
+    double least, most;
+    bool above = false; ///< the least one itself is none of them
+};
+
 /// A kind's name on the wire, on the command line and in records, the least role that may give it, and its value.
 struct CommandRule {
     CommandKind kind;
     std::string_view name;
     Role role;
     CommandValue value;
+    CommandRange range{0, 0}; ///< of a number
 };
 
 /// All kinds, in the order of CommandKind.
 std::span<const CommandRule> command_rules();
 const CommandRule& rule_of(CommandKind kind);
 
-/// A command to the running exhibit, from a remote, OSC or `starbow tell`.
+/// A command to the running exhibit, from a remote, OSC, `starbow tell`, the visitors' menu or the guide's window.
 struct Command {
     CommandKind kind{};
     bool on = false;
@@ -65,6 +73,9 @@ struct Command {
 
     bool operator==(const Command&) const = default;
 };
+
+/// Greatest change of the exposure by a command, EV: a thousand times the light, or a thousandth.
+constexpr double most_exposure_ev = 10;
 
 /// Longest text of a command in bytes: a caption of some lines.
 constexpr std::size_t most_command_text = 400;

@@ -32,6 +32,7 @@ struct Steering {
     bool next_mode = false;
     bool freeze = false; ///< the world stands still to look around in, or goes on
     bool menu = false; ///< opens the visitors' menu, or closes it
+    bool taken = false; ///< the guide has the stick: the ship comes to coasting; in each frame meanwhile
     bool slow_motion = false; ///< the next slower rate of time, and from the slowest back to the usual one
 };
 

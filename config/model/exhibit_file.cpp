@@ -1,6 +1,7 @@
 #include "exhibit_file.h"
 #include "comfort_reader.h"
 #include "exposing_reader.h"
+#include "layout_reader.h"
 #include "remote_reader.h"
 #include "shipped.h"
 #include <algorithm>
@@ -114,8 +115,8 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     reject_unknown_members(top,
         {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "frame_budget_ms",
-            "ladder", "flying", "exposure", "textfile", "remote", "visit", "menu", "calm", "information", "speech",
-            "comfort", "one_button", "left_handed"});
+            "ladder", "flying", "exposure", "textfile", "remote", "presenter", "visit", "menu", "calm", "information",
+            "speech", "comfort", "one_button", "left_handed"});
     Exhibit exhibit;
     for (const auto& [name, value] :
         {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}, {"tour", &exhibit.tour},
@@ -154,6 +155,12 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     take(top, "calm", exhibit.exposure.calm);
     if (auto p = find_member(top, "remote"))
         exhibit.remote = read_remote(*p, folder);
+    if (auto p = find_member(top, "presenter")) {
+        reject_unknown_members(*p, {"monitor"});
+        exhibit.presenter.emplace();
+        if (auto monitor = find_member(*p, "monitor"))
+            exhibit.presenter->monitor = read_monitor(*monitor);
+    }
     if (auto p = find_member(top, "visit"))
         exhibit.visiting = read_visiting(*p, folder);
     if (auto menu = find_member(top, "menu")) {

@@ -3,6 +3,7 @@
 #include "flying.h"
 #include "information.h"
 #include "one_button.h"
+#include "presenting.h"
 #include "remote_file.h"
 #include "visiting.h"
 #include <filesystem>
@@ -33,6 +34,7 @@ struct Exhibit {
     bool left_handed = false; ///< the controls are a left-handed visitor's, from the start of each visit
     Exposing exposure;
     RemoteSettings remote;
+    std::optional<Presenting> presenter; ///< the guide's window; none: there is none
     std::optional<Visiting> visiting; ///< the exhibit attends to its visitors itself; none: somebody else does
 };
 

@@ -142,23 +142,6 @@ Packing read_packing(const Place& place)
             {"anaglyph-amber-blue", Packing::anaglyph_amber_blue}});
 }
 
-MonitorName read_monitor(const Place& place)
-{
-    reject_unknown_members(place, {"connector", "model", "serial", "position"});
-    MonitorName monitor;
-    if (auto p = find_member(place, "connector"))
-        monitor.connector = text(*p);
-    if (auto p = find_member(place, "model"))
-        monitor.model = text(*p);
-    if (auto p = find_member(place, "serial"))
-        monitor.serial = text(*p);
-    if (auto p = find_member(place, "position"))
-        monitor.position = read_pixels(*p, -farthest_px, farthest_px);
-    if (monitor.empty())
-        complain(place, "names no monitor; at least one of \"connector\", \"model\", \"serial\" and \"position\" is right");
-    return monitor;
-}
-
 /// Reads the place of the output's window.
 void read_window(const Place& place, Output& output)
 {
@@ -292,6 +275,23 @@ void check_beside(const Place& place, const Output& output, const Output& earlie
 }
 
 } // namespace
+
+MonitorName read_monitor(const Place& place)
+{
+    reject_unknown_members(place, {"connector", "model", "serial", "position"});
+    MonitorName monitor;
+    if (auto p = find_member(place, "connector"))
+        monitor.connector = text(*p);
+    if (auto p = find_member(place, "model"))
+        monitor.model = text(*p);
+    if (auto p = find_member(place, "serial"))
+        monitor.serial = text(*p);
+    if (auto p = find_member(place, "position"))
+        monitor.position = read_pixels(*p, -farthest_px, farthest_px);
+    if (monitor.empty())
+        complain(place, "names no monitor; at least one of \"connector\", \"model\", \"serial\" and \"position\" is right");
+    return monitor;
+}
 
 bool overlap(const Viewport& a, const Viewport& b)
 {

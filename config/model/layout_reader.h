@@ -13,6 +13,9 @@ constexpr Range room_m{-1e4, 1e4};
 /// A whole layout; `file` gives its name and the folder that its paths start from.
 Layout read_layout(const Place& place, const std::filesystem::path& file);
 
+/// At least one of a monitor's names.
+MonitorName read_monitor(const Place& place);
+
 Projection read_projection(const Place& place);
 
 /// Throws where the eye can't see the projection: a wall from behind or edge on, a dome from outside. `eyes_apart_m`: the

@@ -43,6 +43,7 @@ const choiceWords = {
     },
 };
 const speedLimits = [1.1547, 2.2942, 7.0888, 22.366, 100, 1000, 1e6];
+const exposures = [3, 2.5, 2, 1.5, 1, 0.5, 0, -0.5, -1, -1.5, -2, -2.5, -3]; // EV
 
 function choiceText(kind, name) {
     if (kind === "language" && words[name])
@@ -61,6 +62,10 @@ function limitText(gamma) {
     if (gamma > 30)
         return `γ ${showNumber(gamma, 4)}`;
     return `${showNumber(Math.sqrt(1 - 1 / (gamma * gamma)), 3)} c`;
+}
+
+function exposureText(ev) {
+    return `${ev.toLocaleString(language, { minimumFractionDigits: 1, signDisplay: "exceptZero" })} EV`;
 }
 
 function fillSelect(select, values, textOf) {
@@ -83,6 +88,7 @@ function fillWords() {
         for (const select of all("select[data-names]"))
             fillSelect(select, lists.names[select.dataset.names] || [], (name) => choiceText(select.dataset.names, name));
     fillSelect(find("speed-limit"), speedLimits, limitText);
+    fillSelect(find("exposure"), exposures, exposureText);
     showLink();
     showStatus();
 }
@@ -154,6 +160,8 @@ function showChoice(select, name) {
             fillSelect(select, [...speedLimits, value].sort((a, b) => a - b), limitText);
         value = near === undefined ? value : near;
     }
+    if (name === "exposure" && ![...select.options].some((option) => Number(option.value) === value))
+        fillSelect(select, [...exposures, value].sort((a, b) => b - a), exposureText); // from a script, or the guide's window
     select.value = String(value);
 }
 

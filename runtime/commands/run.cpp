@@ -38,6 +38,7 @@ struct RunOptions {
     double frame_budget_ms = -1; ///< below 0: the exhibit's
     double log_every_s = 0;
     long frames = 0;
+    bool presenter = false; ///< the guide's window, whatever the exhibit's file says
     bool verbose = false;
     bool careful = false; ///< a start with care after disorderly ends
     bool any_given = false; ///< true if any of the options above is given
@@ -108,6 +109,9 @@ ExhibitOptions open(const RunOptions& options)
     exhibit_options.state = state_folder();
     exhibit_options.textfile = exhibit.textfile;
     exhibit_options.remote = exhibit.remote;
+    exhibit_options.presenter = exhibit.presenter;
+    if (options.presenter && !exhibit_options.presenter)
+        exhibit_options.presenter.emplace();
     if (options.careful || (options.tour.empty() && options.scene.empty() && options.shot.empty()))
         exhibit_options.visiting = exhibit.visiting;
     if (options.careful && exhibit.visiting)
@@ -235,6 +239,9 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--trace", options->trace,
         "Write what each frame spends its time on into this JSON file, for ui.perfetto.dev or chrome://tracing; an older "
         "file is replaced");
+    command->add_flag("--presenter", options->presenter,
+        "Open the guide's window, too: the visitors' picture small, the tour's cue sheet, and all that a guide can do, by "
+        "keys and by the mouse");
     CLI::Option* verbose = command->add_flag("--verbose", options->verbose, "Log debug messages on standard error");
     CLI::Option* quality
         = command->add_option("--quality", options->quality, quality_help + std::string(" [the exhibit's]"));
@@ -256,7 +263,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
         tour->excludes(other);
     CLI::Option* replay = command->add_option("--replay", options->replay,
         "Fly a record again, the same to the bit, in its scene and on its layout (or on --layout's)");
-    for (const char* other : {"--exhibit", "--scene", "--shot", "--tour", "--pattern", "--record"})
+    for (const char* other : {"--exhibit", "--scene", "--shot", "--tour", "--pattern", "--record", "--presenter"})
         replay->excludes(other);
     command->footer(std::string("Keys:\n") + keyboard_help()
         + "\n\nExamples:\n  starbow run --layout stereo --shot avenue-gamma4\n  starbow run --exhibit dome --language de\n  "

@@ -123,6 +123,7 @@ int fly_exhibit(const ExhibitOptions& options)
 {
     Session session{options};
     RemoteControl remote(options);
+    Presenter presenter(options);
     session.pins = remote.drawn_pins();
     if (!session.pins.empty() && isatty(STDOUT_FILENO))
         print_message(session.pins); // to a person at a terminal, and never into a log
@@ -151,7 +152,7 @@ int fly_exhibit(const ExhibitOptions& options)
                 work->restart();
                 session.service.loads(
                     "Opens the outputs of " + session.layout.file.filename().string() + ".", loading_limit_s);
-                FrameLoop loop(session, remote, *context);
+                FrameLoop loop(session, remote, presenter, *context);
                 work.reset();
                 while (!is_over(session) && loop.fly_frame())
                     ;

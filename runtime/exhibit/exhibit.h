@@ -4,6 +4,7 @@
 #include "config/model/information.h"
 #include "config/model/layout.h"
 #include "config/model/one_button.h"
+#include "config/model/presenting.h"
 #include "config/model/profile.h"
 #include "config/model/remote_file.h"
 #include "config/model/visiting.h"
@@ -50,6 +51,7 @@ struct ExhibitOptions {
     Trace* trace = nullptr; ///< receives the spans of each frame; null: none. It must outlive the flight
     std::function<void(const FrameTimes&)> timed{}; ///< is called for each frame
     RemoteSettings remote{}; ///< port 0: none
+    std::optional<Presenting> presenter{}; ///< the guide's window; none: there is none
     std::string quality_name{}; ///< of quality, for the remote; empty: the ladder's, or the device's default
     std::filesystem::path state{}; ///< folder of the days' counts; empty: none are kept
     std::filesystem::path textfile{}; ///< receives the counts for node_exporter; empty: none

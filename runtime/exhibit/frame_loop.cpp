@@ -30,9 +30,10 @@ void FramePace::wait(double refresh_hz)
     next = std::max(next + turn, Clock::now() - turn);
 }
 
-FrameLoop::FrameLoop(Session& session, RemoteControl& remote, RenderContext& context)
+FrameLoop::FrameLoop(Session& session, RemoteControl& remote, Presenter& presenter, RenderContext& context)
     : session_(session)
     , remote_(remote)
+    , presenter_(presenter)
     , context_(context)
     , device_(context.device)
     , frame_(renderer(session.layout, quality_of(session, device_)))
@@ -44,6 +45,7 @@ FrameLoop::FrameLoop(Session& session, RemoteControl& remote, RenderContext& con
     , done_(device_.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
     , live_(device_)
     , commands_(device_.device, {*device_.pool, vk::CommandBufferLevel::ePrimary, 2})
+    , guide_(device_, presenter, session.options.presenter)
 {
     name_object(device_, done_, "frame done");
     name_object(device_, commands_[0], "frame: world");
@@ -87,12 +89,13 @@ bool FrameLoop::fly_frame()
     if (!read_controls(session_, screens_.handles(), entry) || screens_.closed())
         return false;
     remote_.read(entry.controls);
+    presenter_.read(entry.controls);
     if (entry.controls.full_screen)
         screens_.switch_full_screen();
     if (session_.record_replay.replays() && !visible)
         return true; // a replay waits for a visible window
 
-    // Follow the visit, carry out a remote's commands, and step the flight. From here on the controls may be a replay's.
+    // Follow the visit, carry out a docent's commands, and step the flight. From here on the controls may be a replay's.
     if (!session_.record_replay.play(entry))
         return false;
     if (!session_.record_replay.replays()) {
@@ -114,6 +117,7 @@ bool FrameLoop::fly_frame()
         remote_.publish_condition(session_.diary);
     if (!visible) {
         remote_.shown(session_); // there is no picture to wait for
+        guide_.show(session_, screens_.monitors());
         return true;
     }
 
@@ -146,6 +150,7 @@ bool FrameLoop::fly_frame()
         count_frame(session_, seconds(Clock::now() - *presented_), screens_.refresh_hz());
     presented_ = Clock::now();
     remote_.shown(session_);
+    guide_.show(session_, screens_.monitors());
     fresh_ = false;
     session_.service.shows("Shows " + std::to_string(screens_.shown()) + " of "
         + std::to_string(session_.layout.outputs.size()) + (session_.layout.outputs.size() == 1 ? " output" : " outputs")
@@ -215,11 +220,27 @@ std::optional<double> FrameLoop::await_device()
     if (!std::exchange(submitted_, false))
         return {};
     trace_passes();
-    remote_.publish_picture([&](std::vector<std::uint8_t>& rgb) { return live_.take(rgb); });
+    publish_view();
     if (const auto ms = timer_.ms(); ms && session_.governor)
         if (session_.governor->drawn(seconds(Clock::now() - session_.began), prepared_ms_ + *ms))
             frame_->adopt(quality_of(session_, device_));
     return frame_->metered();
+}
+
+void FrameLoop::publish_view()
+{
+    const bool guides = std::exchange(guides_view_, false), remotes = std::exchange(remotes_view_, false);
+    VisitorsView& view = presenter_.view();
+    if (guides)
+        if (const glm::ivec2 size = live_.take(view.rgb); size.x > 0)
+            view.size = size;
+    if (remotes)
+        remote_.publish_picture([&](std::vector<std::uint8_t>& rgb) {
+            if (!guides)
+                return live_.take(rgb);
+            rgb = view.rgb;
+            return view.size;
+        });
 }
 
 std::unique_ptr<WarmUp> FrameLoop::warm_up_in(const Quality& quality)
@@ -359,7 +380,8 @@ void FrameLoop::begin_commands()
 
 void FrameLoop::end_commands()
 {
-    if (const auto copied = remote_.wants_picture() ? screens_.readable() : std::nullopt)
+    remotes_view_ = remote_.wants_picture(), guides_view_ = presenter_.wants_view();
+    if (const auto copied = remotes_view_ || guides_view_ ? screens_.readable() : std::nullopt)
         live_.record(*commands_[1], screens_.targets()[*copied]);
     screens_.end_pictures(*commands_[1]);
     device_.timer = nullptr;

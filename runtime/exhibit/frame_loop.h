@@ -1,6 +1,7 @@
 #pragma once
 #include "hud_updater.h"
 #include "placards.h"
+#include "presenter_window.h"
 #include "remote_control.h"
 #include "runtime/render/frame_timer.h"
 #include "runtime/render/live_copy.h"
@@ -23,7 +24,7 @@ struct FramePace {
 /// Flies a session on one device, frame after frame, until the visitor leaves. All its members are lost with the device.
 class FrameLoop {
 public:
-    FrameLoop(Session& session, RemoteControl& remote, RenderContext& context);
+    FrameLoop(Session& session, RemoteControl& remote, Presenter& presenter, RenderContext& context);
     ~FrameLoop(); ///< waits until the device has nothing to do
 
     /// One frame from the controls to the screens; frame_loop.cpp lists its steps in order. Returns false at the end of
@@ -46,6 +47,8 @@ private:
     void watch_sizes(const std::vector<Target>& targets);
     /// Waits for the frame's turn and for the device. Returns the exposure for the frame before, if it was metered.
     std::optional<double> await_device();
+    /// The copy of the frame before goes to those who have asked for it.
+    void publish_view();
     /// Has a changed layout loaded beside, and applies one that is ready. If any file is wrong, nothing changes: the old
     /// picture stays until the new one can be drawn.
     void apply_file_changes();
@@ -83,6 +86,7 @@ private:
 
     Session& session_;
     RemoteControl& remote_;
+    Presenter& presenter_;
     RenderContext& context_;
     Device& device_;
     std::unique_ptr<FrameRenderer> frame_;
@@ -100,12 +104,14 @@ private:
     FramePace pace_;
     vk::raii::Fence done_;
     LiveCopy live_;
+    bool remotes_view_ = false, guides_view_ = false; ///< the recorded copy is for the remote, for the guide's window
     WorldLoader worlds_;
     std::optional<Command> coming_; ///< waits for its world
     vk::raii::CommandBuffers commands_; ///< the world's, the outputs'
     bool submitted_ = false; ///< a frame since the last wait for the device
     double prepared_ms_ = 0; ///< the processor's part of the frame before
     std::int64_t submitted_ns_ = 0; ///< steady clock; of the frame before
+    PresenterWindow guide_;
 };
 
 } // namespace starbow

@@ -1,4 +1,4 @@
-// The commands of a remote that need the device; obey.h has the others.
+// The commands of a docent that need the device; obey.h has the others.
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/model/shipped.h"
@@ -128,6 +128,7 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
         }
         session_.diary.count([](Tally& tally) { ++tally.commands; });
         remote_.note("");
+        presenter_.note(command, "", session_.words);
         write_log(LogKind::command_done, words);
     } catch (const vk::SystemError&) {
         remote_.note("the GPU was lost meanwhile; the same command again is right");
@@ -136,6 +137,7 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
         session_.diary.count([](Tally& tally) { ++tally.refused_commands; });
         session_.directions.refusal = one_line(error.what());
         remote_.note(session_.directions.refusal);
+        presenter_.note(command, session_.directions.refusal, session_.words);
         write_log(LogKind::command_failed, words + ": " + session_.directions.refusal + "; the exhibit stays as it was");
     }
 }

@@ -43,6 +43,11 @@ static void add_visit(const Session& session, Readings& shown)
         say_in_flight(words("visit.boundary"));
     } else if (session.flight.homeward) {
         say_in_flight(words("visit.homeward"));
+    } else if (session.directions.holds) {
+        if (shown.caption) // a tour's text, which the guide speaks to
+            shown.caption->aside = words("visit.held");
+        else
+            say_in_flight(words("visit.held"));
     } else if (session.options.visiting && !in_hand(session.visit)) {
         const std::string& begin = words(session.hid.capabilities().stick ? "visit.begin_stick" : "visit.begin_keys");
         // Large for some seconds, and small beside the tour's caption, which passers-by read meanwhile.

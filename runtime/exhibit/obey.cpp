@@ -70,6 +70,9 @@ void obey(Session& session, const Command& command, Controls& controls)
     case CommandKind::speed_limit:
         limit_speed(session, command.number);
         break;
+    case CommandKind::exposure:
+        session.directions.exposure_ev = command.number;
+        break;
     case CommandKind::aberration:
         effects_of(session).aberration = command.on;
         break;

@@ -160,10 +160,11 @@ bool has_display()
     return glfwInit();
 }
 
-Window::Window(Device& device, const Output& output, const std::optional<WindowPlace>& place)
+Window::Window(Device& device, const Output& output, const std::optional<WindowPlace>& place, bool aside)
     : device_(&device)
     , name_(output.name)
     , bare_(place.has_value())
+    , aside_(aside)
 {
     if (!glfwVulkanSupported())
         throw InputError(
@@ -174,6 +175,8 @@ Window::Window(Device& device, const Output& output, const std::optional<WindowP
     glfwWindowHint(GLFW_DECORATED, !place);
     glfwWindowHint(GLFW_FLOATING, output.whole_monitor); // above the desktop's panels
     glfwWindowHint(GLFW_VISIBLE, !place); // a bare window appears only at its place
+    glfwWindowHint(GLFW_FOCUSED, !aside);
+    glfwWindowHint(GLFW_FOCUS_ON_SHOW, !aside);
     const glm::ivec2 size = possible(place ? place->size : fit_to_screen(output.size));
     window_ = glfwCreateWindow(size.x, size.y, ("Starbow " + name_).c_str(), nullptr, nullptr);
     if (!window_)
@@ -188,7 +191,7 @@ Window::Window(Device& device, const Output& output, const std::optional<WindowP
     }
     size_ = size;
     try {
-        if (device.reports_presentation)
+        if (device.reports_presentation && !aside)
             clock_ = std::make_unique<PresentClock>(device);
         make_surface();
     } catch (...) {
@@ -210,6 +213,7 @@ Window::Window(Window&& other) noexcept
     , windowed_size_(other.windowed_size_)
     , refused_(other.refused_)
     , bare_(other.bare_)
+    , aside_(other.aside_)
     , stale_(other.stale_)
     , lost_(other.lost_)
     , late_(other.late_)
@@ -323,10 +327,21 @@ bool Window::make_swapchain()
     readable_ = bool(limits.supportedUsageFlags & vk::ImageUsageFlagBits::eTransferSrc) && is_live_format(format_);
     if (readable_)
         usage |= vk::ImageUsageFlagBits::eTransferSrc;
+    vk::PresentModeKHR mode = vk::PresentModeKHR::eFifo;
+    if (aside_) {
+        if (!(limits.supportedUsageFlags & vk::ImageUsageFlagBits::eTransferDst))
+            throw InputError("The window '" + name_ + "' takes no copied pictures: use another GPU driver");
+        usage |= vk::ImageUsageFlagBits::eTransferDst;
+        const std::vector<vk::PresentModeKHR> offered = device_->physical.getSurfacePresentModesKHR(*surface_);
+        for (const vk::PresentModeKHR better :
+            {vk::PresentModeKHR::eImmediate, vk::PresentModeKHR::eMailbox}) // the last one is the best
+            if (std::ranges::find(offered, better) != offered.end())
+                mode = better;
+    }
     const LimitedWait making("the swapchain of output '" + name_ + "' (vkCreateSwapchainKHR)");
     swapchain_ = device_->device.createSwapchainKHR(
         {{}, *surface_, count, format_, vk::ColorSpaceKHR::eSrgbNonlinear, extent, 1, usage, vk::SharingMode::eExclusive, {},
-            limits.currentTransform, alpha, vk::PresentModeKHR::eFifo, true, *std::exchange(swapchain_, nullptr)});
+            limits.currentTransform, alpha, mode, true, *std::exchange(swapchain_, nullptr)});
     name_object(*device_, swapchain_, "outputs: swapchain");
     for (VkImage image : swapchain_.getImages()) {
         images_.resize(views_.size());
@@ -354,7 +369,7 @@ vk::Result Window::try_acquire()
     if (stale_ && !make_swapchain())
         return vk::Result::eNotReady;
     const LimitedWait acquiring("the answer for the next picture of output '" + name_ + "' (vkAcquireNextImageKHR)");
-    auto [result, image] = swapchain_.acquireNextImage(late_ ? 0 : std::uint64_t(patience.count()), *acquired_);
+    auto [result, image] = swapchain_.acquireNextImage(late_ || aside_ ? 0 : std::uint64_t(patience.count()), *acquired_);
     image_ = image;
     return result;
 }

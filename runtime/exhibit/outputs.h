@@ -40,8 +40,9 @@ std::string text_of(glm::ivec2 size);
 class Window {
 public:
     /// place: none gives a window with a frame where the desktop puts it; otherwise a bare window that stays at its
-    /// place. Throws InputError where it can't be opened.
-    Window(Device& device, const Output& output, const std::optional<WindowPlace>& place);
+    /// place. aside: no frame waits for the window, it does not take the keyboard from the others, and its pictures are
+    /// copied into it. Throws InputError where it can't be opened.
+    Window(Device& device, const Output& output, const std::optional<WindowPlace>& place, bool aside = false);
     ~Window();
     Window(Window&& other) noexcept;
 
@@ -69,6 +70,7 @@ public:
     vk::Format format() const { return format_; } ///< undefined until there is a swapchain
     vk::Semaphore acquired() const { return *acquired_; }
     vk::Semaphore drawn() const { return *drawn_[image_]; }
+    vk::Image picture() const { return images_[image_]; } ///< the window's own, without a smaller one
     vk::SwapchainKHR swapchain() const { return *swapchain_; }
     std::uint32_t image() const { return image_; }
     void presented(vk::Result result);
@@ -92,6 +94,7 @@ private:
     glm::ivec2 size_{0}, windowed_place_{0}, windowed_size_{0};
     glm::ivec2 refused_{0}; ///< the last size of the window that was beyond the device's limit
     bool bare_ = false;
+    bool aside_ = false;
     bool readable_ = false;
     bool stale_ = true; ///< the swapchain
     bool lost_ = false; ///< the surface

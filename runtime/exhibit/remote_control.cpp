@@ -34,6 +34,7 @@ void describe(const Session& session, Snapshot& out)
     const double rapidity = rapidity_of(session.flight.ship);
     out.speed = std::tanh(rapidity), out.gamma = std::cosh(rapidity);
     out.max_gamma = session.rules.max_gamma;
+    out.exposure_ev = session.directions.exposure_ev;
     out.caption = session.directions.caption;
     out.frame_ms = 1e3 * session.frame_s;
     out.frames_per_s = session.frame_s > 0 ? 1 / session.frame_s : 0;

@@ -42,6 +42,7 @@ public:
     /// this frame's, or an earlier frame's once the driver has reported when its images were on the screens.
     void present(Skew& skew);
 
+    const std::vector<Monitor>& monitors() const { return desktop_.monitors(); }
     const std::vector<GLFWwindow*>& handles() const { return handles_; } ///< the open windows
     bool closed() const; ///< true if the visitor has closed a window
     void switch_full_screen();

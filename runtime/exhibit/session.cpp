@@ -25,10 +25,11 @@ RecordReplay record_replay_of(const ExhibitOptions& options, const Flying& rules
         options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
 }
 
-/// A visitor's hands do nothing while a docent holds the exhibit. Devices and the head tracker are read as always.
-void hold(Controls& controls)
+/// A visitor's hands do nothing while a docent holds the exhibit. Devices and the head tracker are read as always. taken:
+/// the docent has the stick, and the ship comes to coasting.
+void hold(Controls& controls, bool taken)
 {
-    static_cast<Steering&>(controls) = {.lever = controls.lever};
+    static_cast<Steering&>(controls) = {.lever = controls.lever, .taken = taken};
     const Head head = controls.head;
     static_cast<Looking&>(controls) = {};
     controls.head = head;
@@ -42,7 +43,7 @@ void scan(Session& session, Controls& controls, std::int64_t dt_ns)
     const bool other = controls.quit || controls.full_screen || controls.pattern || controls.save || controls.choose != 0
         || controls.turn_by != 0;
     const AnyButton button{.pressed = controls.pressed && !other, .held = controls.held};
-    hold(controls);
+    hold(controls, false);
     controls.lever.reset();
     controls.hud = controls.information = controls.beside = false;
     Steering& steering = controls;
@@ -266,9 +267,10 @@ double ev_of(const Session& session)
     const Exposing& rules = session.options.exposure;
     if (session.calm_ev.value)
         return *session.calm_ev.value;
-    return session.guide
+    const double shown = session.guide
         ? session.guide->shown_ev(session.exposure, rules)
         : shown_ev(session.exposure, rules, session.flight.exposure_ev, session.programme.start.exposure_ev);
+    return shown + session.directions.exposure_ev;
 }
 
 bool is_over(const Session& session)
@@ -307,7 +309,7 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     controls.slow_motion &= session.options.log.empty(); // a laboratory's seconds are the ship's
     const bool quits = controls.quit;
     if (session.directions.holds || (session.options.visiting && !in_hand(session.visit)))
-        hold(controls);
+        hold(controls, session.directions.holds);
     else if (by_one_button(session))
         scan(session, controls, entry.dt_ns);
     if (session.options.exposure.calm)

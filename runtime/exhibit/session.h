@@ -38,6 +38,7 @@ struct Directions {
     bool fades = false; ///< to black, and stays so
     double fade = 0; ///< the part of black now
     bool holds = false; ///< the visitors' devices do nothing
+    double exposure_ev = 0; ///< added to every picture's
     bool restarts = false; ///< the exhibit ends, so that the service manager starts it anew
     std::string caption{}; ///< on the head-up display; empty: none
     std::string refusal{}; ///< the reason of the last refused one

@@ -62,7 +62,8 @@ std::optional<Command> advance(MenuState& menu, std::span<const MenuPage> pages,
             return {};
         controls.menu = false;
     }
-    const Steering hands = std::exchange(static_cast<Steering&>(controls), Steering{.lever = controls.lever});
+    const Steering hands
+        = std::exchange(static_cast<Steering&>(controls), Steering{.lever = controls.lever, .taken = controls.taken});
     const int by = nudge(menu, hands, 1e-9 * double(dt_ns));
     const bool touched = by != 0 || hands.stop || hands.home || hands.undo || hands.menu || controls.pressed;
     menu.idle_ns = touched ? 0 : menu.idle_ns + dt_ns;

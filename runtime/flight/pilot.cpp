@@ -86,11 +86,10 @@ glm::dvec3 across(const glm::dvec3& way, const glm::dvec3& to)
     return glm::normalize(side);
 }
 
-/// Guided and free: the throttle's place sets the speed.
-Push by_lever(Flight& flight, const glm::dvec3& turn, const Flying& rules, const SpeedLimits& limits)
+/// Guided and free: the ship approaches the rapidity `target`.
+Push towards(double target, Flight& flight, const glm::dvec3& turn, const Flying& rules, const SpeedLimits& limits)
 {
-    const double speed = rapidity_of(flight.ship),
-                 target = flight.thrust_inhibited ? 0 : flight.lever * std::acosh(rules.max_gamma);
+    const double speed = rapidity_of(flight.ship);
     // A greatest rapidity that falls must be followed more closely than a hand.
     constexpr double closely_s = 0.25;
     const double gain_to_target = std::min((target - speed) / settle_s, (limits.rapidity - speed) / closely_s),
@@ -114,6 +113,12 @@ Push by_lever(Flight& flight, const glm::dvec3& turn, const Flying& rules, const
         push.rapidity += (across(way, nose) * turned - way * (0.5 * turned * turned)) * std::tanh(speed);
     }
     return push;
+}
+
+/// The throttle's place sets the speed.
+Push by_lever(Flight& flight, const glm::dvec3& turn, const Flying& rules, const SpeedLimits& limits)
+{
+    return towards(flight.thrust_inhibited ? 0 : flight.lever * std::acosh(rules.max_gamma), flight, turn, rules, limits);
 }
 
 /// The keys' lever after a tick. It is no further ahead of the speed than the pilot's delay needs, so that the ship gains
@@ -159,6 +164,21 @@ void watch_hands(Flight& flight, Steering& controls)
         flight.coasting = false;
 }
 
+/// The guide has the stick: the thrust fades as after a hand that lets go, and the ship keeps its speed. Afterwards the
+/// throttle has no effect until it is moved.
+Push let_coast(Flight& flight, const glm::dvec3& turn, const Flying& rules, const SpeedLimits& limits)
+{
+    flight.lever_waits = true;
+    flight.lever_rest.reset();
+    if (flight.coasting)
+        return {.turn = turn};
+    if (flight.mode == FlightMode::newtonian)
+        return by_thrust(flight, turn, {}, rules);
+    const double speed = rapidity_of(flight.ship);
+    flight.lever = std::min(1.0, speed / std::acosh(rules.max_gamma));
+    return towards(speed, flight, turn, rules, limits);
+}
+
 } // namespace
 
 glm::dvec3 steer(Flight& flight, const Steering& controls, const Flying& rules)
@@ -179,8 +199,11 @@ glm::dvec3 steer(Flight& flight, const Steering& controls, const Flying& rules)
 Push pilot(Flight& flight, const Steering& input, const Flying& rules, const SpeedLimits& limits)
 {
     Steering controls = input;
-    watch_hands(flight, controls);
+    if (!input.taken)
+        watch_hands(flight, controls);
     const glm::dvec3 turn = about_cockpit(steer(flight, controls, rules), flight.ship.ship_from_cockpit, rules.comfort);
+    if (input.taken)
+        return let_coast(flight, turn, rules, limits);
     if (flight.coasting)
         return {.turn = turn};
     // Visitors with thrusters alone, as on a space mouse, set the speed too.

@@ -25,7 +25,7 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
 [[maybe_unused]] void name_every_member(const Controls& c, const Flying& f, const Exposing& e, const Flight& s)
 {
     [[maybe_unused]] const auto& [time_ns, report_ns] = static_cast<const ControlTimes&>(c);
-    [[maybe_unused]] const auto& [lever, throttle_rate, push, turn, stop, home, undo, reset, next_mode, freeze, menu,
+    [[maybe_unused]] const auto& [lever, throttle_rate, push, turn, stop, home, undo, reset, next_mode, freeze, menu, taken,
         slow_motion]
         = static_cast<const Steering&>(c);
     [[maybe_unused]] const auto& [look_rad, look_ahead, head, exposure, lock_exposure] = static_cast<const Looking&>(c);
@@ -57,12 +57,13 @@ constexpr double most_ns = 9e15; ///< a hundred days; whole numbers below it are
 constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", &Controls::look_ahead},
     {"stop", &Controls::stop}, {"home", &Controls::home}, {"undo", &Controls::undo}, {"reset", &Controls::reset},
     {"next_mode", &Controls::next_mode}, {"freeze", &Controls::freeze}, {"menu", &Controls::menu},
-    {"slow_motion", &Controls::slow_motion}, {"aberration", &Controls::aberration}, {"doppler", &Controls::doppler},
-    {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours}, {"comparison", &Controls::comparison},
-    {"lock_exposure", &Controls::lock_exposure}, {"overlay", &Controls::overlay}, {"mark", &Controls::mark},
-    {"log", &Controls::log}, {"why", &Controls::why}, {"plot", &Controls::plot}, {"hud", &Controls::hud},
-    {"information", &Controls::information}, {"beside", &Controls::beside}, {"full_screen", &Controls::full_screen},
-    {"quit", &Controls::quit}, {"pattern", &Controls::pattern}, {"save", &Controls::save}};
+    {"taken", &Controls::taken}, {"slow_motion", &Controls::slow_motion}, {"aberration", &Controls::aberration},
+    {"doppler", &Controls::doppler}, {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours},
+    {"comparison", &Controls::comparison}, {"lock_exposure", &Controls::lock_exposure}, {"overlay", &Controls::overlay},
+    {"mark", &Controls::mark}, {"log", &Controls::log}, {"why", &Controls::why}, {"plot", &Controls::plot},
+    {"hud", &Controls::hud}, {"information", &Controls::information}, {"beside", &Controls::beside},
+    {"full_screen", &Controls::full_screen}, {"quit", &Controls::quit}, {"pattern", &Controls::pattern},
+    {"save", &Controls::save}};
 
 /// == would accept 0 for -0, which must come back as -0.
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }

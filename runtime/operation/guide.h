@@ -27,6 +27,8 @@ public:
     bool answered() const { return touring_.measured_answer.has_value(); } ///< the step's question
     const std::string& description() const { return show_.tour.steps[touring_.step()].description; } ///< of the step
     std::size_t step() const { return touring_.step(); } ///< counted from 0
+    /// Seconds left of the present step; 0 after the tour's end.
+    double left_s() const { return touring_.over ? 0 : starbow::left_s(touring_, show_); }
     /// The tour begins anew.
     void again();
     /// The tour stands still, or goes on.

@@ -22,6 +22,7 @@ struct Snapshot {
     double speed = 0; ///< v/c
     double gamma = 1;
     double max_gamma = 1; ///< at full throttle
+    double exposure_ev = 0; ///< a docent's change
     std::string caption; ///< by the command
     double frames_per_s = 0, frame_ms = 0;
     std::string error; ///< the last one, as a sentence; empty: none

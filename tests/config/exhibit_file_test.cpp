@@ -181,6 +181,18 @@ TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
     EXPECT_EQ(from_schema.visiting->attract, usual.attract);
 }
 
+TEST(ExhibitFileTest, TheGuidesWindowIsAskedForAndMayNameItsMonitor)
+{
+    EXPECT_FALSE(load_exhibit(write_text("own.json", "{}")).presenter);
+    for (const auto& [text, connector] : {std::pair{R"({ "presenter": {} })", ""},
+             {R"({ "presenter": { "monitor": { "connector": "HDMI-1" } } })", "HDMI-1"}}) {
+        const Exhibit exhibit = load_exhibit(write_text("presenter.json", text));
+        ASSERT_TRUE(exhibit.presenter);
+        EXPECT_EQ(exhibit.presenter->monitor.connector, connector);
+        EXPECT_TRUE(schema_accepts(json::parse(text))) << text;
+    }
+}
+
 TEST(ExhibitFileTest, WrongExhibitsAreRefusedByReaderAndSchema)
 {
     for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{
@@ -213,7 +225,10 @@ TEST(ExhibitFileTest, WrongExhibitsAreRefusedByReaderAndSchema)
              {R"({ "visit": { "fade_s": 6 } })", "/visit/fade_s: 6 is too large"},
              {R"({ "visit": { "attract": "rainbow" } })", "/visit/attract"},
              {R"({ "visit": { "attract": [""] } })", "/visit/attract/0"}, {R"({ "visit": true })", "/visit"},
-             {R"({ "visit": { "ask": 1 } })", "/visit"}}) {
+             {R"({ "visit": { "ask": 1 } })", "/visit"}, {R"({ "presenter": true })", "/presenter"},
+             {R"({ "presenter": { "screen": 1 } })", "screen"},
+             {R"({ "presenter": { "monitor": {} } })", "/presenter/monitor"},
+             {R"({ "presenter": { "monitor": "HDMI-1" } })", "/presenter/monitor"}}) {
         EXPECT_NE(message_for(text).find(problem), std::string::npos) << message_for(text);
         EXPECT_FALSE(schema_accepts(json::parse(text))) << text;
     }

@@ -68,10 +68,10 @@ RecordEntry some_entry(std::mt19937_64& random)
     maybe(c.exposure, -1, 1);
     for (bool Controls::*flag : std::initializer_list<bool Controls::*>{&Controls::look_ahead, &Controls::stop,
              &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode, &Controls::freeze, &Controls::menu,
-             &Controls::slow_motion, &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud,
-             &Controls::false_colours, &Controls::comparison, &Controls::full_screen, &Controls::quit, &Controls::pattern,
-             &Controls::save, &Controls::lock_exposure, &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why,
-             &Controls::plot, &Controls::information, &Controls::beside})
+             &Controls::taken, &Controls::slow_motion, &Controls::aberration, &Controls::doppler, &Controls::headlight,
+             &Controls::hud, &Controls::false_colours, &Controls::comparison, &Controls::full_screen, &Controls::quit,
+             &Controls::pattern, &Controls::save, &Controls::lock_exposure, &Controls::overlay, &Controls::mark,
+             &Controls::log, &Controls::why, &Controls::plot, &Controls::information, &Controls::beside})
         c.*flag = random() % 200 == 0;
     c.choose = random() % 20 == 0 ? int(random() % 3) - 1 : 0;
     c.turn_by = random() % 20 == 0 ? int(random() % 21) - 10 : 0;
@@ -87,7 +87,7 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
              c.look_rad.x, c.look_rad.y, c.head.moved_m.x, c.head.moved_m.y, c.head.moved_m.z, c.head.turned.w,
              c.head.turned.x, c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0)})
         all.push_back(std::bit_cast<std::uint64_t>(v));
-    for (bool flag : {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.freeze, c.menu, c.slow_motion,
+    for (bool flag : {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.freeze, c.menu, c.taken, c.slow_motion,
              c.aberration, c.doppler, c.headlight, c.false_colours, c.comparison, c.hud, c.full_screen, c.quit, c.pattern,
              c.save, c.lock_exposure, c.overlay, c.mark, c.log, c.why, c.plot, c.information, c.beside})
         all.push_back(flag);

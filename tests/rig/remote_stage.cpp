@@ -62,6 +62,9 @@ std::string apply(const Command& command, Snapshot& now)
     case speed_limit:
         now.max_gamma = command.number;
         break;
+    case exposure:
+        now.exposure_ev = command.number;
+        break;
     case aberration:
         now.effects.aberration = command.on;
         break;

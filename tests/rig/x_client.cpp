@@ -1,6 +1,7 @@
 // Another program on the X server:
 //   x_client grab SECONDS   grabs the keyboard, prints "grabbed", and lets it go after that time
 //   x_client focus          gives the focus to no window
+//   x_client close WINDOW   asks for the window's end, as its frame's button does
 //   x_client saver          prints the state of the screen saver: off, on, or disabled
 #include <cstdio>
 #include <cstdlib>
@@ -23,6 +24,20 @@ int main(int count, char** arguments)
     if (std::strcmp(arguments[1], "focus") == 0) {
         xcb_set_input_focus(link, XCB_INPUT_FOCUS_NONE, XCB_NONE, XCB_CURRENT_TIME);
         std::free(xcb_get_input_focus_reply(link, xcb_get_input_focus(link), nullptr)); // after the focus has changed
+        return 0;
+    }
+    if (std::strcmp(arguments[1], "close") == 0 && count > 2) {
+        const auto atom = [&](const char* name) {
+            return xcb_intern_atom_reply(link, xcb_intern_atom(link, false, std::uint16_t(std::strlen(name)), name), nullptr)
+                ->atom;
+        };
+        xcb_client_message_event_t ask{};
+        ask.response_type = XCB_CLIENT_MESSAGE, ask.format = 32;
+        ask.window = xcb_window_t(std::strtoul(arguments[2], nullptr, 0));
+        ask.type = atom("WM_PROTOCOLS"), ask.data.data32[0] = atom("WM_DELETE_WINDOW");
+        xcb_send_event(link, false, ask.window, XCB_EVENT_MASK_NO_EVENT, reinterpret_cast<const char*>(&ask));
+        xcb_flush(link);
+        std::free(xcb_get_input_focus_reply(link, xcb_get_input_focus(link), nullptr)); // it has been sent
         return 0;
     }
     const auto* grab = xcb_grab_keyboard_reply(

@@ -109,6 +109,9 @@ Command SeededVisitor::direction()
         case CommandKind::speed_limit:
             command.number = std::exp2(uniform(0.1, 20));
             break;
+        case CommandKind::exposure:
+            command.number = uniform(-2, 2);
+            break;
         case CommandKind::comparison:
             command.text = comparison_names[std::uniform_int_distribution<std::size_t>(0, 2)(random_)];
             break;

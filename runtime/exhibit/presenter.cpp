@@ -1,0 +1,232 @@
+#include "presenter.h"
+#include "config/json/error.h"
+#include "config/model/shipped.h"
+#include "menu_pages.h"
+#include "runtime/flight/ship.h"
+#include "runtime/hud/hud.h"
+#include "runtime/operation/log.h"
+#include <cmath>
+#include <csignal>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+std::string command_name_of(const std::filesystem::path& file)
+{
+    return (file.extension() == ".json" ? file.stem() : file.filename()).string();
+}
+
+std::vector<Cue> cues_of(const Tour& tour)
+{
+    std::vector<Cue> cues;
+    for (const Step& step : tour.steps) {
+        std::string text = step.question ? step.question->ask : step.caption;
+        text = filled(text, {{"measured", "…"}}); // known only when the step is shown
+        cues.push_back({text.empty() ? "–" : std::move(text), step.seconds});
+    }
+    return cues;
+}
+
+/// Who is there, in a few words.
+std::string visitors_of(const Session& session)
+{
+    const Words& words = session.words;
+    if (session.directions.fades)
+        return words("remote.dark");
+    if (session.visit.phase == VisitPhase::asking)
+        return words("presenter.asked");
+    if (session.options.visiting && !in_hand(session.visit))
+        return words("presenter.watches");
+    return words(!knows_visitor(session) ? "presenter.nobody" : "presenter.somebody");
+}
+
+std::vector<std::pair<std::string, std::string>> titled(
+    const Words& words, const std::string& kind, const std::vector<std::string>& names)
+{
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const std::string& name : names)
+        all.emplace_back(name, title_of(words, kind, name));
+    return all;
+}
+
+PresenterState state_of(const Session& session)
+{
+    const Words& words = session.words;
+    const Programme& programme = session.programme;
+    PresenterState state;
+    state.visitors = visitors_of(session);
+    state.scene = command_name_of(programme.scene), state.shot = command_name_of(programme.shot);
+    state.world = title_of(words, "scene", state.scene), state.coming = session.coming;
+    state.language = words.language;
+    const bool flies = !session.guide || session.guide->flies();
+    if (session.guide && !session.guide->over()) {
+        state.tour = command_name_of(programme.tour_name);
+        state.tour_title = title_of(words, "tour", state.tour);
+        state.cues = cues_of(*programme.tour);
+        state.step = session.guide->step(), state.left_s = session.guide->left_s();
+    }
+    state.paused = flies ? session.flight.frozen : session.guide->paused();
+    state.own_effects = flies;
+    state.fade = session.directions.fades, state.hold = session.directions.holds;
+    state.effects = session.flight.effects, state.slow_motion = session.flight.slowness > 0;
+    const double rapidity = rapidity_of(session.flight.ship);
+    state.speed = std::tanh(rapidity), state.gamma = std::cosh(rapidity), state.max_gamma = session.rules.max_gamma;
+    state.beside = session.beside, state.information = session.information;
+    state.one_button = session.one_button, state.left_handed = session.left_handed;
+    state.exposure_ev = session.directions.exposure_ev;
+    state.caption = session.directions.caption;
+    return state;
+}
+
+} // namespace
+
+PresenterPainter::PresenterPainter()
+{
+    // A signal is for the frame thread, and so is the processor where both need it.
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    thread_ = std::thread([this] {
+        setpriority(PRIO_PROCESS, id_t(gettid()), 10);
+        work();
+    });
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+PresenterPainter::~PresenterPainter()
+{
+    ends_ = true;
+    asked_.release();
+    thread_.join();
+}
+
+void PresenterPainter::ask()
+{
+    orders_.publish();
+    asked_.release();
+}
+
+const PresenterPicture* PresenterPainter::take() { return pictures_.refresh() ? &pictures_.newest() : nullptr; }
+
+void PresenterPainter::work()
+{
+    const Typesetter typesetter; // its letters are not for two threads
+    for (;;) {
+        asked_.acquire();
+        if (ends_)
+            return;
+        if (!orders_.refresh())
+            continue;
+        const Order& order = orders_.newest();
+        starbow::paint(order.sheet, order.view, typesetter, order.size, order.blue_first, pictures_.next());
+        pictures_.publish();
+    }
+}
+
+Presenter::Presenter(const ExhibitOptions& options)
+{
+    if (!options.presenter)
+        return;
+    const Typesetter font; // throws here what would end the thread
+    painter_ = std::make_unique<PresenterPainter>();
+    scenes_ = shipped_names("scenes"), tours_ = shipped_names("tours"), shots_ = shipped_names("shots");
+    for (const std::string& name : shipped_names("words"))
+        try {
+            languages_.emplace_back(name, words_in(name)("remote.this_language"));
+        } catch (const InputError& error) {
+            write_log(LogKind::words_unreadable, one_line(error.what()) + "; the guide's window does without this language");
+        }
+}
+
+Presenter::~Presenter() = default;
+
+void Presenter::close()
+{
+    closed_ = true;
+    write_log(LogKind::output_missing,
+        "the guide's window was closed; the exhibit goes on, and its next start opens the window again");
+}
+
+void Presenter::read(Controls& controls)
+{
+    for (Command& command : given_) {
+        write_log(LogKind::command_taken, text_of(command) + " from the guide's window");
+        controls.commands.push_back(std::move(command));
+    }
+    given_.clear();
+}
+
+void Presenter::note(const Command& command, const std::string& refusal, const Words& words)
+{
+    if (!painter_)
+        return;
+    refused_ = !refusal.empty();
+    const std::string name = text_of(command);
+    said_ = refused_ ? words("remote.refused", {{"command", name}, {"reason", refusal}})
+                     : words("remote.done", {{"command", name}});
+    pressed_ = true;
+}
+
+void Presenter::press(int key)
+{
+    if (size_.x == 0)
+        return; // nothing is shown yet that could be meant
+    if (std::optional<Command> command = starbow::press(sheet_, hands_, key)) {
+        state_ = foreseen(std::move(state_), *command);
+        given_.push_back(std::move(*command));
+    }
+    sheet_ = sheet_of(state_, hands_, words_); // the next key may come before the next picture
+    pressed_ = true;
+}
+
+void Presenter::click(glm::ivec2 at)
+{
+    if (const int key = key_at(sheet_, size_, at); key != 0 && !hands_.typed)
+        press(key);
+}
+
+void Presenter::type(char32_t character)
+{
+    starbow::type(hands_, character);
+    pressed_ = true;
+}
+
+bool Presenter::due()
+{
+    const Clock::time_point now = Clock::now();
+    if (!pressed_ && now - painted_ < std::chrono::milliseconds(100))
+        return false;
+    painted_ = now;
+    pressed_ = false;
+    return true;
+}
+
+bool Presenter::wants_view()
+{
+    const Clock::time_point now = Clock::now();
+    if (!seen || now - viewed_ < std::chrono::milliseconds(200))
+        return false;
+    viewed_ = now;
+    return true;
+}
+
+void Presenter::paint(const Session& session, glm::ivec2 size, bool blue_first)
+{
+    state_ = state_of(session);
+    if (words_.language != session.words.language)
+        words_ = session.words;
+    state_.said = said_, state_.refused = refused_;
+    state_.scenes = titled(session.words, "scene", scenes_), state_.tours = titled(session.words, "tour", tours_);
+    for (const std::string& name : shots_)
+        state_.shots.emplace_back(name, name);
+    state_.languages = languages_;
+    sheet_ = sheet_of(state_, hands_, words_);
+    size_ = size;
+    PresenterPainter::Order& order = painter_->next();
+    order.sheet = sheet_, order.view = view_, order.size = size, order.blue_first = blue_first;
+    painter_->ask();
+}
+
+} // namespace starbow

@@ -1,0 +1,46 @@
+#pragma once
+#include "presenter_sheet.h"
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace starbow {
+
+class Typesetter;
+
+/// A rectangle of the window, pixels.
+struct PresenterBox {
+    glm::ivec2 corner{0}, size{0};
+    bool holds(glm::ivec2 at) const
+    {
+        return glm::all(glm::greaterThanEqual(at, corner)) && glm::all(glm::lessThan(at, corner + size));
+    }
+};
+
+/// The places of a sheet's parts in a window.
+struct PresenterPlaces {
+    PresenterBox picture, facts, cues, list, said;
+    std::vector<PresenterBox> choices, keys; ///< in the sheet's order
+};
+PresenterPlaces places_of(const PresenterSheet& sheet, glm::ivec2 size);
+
+/// The key at a place of the window; 0: none.
+int key_at(const PresenterSheet& sheet, glm::ivec2 size, glm::ivec2 at);
+
+/// A small copy of what the visitors see: three bytes a pixel, sRGB, from the top. Size 0: none came yet.
+struct VisitorsView {
+    glm::ivec2 size{0};
+    std::vector<std::uint8_t> rgb;
+};
+
+/// The window's pixels, four bytes each (red, green, blue, opaque; or blue first), sRGB, from the top.
+struct PresenterPicture {
+    glm::ivec2 size{0};
+    std::vector<std::uint8_t> texels;
+    double tightest = 1; ///< the smallest part of its planned size that a label, a state or a choice was shrunk to
+};
+/// Paints a sheet. out: receives the picture; its memory is used again.
+void paint(const PresenterSheet& sheet, const VisitorsView& view, const Typesetter& typesetter, glm::ivec2 size,
+    bool blue_first, PresenterPicture& out);
+
+} // namespace starbow

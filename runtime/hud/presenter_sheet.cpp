@@ -1,0 +1,325 @@
+#include "presenter_sheet.h"
+#include "hud.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+using Order = CommandKind;
+
+/// The offered speed limits, γ: half, 0.9, 0.99 and 0.999 of light's speed, and then γ itself. The last is no limit.
+constexpr double speed_limits[]{1.1547, 2.2942, 7.0888, 22.366, 100, 1000, 1e6};
+constexpr double exposure_step_ev = 0.5;
+
+/// A limit as a docent says it: a part of light's speed while that can be read, then γ.
+std::string limit_text(double max_gamma, const Words& words)
+{
+    if (max_gamma >= speed_limits[std::size(speed_limits) - 1])
+        return words("remote.no_limit");
+    if (max_gamma > 30)
+        return "γ " + shown_number(max_gamma, 0, words);
+    return shown_number(std::sqrt(1 - 1 / (max_gamma * max_gamma)), 3, words) + " c";
+}
+
+std::string exposure_text(double ev, const Words& words)
+{
+    return words("hud.ev", {{"ev", (ev > 0 ? "+" : "") + shown_number(ev, 1, words)}});
+}
+
+std::string speed_text(const PresenterState& state, const Words& words)
+{
+    return shown_number(state.speed, state.speed > 0.999 ? 7 : 3, words) + " c    γ " + shown_number(state.gamma, words);
+}
+
+struct Choices {
+    std::string title;
+    std::vector<std::pair<std::string, Command>> all;
+    std::vector<bool> shown; ///< is what the exhibit shows
+};
+
+Choices named(const std::string& title, Order kind, const std::vector<std::pair<std::string, std::string>>& names,
+    const std::string& now)
+{
+    Choices choices{title, {}, {}};
+    for (const auto& [name, text] : names) {
+        choices.all.emplace_back(text, Command{.kind = kind, .text = name});
+        choices.shown.push_back(name == now);
+    }
+    return choices;
+}
+
+Choices choices_of(const PresenterState& state, PresenterList list, const Words& words)
+{
+    switch (list) {
+    case PresenterList::worlds:
+        return named(words("presenter.worlds"), Order::scene, state.scenes, state.scene);
+    case PresenterList::tours:
+        return named(words("presenter.tours"), Order::tour, state.tours, state.tour);
+    case PresenterList::views:
+        return named(words("presenter.views"), Order::shot, state.shots, state.shot);
+    case PresenterList::languages:
+        return named(words("remote.language"), Order::language, state.languages, state.language);
+    case PresenterList::limits:
+        break;
+    }
+    Choices choices{words("remote.speed_limit"), {}, {}};
+    for (const double limit : speed_limits) {
+        choices.all.emplace_back(limit_text(limit, words), Command{.kind = Order::speed_limit, .number = limit});
+        choices.shown.push_back(std::abs(limit / state.max_gamma - 1) < 1e-3);
+    }
+    return choices;
+}
+
+std::size_t pages_of(const Choices& choices)
+{
+    return std::max<std::size_t>(1, (choices.all.size() + most_choices - 1) / most_choices);
+}
+
+void add_choices(PresenterSheet& sheet, const PresenterState& state, const PresenterHands& hands, const Words& words)
+{
+    const Choices choices = choices_of(state, hands.list, words);
+    const std::size_t pages = pages_of(choices), page = hands.page % pages;
+    sheet.list_title = choices.title;
+    for (std::size_t i = page * most_choices; i < std::min(choices.all.size(), (page + 1) * most_choices); ++i) {
+        const char digit = char('0' + (i + 1) % most_choices);
+        sheet.choices.push_back({.key = digit,
+            .name = std::string(1, digit),
+            .label = choices.all[i].first,
+            .on = choices.shown[i],
+            .deed = choices.all[i].second});
+    }
+    if (pages > 1)
+        sheet.choices.push_back({.key = 'M',
+            .name = "M",
+            .label = words("presenter.more"),
+            .state = std::to_string(page + 1) + " / " + std::to_string(pages),
+            .deed = MoreChoices{}});
+}
+
+void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& words)
+{
+    using namespace presenter_keys;
+    std::vector<PresenterKey>& keys = sheet.keys;
+    const auto deed = [&](int key, const char* name, const char* label, PresenterDeed deed) -> PresenterKey& {
+        return keys.emplace_back(PresenterKey{.key = key, .name = name, .label = words(label), .deed = std::move(deed)});
+    };
+    const auto toggle = [&](int key, const char* label, Order kind, bool on) -> PresenterKey& {
+        const char name[]{char(key), 0};
+        PresenterKey& added = deed(key, name, label, Command{.kind = kind, .on = !on});
+        added.on = on;
+        added.state = words(on ? "hud.on" : "hud.off");
+        return added;
+    };
+    const auto list = [&](int key, const char* label, PresenterList which) -> PresenterKey& {
+        const char name[]{char(key), 0};
+        return deed(key, name, label, OpenList{which});
+    };
+    const auto brighter = [&](double ev) {
+        const double steps = std::round(state.exposure_ev / exposure_step_ev) + ev / exposure_step_ev;
+        return Command{
+            .kind = Order::exposure, .number = std::clamp(steps * exposure_step_ev, -most_exposure_ev, most_exposure_ev)};
+    };
+    const auto step = [&](int key, const char* label, Command command, std::string state_text, bool on) -> PresenterKey& {
+        const char name[]{char(key), 0};
+        PresenterKey& added = deed(key, name, label, std::move(command));
+        added.state = std::move(state_text), added.on = on;
+        return added;
+    };
+    const bool toured = !state.cues.empty();
+    PresenterKey& back = deed(left, "←", "remote.back", Command{.kind = Order::back});
+    back.also = page_up, back.usable = toured;
+    PresenterKey& next = deed(right, "→", "remote.next", Command{.kind = Order::next});
+    next.also = page_down, next.usable = toured;
+    toggle('P', toured ? "remote.pause" : "presenter.freeze", Order::pause, state.paused);
+    toggle('H', "remote.hold", Order::hold, state.hold);
+    toggle('B', "remote.fade", Order::fade, state.fade);
+
+    deed(space, words("presenter.space").c_str(), "remote.stop", Command{.kind = Order::stop});
+    deed('R', "R", "remote.reset", Command{.kind = Order::reset});
+    list('W', "presenter.worlds", PresenterList::worlds);
+    list('T', "presenter.tours", PresenterList::tours);
+    list('V', "presenter.views", PresenterList::views);
+
+    for (const auto& [key, label, kind, on] :
+        {std::tuple{'A', "remote.aberration", Order::aberration, state.effects.aberration},
+            {'D', "remote.doppler", Order::doppler, state.effects.doppler},
+            {'E', "remote.headlight", Order::headlight, state.effects.headlight},
+            {'F', "remote.false_colours", Order::false_colours, state.effects.false_colours},
+            {'S', "remote.slow_motion", Order::slow_motion, state.slow_motion}})
+        toggle(key, label, kind, on).usable = state.own_effects;
+
+    constexpr const char* comparisons[]{"remote.none", "remote.galilean", "remote.no_light_delay"};
+    const std::size_t compared = std::size_t(state.effects.comparison), beside = std::size_t(state.beside);
+    step('C', "remote.comparison",
+        {.kind = Order::comparison, .text = std::string(comparison_names[(compared + 1) % comparison_names.size()])},
+        words(comparisons[compared]), compared > 0)
+        .usable
+        = state.own_effects;
+    step('X', "presenter.beside", {.kind = Order::beside, .text = beside_names[(beside + 1) % beside_names.size()]},
+        words(std::string("beside.") + beside_names[beside]), beside > 0);
+    step('I', "remote.information", {.kind = Order::information, .text = std::string(name_of(after(state.information)))},
+        words("remote.display." + std::string(name_of(state.information))), false);
+    deed(down, "↓", "presenter.darker", brighter(-exposure_step_ev)).state = exposure_text(state.exposure_ev, words);
+    deed(up, "↑", "presenter.brighter", brighter(exposure_step_ev)).state = exposure_text(state.exposure_ev, words);
+
+    list('G', "remote.speed_limit", PresenterList::limits).state = limit_text(state.max_gamma, words);
+    PresenterKey& language = list('L', "remote.language", PresenterList::languages);
+    for (const auto& [name, text] : state.languages)
+        if (name == state.language)
+            language.state = text;
+    PresenterKey& caption = deed('K', "K", "remote.caption", TypeCaption{});
+    caption.on = !state.caption.empty();
+    caption.state = words(caption.on ? "hud.on" : "hud.off");
+    toggle('O', "remote.one_button", Order::one_button, state.one_button);
+    toggle('N', "remote.left_handed", Order::left_handed, state.left_handed);
+}
+
+const PresenterKey* key_found(const std::vector<PresenterKey>& keys, int key)
+{
+    const auto at = std::ranges::find_if(
+        keys, [&](const PresenterKey& one) { return one.key == key || (one.also != 0 && one.also == key); });
+    return at == keys.end() ? nullptr : &*at;
+}
+
+/// Keys while a caption is typed.
+std::optional<Command> press_typing(PresenterHands& hands, int key)
+{
+    using namespace presenter_keys;
+    std::string& text = *hands.typed;
+    if (key == escape) {
+        hands.typed.reset();
+    } else if (key == backspace && !text.empty()) {
+        while (text.size() > 1 && (text.back() & 0xc0) == 0x80) // the rest of a character
+            text.pop_back();
+        text.pop_back();
+    } else if (key == enter || key == keypad_enter) {
+        Command command{.kind = Order::caption, .text = std::move(text)};
+        hands.typed.reset();
+        return command;
+    }
+    return {};
+}
+
+} // namespace
+
+PresenterSheet sheet_of(const PresenterState& state, const PresenterHands& hands, const Words& words)
+{
+    PresenterSheet sheet{
+        .cues = state.cues, .step = state.step, .said = state.said, .refused = state.refused, .typed = hands.typed};
+    sheet.facts = {{words("remote.visitors"), state.visitors},
+        {words("remote.scene"), state.coming.empty() ? state.world : words("menu.coming", {{"world", state.coming}})},
+        {words("remote.speed"), speed_text(state, words)}, {words("remote.speed_limit"), limit_text(state.max_gamma, words)},
+        {words("remote.exposure"), exposure_text(state.exposure_ev, words)}};
+    if (!state.caption.empty())
+        sheet.facts.emplace_back(words("remote.caption"), state.caption);
+    if (state.cues.empty()) {
+        sheet.cue_title = words("presenter.no_tour");
+    } else {
+        const std::string step
+            = words("remote.step", {{"step", std::to_string(state.step + 1)}, {"steps", std::to_string(state.cues.size())}});
+        sheet.cue_title = state.tour_title + " · " + step + " · "
+            + (state.paused ? words("remote.paused")
+                            : words("presenter.left", {{"left", std::to_string(int(std::ceil(state.left_s)))}}));
+    }
+    sheet.typed_help = words("presenter.typed");
+    add_choices(sheet, state, hands, words);
+    add_keys(sheet, state, words);
+    return sheet;
+}
+
+std::optional<Command> press(const PresenterSheet& sheet, PresenterHands& hands, int key)
+{
+    if (hands.typed)
+        return press_typing(hands, key);
+    if (key == presenter_keys::escape)
+        hands = {};
+    const PresenterKey* pressed = key_found(sheet.choices, key);
+    if (!pressed)
+        pressed = key_found(sheet.keys, key);
+    if (!pressed)
+        return {};
+    if (const auto* command = std::get_if<Command>(&pressed->deed))
+        return *command;
+    if (const auto* opened = std::get_if<OpenList>(&pressed->deed))
+        hands = {.list = opened->list};
+    else if (std::holds_alternative<MoreChoices>(pressed->deed))
+        ++hands.page;
+    else
+        hands.typed.emplace();
+    return {};
+}
+
+PresenterState foreseen(PresenterState state, const Command& command)
+{
+    switch (command.kind) {
+    case Order::fade:
+        state.fade = command.on;
+        break;
+    case Order::hold:
+        state.hold = command.on;
+        break;
+    case Order::pause:
+        state.paused = command.on;
+        break;
+    case Order::aberration:
+        state.effects.aberration = command.on;
+        break;
+    case Order::doppler:
+        state.effects.doppler = command.on;
+        break;
+    case Order::headlight:
+        state.effects.headlight = command.on;
+        break;
+    case Order::false_colours:
+        state.effects.false_colours = command.on;
+        break;
+    case Order::slow_motion:
+        state.slow_motion = command.on;
+        break;
+    case Order::one_button:
+        state.one_button = command.on;
+        break;
+    case Order::left_handed:
+        state.left_handed = command.on;
+        break;
+    case Order::beside:
+        for (std::size_t i = 0; i < beside_names.size(); ++i)
+            if (beside_names[i] == command.text)
+                state.beside = Beside(i);
+        break;
+    case Order::information:
+        state.information = information_named(command.text);
+        break;
+    case Order::comparison:
+        for (std::size_t i = 0; i < comparison_names.size(); ++i)
+            if (comparison_names[i] == command.text)
+                state.effects.comparison = Comparison(i);
+        break;
+    case Order::exposure:
+        state.exposure_ev = command.number;
+        break;
+    default:
+        break; // its key gives the same command again
+    }
+    return state;
+}
+
+void type(PresenterHands& hands, char32_t c)
+{
+    if (!hands.typed || c < 32 || c == 127 || c > 0x10ffff)
+        return;
+    std::string one; // UTF-8
+    if (c < 0x80)
+        one = {char(c)};
+    else if (c < 0x800)
+        one = {char(0xc0 | c >> 6), char(0x80 | (c & 0x3f))};
+    else if (c < 0x10000)
+        one = {char(0xe0 | c >> 12), char(0x80 | (c >> 6 & 0x3f)), char(0x80 | (c & 0x3f))};
+    else
+        one = {char(0xf0 | c >> 18), char(0x80 | (c >> 12 & 0x3f)), char(0x80 | (c >> 6 & 0x3f)), char(0x80 | (c & 0x3f))};
+    if (hands.typed->size() + one.size() <= most_command_text)
+        *hands.typed += one;
+}
+
+} // namespace starbow

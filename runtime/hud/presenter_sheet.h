@@ -1,0 +1,106 @@
+#pragma once
+#include "config/model/beside.h"
+#include "config/model/information.h"
+#include "config/model/words.h"
+#include "input/command.h"
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace starbow {
+
+/// A step of the shown tour, for the guide's cue sheet.
+struct Cue {
+    std::string text; ///< what the visitors read in it
+    double seconds = 0;
+};
+
+/// The running exhibit as its guide's window shows it.
+struct PresenterState {
+    std::string visitors; ///< a line: who is there
+    std::string world, coming; ///< the visitors' names of the shown world, and of one that is being read; empty: none
+    std::string scene, shot, tour, language; ///< names of files, as in commands; empty: none
+    std::string tour_title;
+    std::vector<Cue> cues; ///< of the tour; empty: none is shown, or it is over
+    std::size_t step = 0; ///< the present one, counted from 0
+    double left_s = 0; ///< of the present step
+    bool paused = false; ///< the tour, or else the world
+    bool fade = false, hold = false, slow_motion = false;
+    bool own_effects = true; ///< the flight's effects can be switched; a tour shows its own
+    Effects effects{};
+    Beside beside = Beside::none;
+    Information information = Information::visitor;
+    bool one_button = false, left_handed = false;
+    double speed = 0, gamma = 1, max_gamma = 1;
+    double exposure_ev = 0; ///< the guide's change
+    std::string caption; ///< the guide's
+    std::string said; ///< about the last command; empty: none came
+    bool refused = false; ///< it was refused
+    /// The choices of each list: a name as in a command, and one for people.
+    std::vector<std::pair<std::string, std::string>> scenes, tours, shots, languages;
+};
+
+enum class PresenterList { worlds, tours, views, limits, languages };
+
+/// What the guide has opened in the window.
+struct PresenterHands {
+    PresenterList list = PresenterList::worlds;
+    std::size_t page = 0; ///< of the list
+    std::optional<std::string> typed{}; ///< a caption that is being typed; none: keys are commands
+};
+
+/// Keys by GLFW's numbers; letters and digits have those of their characters.
+namespace presenter_keys {
+constexpr int space = 32, escape = 256, enter = 257, backspace = 259, right = 262, left = 263, down = 264, up = 265,
+              page_up = 266, page_down = 267, keypad_enter = 335;
+}
+
+struct OpenList {
+    PresenterList list;
+};
+struct MoreChoices { };
+struct TypeCaption { };
+using PresenterDeed = std::variant<Command, OpenList, MoreChoices, TypeCaption>;
+
+/// A key of the window, which is a button for the mouse, too.
+struct PresenterKey {
+    int key = 0;
+    int also = 0; ///< a second key for the same, as a presentation's clicker sends it; 0: none
+    std::string name; ///< printed on the key
+    std::string label;
+    std::string state; ///< of what it changes; empty: none
+    bool on = false; ///< what it switches is on, or what it chooses is shown
+    bool usable = true; ///< false: the exhibit would refuse it now
+    PresenterDeed deed;
+};
+
+/// Everything that the guide's window says.
+struct PresenterSheet {
+    std::vector<std::pair<std::string, std::string>> facts; ///< label and value
+    std::string cue_title; ///< the tour, its step and the seconds left; or that there is none
+    std::vector<Cue> cues;
+    std::size_t step = 0;
+    std::string list_title;
+    std::vector<PresenterKey> choices; ///< the shown page of the open list, at digits, and its key for more
+    std::vector<PresenterKey> keys;
+    std::string said;
+    bool refused = false;
+    std::optional<std::string> typed;
+    std::string typed_help;
+};
+
+/// Choices on one page of a list.
+constexpr std::size_t most_choices = 10;
+
+PresenterSheet sheet_of(const PresenterState& state, const PresenterHands& hands, const Words& words);
+
+/// A key of the sheet, or one that types; nothing happens at any other. Returns the command that it gives.
+std::optional<Command> press(const PresenterSheet& sheet, PresenterHands& hands, int key);
+/// The state that a command will lead to, as far as keys depend on it: a second press may come before the first one's frame.
+PresenterState foreseen(PresenterState state, const Command& command);
+/// A character that is typed into a caption.
+void type(PresenterHands& hands, char32_t character);
+
+} // namespace starbow
