@@ -324,6 +324,8 @@ const std::vector<Known> known{
     {"scan.menu"},
     {"scan.press"},
     {"scan.press_in_menu"},
+    {"scan.press_in_question", {"left"}},
+    {"scan.press_on"},
     {"scan.acts"},
     {"menu.hands_stick", {"back", "take"}},
     {"menu.hands_keys"},

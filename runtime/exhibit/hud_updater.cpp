@@ -73,6 +73,9 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
     if (session.guide) {
         shown.prompt = session.guide->prompt(words);
         shown.caption = session.guide->caption(words, capabilities);
+        if (shown.caption && by_one_button(session) && !visitor_flies(session))
+            shown.caption->aside = words(session.guide->asks() ? "scan.press_in_question" : "scan.press_on",
+                {{"left", std::to_string(int(std::ceil(session.guide->left_s())))}});
     } else if (session.options.tutorial)
         shown.prompt = prompt(session.tutorial, capabilities, words);
     if (shown.prompt.empty() && seeks_goals(session))

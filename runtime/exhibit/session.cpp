@@ -52,6 +52,9 @@ void scan(Session& session, Controls& controls, std::int64_t dt_ns)
         const std::vector<MenuPage> pages = menu_of(session);
         const std::size_t page = session.menu.page;
         steering = advance_in_menu(session.scan, rules, button, page, pages[page].items.size(), dt_ns);
+    } else if (session.guide && session.guide->asks()) {
+        constexpr std::size_t question = 0, no_end = std::size_t(-1); // after the last answer comes the first one
+        steering = advance_in_menu(session.scan, rules, button, question, no_end, dt_ns);
     } else if (!visitor_flies(session)) {
         session.scan = {};
         steering.home = button.pressed; // the tour's next step
@@ -294,6 +297,7 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     entry.dt_ns = std::min<std::int64_t>(passed.count(), 100'000'000);
     entry.skipped_ns = passed.count() - entry.dt_ns;
     const double dt_s = 1e-9 * double(entry.dt_ns);
+    session.desktop_saver.keep_away();
     controls = session.keyboard.read(windows, session.display.keyboard_grabbed(windows),
         std::chrono::nanoseconds(now - session.began).count(), dt_s, session.hid.kinds(), session.left_handed);
     session.hid.left_handed(session.left_handed);

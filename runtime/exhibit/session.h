@@ -1,6 +1,7 @@
 #pragma once
 #include "alignment_mode.h"
 #include "config/model/beside.h"
+#include "desktop_saver.h"
 #include "display_hold.h"
 #include "exhibit.h"
 #include "input/calm.h"
@@ -89,6 +90,7 @@ struct Session {
     Tutorial tutorial;
     RecordReplay record_replay;
     DisplayHold display{};
+    DesktopSaver desktop_saver{};
     Keyboard keyboard{};
     Hid hid;
     std::unique_ptr<HeadTracker> tracker;

@@ -156,15 +156,17 @@ void answer(Touring& now, const Show& show)
     }
 }
 
-/// Moves the choice or the number by one; to the right means more.
+/// Moves the choice or the number by one; to the right means more. The last choice is followed by the first one, so that
+/// hands with one way to push reach all of them.
 void nudge(Touring& now, const Show& show, int by)
 {
     const Question& question = *step_of(now, show).question;
-    if (const auto* choices = std::get_if<std::vector<Choice>>(&question.answer))
-        now.chosen = now.chosen < 0 ? (by > 0 ? 0 : int(choices->size()) - 1)
-                                    : std::clamp(now.chosen + by, 0, int(choices->size()) - 1);
-    else if (const auto* set = std::get_if<NumberToSet>(&question.answer))
+    if (const auto* choices = std::get_if<std::vector<Choice>>(&question.answer)) {
+        const int count = int(choices->size());
+        now.chosen = now.chosen < 0 ? (by > 0 ? 0 : count - 1) : (now.chosen + by + count) % count;
+    } else if (const auto* set = std::get_if<NumberToSet>(&question.answer)) {
         now.number = std::clamp(now.number + by * set->step, set->from, set->to);
+    }
 }
 
 void run_question(Touring& now, const Show& show, const Controls& controls, double dt_s)
@@ -250,6 +252,11 @@ void watch(Touring& now, const Show& show, std::int64_t dt_ns)
 
 } // namespace
 
+bool asks(const Touring& now, const Show& show)
+{
+    return !now.over && step_of(now, show).question && !now.measured_answer && !tries(step_of(now, show));
+}
+
 bool flies(const Touring& now, const Show& show)
 {
     return show.visitors && (now.over || (tries(step_of(now, show)) && !now.measured_answer));
@@ -293,7 +300,7 @@ Touring advance(Touring now, const Show& show, const Controls& controls, std::in
     }
     if (now.paused)
         return now;
-    if (step_of(now, show).question && !now.measured_answer && !tries(step_of(now, show)))
+    if (asks(now, show))
         run_question(now, show, controls, dt_s);
     for (std::int64_t left = dt_ns; left > 0 && !now.over;) {
         const Step& step = step_of(now, show);

@@ -48,6 +48,9 @@ Touring touring_at(const Show& show);
 /// and resumes where it does not answer a question. Looking around and the exposure always work.
 Touring advance(Touring touring, const Show& show, const Controls& controls, std::int64_t dt_ns);
 
+/// True while a question waits for an answer that hands choose, not a flight.
+bool asks(const Touring& touring, const Show& show);
+
 /// True while the visitor flies.
 bool flies(const Touring& touring, const Show& show);
 

@@ -22,6 +22,7 @@ public:
     const Flight& flown(const Controls& controls, std::int64_t dt_ns);
 
     bool flies() const { return starbow::flies(touring_, show_); } ///< the visitor flies
+    bool asks() const { return starbow::asks(touring_, show_); } ///< a question waits for an answer
     bool over() const { return touring_.over; }
     bool paused() const { return touring_.paused; }
     bool answered() const { return touring_.measured_answer.has_value(); } ///< the step's question

@@ -63,7 +63,15 @@ grep -q 'exposure [^ ]* EV locked' "$folder/log" || fail "desk: L did not hold t
 ok
 
 # A key that is let go while another program has the keyboard, by a grab or by the focus, is let go. So is one that is held
-# meanwhile, and a new press counts. The screen saver, due after a second without input, stays off.
+# meanwhile, and a new press counts. The screen saver, due after a second without input, stays off, and the desktop's own too.
+dbus-daemon --session --nofork --print-address=1 >"$folder/bus" 2>"$folder/bus-log" &
+started+=($!)
+until_true 10 test -s "$folder/bus" || fail "no session's bus starts"
+DBUS_SESSION_BUS_ADDRESS=$(cat "$folder/bus")
+export DBUS_SESSION_BUS_ADDRESS
+"$(dirname "$x_client")/screen_saver" "$folder/saver" &
+started+=($!)
+until_true 10 grep -q ready "$folder/saver" || fail "the desktop's screen saver does not start"
 fly desk --record "$folder/grab.jsonl"
 xset s 1 1
 turning() { tail -n 8 "$folder/grab.jsonl" | grep -q '"turn"'; }
@@ -89,12 +97,16 @@ xdotool keyup Left
 still || fail "focus: the ship turns on after the key was let go"
 ok
 [ "$("$x_client" saver)" = off ] || fail "the screen saver is $("$x_client" saver)"
+[ "$(cat "$folder/saver")" = "ready
+kept away by Starbow: an exhibit is shown" ] || fail "the desktop's own screen saver: $(cat "$folder/saver")"
 ok
 xdotool windowfocus "$window" key Escape
 wait $exhibit || fail "grab: exit $?"
 ok
 saver_is_on() { [ "$("$x_client" saver)" = on ]; }
 until_true 10 saver_is_on || fail "the screen saver stays off after the exhibit"
+until_true 10 grep -q 'free again' "$folder/saver" || fail "the desktop's screen saver stays away after the exhibit"
+unset DBUS_SESSION_BUS_ADDRESS
 ok
 xset s 0 0 s reset
 

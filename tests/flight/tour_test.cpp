@@ -1,5 +1,6 @@
 // Tours while they run: compared with closed forms, at any frame rate, with and without visitors.
 #include "config/model/shipped.h"
+#include "input/scan.h"
 #include "runtime/flight/measuring.h"
 #include "runtime/flight/tour.h"
 #include "runtime/hud/caption.h"
@@ -498,6 +499,35 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
     EXPECT_EQ(later(number, show, 0.05, controls_with(Steering{.stop = true})).right, true) << "7.87 within 0.2 of 8";
     number = later(later(number, show, 0.04), show, 0.04, left);
     EXPECT_EQ(later(number, show, 0.05, controls_with(Steering{.stop = true})).right, false);
+}
+
+// One button: the answers are marked in turn, and a press takes the marked one, whichever it is and however long one waits.
+TEST(Tours, OneButtonGivesEveryAnswer)
+{
+    const Tour tour
+        = tour_of(R"({ "seconds": 30, "question": { "ask": { "en": "gamma?" }, "explanation": { "en": "it is {measured}" },
+        "explanation_s": 3, "measure": { "quantity": "gamma" }, "choices": [ { "text": { "en": "one" }, "below": 1.5 },
+        { "text": { "en": "two" }, "from": 1.5, "below": 3 }, { "text": { "en": "four" }, "from": 3 } ] } })");
+    const Show show{tour, {}, 1, true};
+    const OneButton rules;
+    for (int round = 0; round < 2; ++round)
+        for (int wanted = 0; wanted < 3; ++wanted) {
+            Touring touring = later(touring_at(show), show, 0.1);
+            Scan scan;
+            double time_s = 0;
+            int passed = 0, before = -1;
+            for (; asks(touring, show) && time_s < 25; time_s += 0.016) {
+                passed += touring.chosen != before && touring.chosen == wanted;
+                before = touring.chosen;
+                const bool presses = touring.chosen == wanted && passed > round;
+                touring = later(touring, show, 0.016,
+                    controls_with(advance_in_menu(scan, rules, {presses, presses}, 0, std::size_t(-1), 16'000'000)));
+            }
+            ASSERT_FALSE(asks(touring, show)) << wanted;
+            EXPECT_EQ(touring.chosen, wanted);
+            EXPECT_EQ(touring.right, wanted == 0);
+            EXPECT_NEAR(time_s, (3 * round + wanted + 1) * rules.scan_s, 0.2);
+        }
 }
 
 TEST(Tours, AVisitorFliesATryUntilItIsReached)

@@ -108,7 +108,8 @@ TEST(Hud, NoLetterIsTooFaintToRead)
                     for (int j = -reach; j <= reach; ++j)
                         for (int i = -reach; i <= reach; ++i)
                             brightest = std::max(brightest, letter(x + i, y + j));
-                    EXPECT_GE(brightest, int(faintest_letters * 255) - 1) << int(information) << kind << ": " << x << ", " << y;
+                    EXPECT_GE(brightest, int(faintest_letters * 255) - 1)
+                        << int(information) << kind << ": " << x << ", " << y;
                     ++letters;
                 }
             EXPECT_GT(letters, 500);
