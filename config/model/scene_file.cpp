@@ -140,6 +140,10 @@ SceneFile load_scene_file(const std::filesystem::path& file)
     if (auto p = find_member(top, "start"))
         scene.start = read_shot(*p, false);
     scene.start.scene = scene.name;
+    if (const std::optional<Boundary>& ball = scene.boundary)
+        if (const double away = glm::distance(scene.start.position, ball->centre); away >= ball->radius)
+            complain(member(member(top, "boundary"), "radius"),
+                "leaves the start outside, " + shown(away) + " from the centre; a larger one is right, or a start within");
     return scene;
 }
 

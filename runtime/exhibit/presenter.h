@@ -1,5 +1,6 @@
 #pragma once
 #include "runtime/hud/presenter_picture.h"
+#include "runtime/operation/monitors.h"
 #include "runtime/remote/triple_buffer.h"
 #include "session.h"
 #include <atomic>
