@@ -143,7 +143,7 @@ SceneFile load_scene_file(const std::filesystem::path& file)
     if (const std::optional<Boundary>& ball = scene.boundary)
         if (const double away = glm::distance(scene.start.position, ball->centre); away >= ball->radius)
             complain(member(member(top, "boundary"), "radius"),
-                "leaves the start outside, " + shown(away) + " from the centre; a larger one is right, or a start within");
+                "leaves the start outside, " + shown(away) + " from the centre; more than that is right");
     return scene;
 }
 

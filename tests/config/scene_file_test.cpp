@@ -108,7 +108,7 @@ TEST(SceneFileTest, WrongScenesAreRefused)
             {with(R"("boundary": { "centre": [0, 0, 0], "radius": 0 })"), "/boundary/radius", "0", "is too small"},
             {with(R"("boundary": { "centre": [0, 0], "radius": 1 })"), "/boundary/centre", "[0,0]", "has length 2"},
             {with(R"("boundary": { "radius": 1 })"), "/boundary", "{", "lacks \"centre\""},
-            {with(R"("boundary": { "centre": [0, 9, 0], "radius": 8 })"), "/boundary/radius", "8", "9 from the centre"},
+            {with(R"("boundary": { "centre": [0, 9, 0], "radius": 8 })"), "/boundary/radius", "8", "leaves the start outside, 9 from the centre"},
             {with(R"("unit_m": "1 m")"), "/unit_m", "\"1 m\"", "is not a number"},
             {with(R"("unit": 1)"), "/unit", "1", "\"unit_m\""},
             {with(R"("light_speed_m_s": 0)"), "/light_speed_m_s", "0", "is too small"},

@@ -504,15 +504,15 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
 // One button: the answers are marked in turn, and a press takes the marked one, whichever it is and however long one waits.
 TEST(Tours, OneButtonGivesEveryAnswer)
 {
-    const Tour tour
-        = tour_of(R"({ "seconds": 30, "question": { "ask": { "en": "gamma?" }, "explanation": { "en": "it is {measured}" },
+    const Tour tour = tour_of(
+        R"({ "seconds": 1, "cut": { "look": [0, 0, -1] } }, { "seconds": 30, "question": { "ask": { "en": "gamma?" }, "explanation": { "en": "it is {measured}" },
         "explanation_s": 3, "measure": { "quantity": "gamma" }, "choices": [ { "text": { "en": "one" }, "below": 1.5 },
         { "text": { "en": "two" }, "from": 1.5, "below": 3 }, { "text": { "en": "four" }, "from": 3 } ] } })");
     const Show show{tour, {}, 1, true};
     const OneButton rules;
     for (int round = 0; round < 2; ++round)
         for (int wanted = 0; wanted < 3; ++wanted) {
-            Touring touring = later(touring_at(show), show, 0.1);
+            Touring touring = later(touring_at(show), show, 1.1);
             Scan scan;
             double time_s = 0;
             int passed = 0, before = -1;

@@ -84,7 +84,8 @@ TEST(Hud, NoLetterIsTooFaintToRead)
 {
     Typesetter typesetter;
     for (const Information information : {Information::visitor, Information::guide, Information::laboratory})
-        for (int kind = 0; kind < 4; ++kind) {
+        for (int kind = information == Information::laboratory ? 0 : 1; kind < 4;
+             ++kind) { // the others have a dial's shapes
             Readings shown = at_gamma(4);
             shown.information = information;
             if (kind > 0)
