@@ -177,6 +177,16 @@ grep -q '^the same to the bit at 1 check$' "$folder/replay-log" || fail "replay:
 ok
 [ "$(grep γ "$folder/log")" = "$(grep γ "$folder/replay-log")" ] || fail "replay: it ended elsewhere"
 ok
+# Its movie has a frame for each tenth of its seconds, at a standstill in the end.
+"$program" render --replay "$folder/flight.jsonl" --movie "$folder/flight.mp4" --fps 10 --size 64x48 --hud >"$folder/movie-log" 2>&1 \
+    || fail "the movie of a flight: exit $?"
+wanted=$(python3 -c 'import json, sys; print(sum(json.loads(line).get("dt_ns", 0) for line in open(sys.argv[1])) // 10**8)' "$folder/flight.jsonl")
+counted=$(ffprobe -v error -count_frames -select_streams v:0 -show_entries stream=nb_read_frames -of csv=p=0 "$folder/flight.mp4")
+[ "$counted" = "$wanted" ] && grep -q 'the same to the bit' "$folder/movie-log" || fail "the movie of a flight has $counted frames, not $wanted"
+ok
+"$program" render --replay "$folder/flight.jsonl" --movie "$folder/flight.avi" >"$folder/movie-log" 2>&1
+[ $? = 2 ] && [ ! -e "$folder/flight.avi" ] && grep -q 'ends in .mp4 is right' "$folder/movie-log" || fail "a movie with another ending"
+ok
 
 # SIGTERM, SIGINT and SIGHUP end the flight as Esc does: the record and the log have their last lines.
 for signal in TERM INT HUP; do

@@ -34,14 +34,16 @@ struct RenderOptions {
 
 int render(const RenderOptions& options)
 {
-    if (options.tour.empty() && options.out.empty())
+    if (!options.movie.empty() && options.tour.empty() && options.replay.empty())
+        throw InputError("--movie is given without --tour and --replay; one of them is right");
+    if (options.tour.empty() && options.movie.empty() && options.out.empty())
         throw InputError("--out is required here; the folder for the pictures, such as out/shot, is right");
     if (!options.replay.empty())
         return render_replay({options.replay, options.layout, options.out, options.size, options.frames, options.language,
-            options.every, options.hud});
+            {options.movie, options.frames_per_s}, options.every, options.hud, information_named(options.information)});
     if (!options.tour.empty())
-        return render_tour({options.tour, options.layout, options.movie, options.size, options.language,
-            options.frames_per_s, options.bloom});
+        return render_tour({options.tour, options.layout, options.size, options.language,
+            {options.movie, options.frames_per_s}, options.bloom});
     if (options.shot.empty())
         throw InputError("None of --shot, --replay and --tour is given; one of them is right");
     if (options.reference && options.exposure != "shot")
@@ -156,21 +158,24 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     add_language(*command, options->language);
     CLI::Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
-    for (CLI::Option* other : {shot, exr, pattern, points, overlay, why, information})
+    for (CLI::Option* other : {shot, exr, pattern, points, overlay, why})
         replay->excludes(other);
-    command->add_option("--frames", options->frames, "With --replay: the frames from A to B, counted from 0, as A:B")
-        ->needs(replay);
-    command->add_option("--every", options->every, "With --replay: each N-th frame")
-        ->check(whole_number(1, 1000000000))
-        ->needs(replay);
+    CLI::Option* frames
+        = command->add_option("--frames", options->frames, "With --replay: the frames from A to B, counted from 0, as A:B")
+              ->needs(replay);
+    CLI::Option* every = command->add_option("--every", options->every, "With --replay: each N-th frame")
+                             ->check(whole_number(1, 1000000000))
+                             ->needs(replay);
     CLI::Option* tour = command->add_option("--tour", options->tour,
         "Instead of a shot: a movie of a tour, a file or the name of one in config/tours, as it is shown when nobody flies");
     CLI::Option* movie
-        = command->add_option("--movie", options->movie, "With --tour: the movie's file, such as out/tour.mp4")->needs(tour);
-    command->add_option("--fps", options->frames_per_s, "With --tour: frames a second")
+        = command->add_option("--movie", options->movie, "With --tour or --replay: the movie's file, such as out/tour.mp4");
+    for (CLI::Option* other : {out, frames, every})
+        movie->excludes(other);
+    command->add_option("--fps", options->frames_per_s, "With --movie: frames a second")
         ->check(whole_number(1, 240))
         ->capture_default_str()
-        ->needs(tour);
+        ->needs(movie);
     tour->needs(movie);
     for (CLI::Option* other : {shot, out, exr, pattern, replay, points, overlay, why})
         tour->excludes(other);
@@ -187,6 +192,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         "Examples:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr\n"
         "  starbow render --shot gamma100 --out out/right --reference --samples 64\n"
         "  starbow render --replay flight.jsonl --out out/flight --frames 0:599\n"
+        "  starbow render --replay flight.jsonl --movie out/flight.mp4 --hud\n"
         "  starbow render --tour first-minute --movie out/first-minute.mp4 --fps 30 --size 1280x720 --language de\n"
         "  starbow render --shot clocks-passing --out out/clocks --measure \"400,300; 12deg,0deg\" --overlay ring");
     command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });

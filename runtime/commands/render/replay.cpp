@@ -34,47 +34,111 @@ std::pair<long, long> parse_frames(const std::string& text)
           "right");
 }
 
-} // namespace
-
-int render_replay(const ReplayOptions& options)
+/// The time of a record's frames, seconds. A stall of the machine before a frame takes none.
+double length_s(const std::string& file)
 {
-    if (options.out.empty())
-        throw InputError("--out is empty; give the folder for the pictures, such as out/flight");
+    Replay replay(file);
+    std::int64_t ns = 0;
+    while (const auto entry = replay.next())
+        ns += entry->dt_ns;
+    return 1e-9 * double(ns);
+}
+
+/// A record's pictures off-screen.
+class Projector {
+public:
+    Projector(const ReplayOptions& options, const RecordHeader& header, const Flown& from)
+        : hud_(options.hud)
+        , information_(options.information)
+        , words_(words_in(options.language))
+        , start_(header.start)
+        , context_(from.scene, device_options(false))
+        , renderer_(context_.device, context_.pipelines, context_.world, from.layout, default_quality(context_.device, true),
+              false)
+        , replay_renderer_(
+              renderer_, pattern_named(header.pattern), header.exposing, header.start.exposure_ev, header.rules.comfort)
+    {
+    }
+    void take(const RecordEntry& entry, const Flight& flight) { replay_renderer_.take(entry, flight); }
+    Filming::Pictures picture(const Flight& flight)
+    {
+        std::optional<Panel> panel;
+        if (hud_ && flight.hud)
+            panel = typesetter_.draw(shown(flight), words_, renderer_.frame().views().hud_width());
+        return replay_renderer_.picture(flight, start_.scene, panel ? &*panel : nullptr);
+    }
+    std::string device() const { return context_.device.name(); }
+    const Words& words() const { return words_; }
+    bool complains() const { return !context_.device.complaints.empty(); }
+
+private:
+    Readings shown(const Flight& flight) const
+    {
+        const SceneFile& scene = context_.world.scene;
+        Readings shown = readings(flight.ship, scene, flight.effects);
+        shown.information = information_, shown.lever = flight.lever, shown.mode = flight.mode, shown.frozen = flight.frozen;
+        if (information_ != Information::laboratory) // both clocks begin at 0
+            shown.world_s -= start_.time * scene.seconds_per_time_unit();
+        return shown;
+    }
+
+    bool hud_;
+    Information information_;
+    Words words_;
+    Shot start_;
+    RenderContext context_;
+    OffscreenRenderer renderer_;
+    ReplayRenderer replay_renderer_;
+    Typesetter typesetter_;
+};
+
+/// Frames at an even rate: each shows the record's frame of its time.
+int film_replay(const ReplayOptions& options, Replay& replay, const Flown& from)
+{
+    check_film(options.film, from.layout);
+    const auto rate = double(options.film.frames_per_s);
+    const long frames = std::max(1L, long(length_s(options.replay) * rate));
+    Projector projector(options, replay.header(), from);
+    Filming film(options.film, from.layout, from.scene, projector.words(), frames, projector.device(),
+        {{"record", shown_digest(digest_of({options.replay}))}, {"hud", options.hud},
+            {"information", name_of(options.information)}});
+    std::int64_t until_ns = 0;
+    long number = 0;
+    fly_again(replay, [&](const RecordEntry& entry, const Flight& flight) {
+        projector.take(entry, flight);
+        until_ns += entry.dt_ns;
+        for (; number < frames && double(number) / rate < 1e-9 * double(until_ns); ++number)
+            if (!film.take([&] { return projector.picture(flight); }))
+                return false;
+        return true;
+    });
+    const int status = film.finish();
+    if (status == 0)
+        std::printf("%s\n", replay.verdict().c_str());
+    return status != 0 ? status : replay.differs() || projector.complains() ? 1 : 0;
+}
+
+/// The record's own frames, as they were on a screen.
+int draw_frames(const ReplayOptions& options, Replay& replay, const Flown& from)
+{
     const auto [first, last] = parse_frames(options.frames);
-    Replay replay(options.replay);
-    const RecordHeader& header = replay.header();
-    Flown from = find_flown(options.replay, header, options.layout, write_log);
-    if (!options.size.empty())
-        for (Output& output : from.layout.outputs)
-            output.size = parse_size(options.size);
     const std::filesystem::path folder = options.out;
     check_writable(folder / (from.layout.outputs[0].name + ".png"));
-    const Pattern pattern = pattern_named(header.pattern);
-    RenderContext context(from.scene, device_options(false));
-    const SceneFile& scene = context.world.scene;
-    OffscreenRenderer renderer(
-        context.device, context.pipelines, context.world, from.layout, default_quality(context.device, true), false);
-    ReplayRenderer replay_renderer(renderer, pattern, header.exposing, header.start.exposure_ev, header.rules.comfort);
-    Typesetter typesetter;
-    const Words words = words_in(options.language);
+    Projector projector(options, replay.header(), from);
     std::error_code error; // write_png reports it
     std::filesystem::create_directories(folder, error);
 
     long frame = 0, drawn = 0; // of the frames that were on a screen
     Progress progress;
     fly_again(replay, [&](const RecordEntry& entry, const Flight& flight) {
-        replay_renderer.take(entry, flight);
+        projector.take(entry, flight);
         if (!entry.shown)
             return true;
         const long number = frame++;
         progress.show("frame " + std::to_string(number) + ", " + std::to_string(drawn) + " drawn", replay.part_read());
         if (number < first || number > last || (number - first) % options.every != 0)
             return true;
-        std::optional<Panel> panel;
-        if (options.hud && flight.hud)
-            panel
-                = typesetter.draw(readings(flight.ship, scene, flight.effects), words, renderer.frame().views().hud_width());
-        const auto pictures = replay_renderer.picture(flight, header.start.scene, panel ? &*panel : nullptr);
+        const Filming::Pictures pictures = projector.picture(flight);
         char name[32];
         std::snprintf(name, sizeof name, "-%06ld.png", number);
         for (std::size_t i = 0; i < pictures.size(); ++i)
@@ -83,7 +147,21 @@ int render_replay(const ReplayOptions& options)
         return true;
     });
     std::printf("%ld of %ld frames drawn into %s; %s\n", drawn, frame, options.out.c_str(), replay.verdict().c_str());
-    return replay.differs() || !context.device.complaints.empty() ? 1 : 0;
+    return replay.differs() || projector.complains() ? 1 : 0;
+}
+
+} // namespace
+
+int render_replay(const ReplayOptions& options)
+{
+    if (options.film.movie.empty() && options.out.empty())
+        throw InputError("--out is empty; give the folder for the pictures, such as out/flight");
+    Replay replay(options.replay);
+    Flown from = find_flown(options.replay, replay.header(), options.layout, write_log);
+    if (!options.size.empty())
+        for (Output& output : from.layout.outputs)
+            output.size = parse_size(options.size);
+    return options.film.movie.empty() ? draw_frames(options, replay, from) : film_replay(options, replay, from);
 }
 
 } // namespace starbow

@@ -1,11 +1,11 @@
 #pragma once
-#include <string>
+#include "film.h"
 
 namespace starbow {
 
 struct TourOptions {
-    std::string tour, layout, movie, size, language; ///< layout, size: "" for the desk, and as the layout's
-    long frames_per_s = 30;
+    std::string tour, layout, size, language; ///< layout, size: "" for the desk, and as the layout's
+    FilmOptions film;
     double bloom = 0;
 };
 
