@@ -41,7 +41,6 @@ FrameLoop::FrameLoop(Session& session, RemoteControl& remote, Presenter& present
     , screens_(device_, session.layout)
     , cold_(session.options.warms_up.value_or(!device_.on_processor()))
     , most_pipelines_(device_.on_processor() ? most_pipelines_in_software : most_pipelines)
-    , placards_(device_, context.pipelines)
     , done_(device_.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
     , live_(device_)
     , commands_(device_.device, {*device_.pool, vk::CommandBufferLevel::ePrimary, 2})
@@ -129,8 +128,7 @@ bool FrameLoop::fly_frame()
     const Panel* panel = hud_.update(session_, context_.world.scene, shot.exposure_ev, frame_->views().hud_width());
     const std::size_t pipelines = context_.pipelines.count();
     begin_commands();
-    placards_.prepare(
-        *commands_[0], session_, shot, context_.world, *frame_, quality_of(session_, device_), hud_.typesetter);
+    placards_.prepare(session_, shot, context_.world, *frame_, hud_.typesetter);
     frame_->draw(*commands_[0], *commands_[1], shot, panel, screens_.targets());
     end_commands();
     if (const std::size_t made = context_.pipelines.count() - pipelines; made > 0)

@@ -25,12 +25,12 @@ glm::dvec2 half_of(const Panel& panel, double degree_px)
 
 void Placards::forget()
 {
-    things_.reset(), sign_.reset(), inset_.reset();
+    things_.reset(), sign_.reset();
     no_room_ = false;
 }
 
-void Placards::prepare(vk::CommandBuffer commands, const Session& session, const Shot& shot, const GpuWorld& world,
-    FrameRenderer& frame, const Quality& quality, const Typesetter& typesetter)
+void Placards::prepare(
+    const Session& session, const Shot& shot, const GpuWorld& world, FrameRenderer& frame, const Typesetter& typesetter)
 {
     const ViewSet& views = frame.views();
     const double degree_px = views.hud_width() * std::tan(degree) / (2 * views.hud_place.half.x);
@@ -40,9 +40,11 @@ void Placards::prepare(vk::CommandBuffer commands, const Session& session, const
     else
         sign_.reset();
     if (session.beside == Beside::none)
-        inset_.reset(), no_room_ = false;
+        no_room_ = false;
+    if (session.beside == Beside::none || session.alignment.pattern() != Pattern::none)
+        frame.drop_inset();
     else if (!no_room_)
-        add_inset(commands, session, shot, world, views, quality, degree_px, typesetter);
+        add_inset(session, shot, frame, degree_px, typesetter);
     frame.place(placards_);
 }
 
@@ -77,29 +79,27 @@ void Placards::add_sign(const Session& session, const Shot& shot, const GpuWorld
         {.letters = &sign_panel_, .place = views.place_above(sign_->towards, half_of(sign_panel_, degree_px))});
 }
 
-void Placards::add_inset(vk::CommandBuffer commands, const Session& session, const Shot& shot, const GpuWorld& world,
-    const ViewSet& views, const Quality& quality, double degree_px, const Typesetter& typesetter)
+void Placards::add_inset(
+    const Session& session, const Shot& shot, FrameRenderer& frame, double degree_px, const Typesetter& typesetter)
 {
+    const ViewSet& views = frame.views();
     const double half_x = 0.42 * views.hud_place.half.x;
     const glm::dvec2 half(half_x, half_x * Inset::aspect);
-    if (!inset_) {
-        try {
-            const int width = std::clamp(int(2 * half.x / std::tan(degree) * degree_px), 64, 1024);
-            inset_ = in_room([&] { return std::make_unique<Inset>(device_, pipelines_, world, quality, width); });
-        } catch (const InputError& error) {
-            no_room_ = true;
-            write_log(LogKind::inset_no_room, one_line(error.what()) + "; the small picture is left out");
-            return;
-        }
+    try {
+        const int width = std::clamp(int(2 * half.x / std::tan(degree) * degree_px), 64, 1024);
+        frame.show_inset(beside(shot, session.beside, session.programme.start.exposure_ev), width);
+    } catch (const InputError& error) {
+        no_room_ = true;
+        write_log(LogKind::inset_no_room, one_line(error.what()) + "; the small picture is left out");
+        return;
     }
-    inset_->record(commands, beside(shot, session.beside, session.programme.start.exposure_ev));
     const std::string name = session.words(std::string("beside.") + name_of(session.beside));
     if (name != name_ || name_panel_.size.x == 0) {
         name_ = name;
         name_panel_ = draw_name(typesetter, name_, degree_px);
     }
     const glm::dvec2 name_half = half_of(name_panel_, degree_px);
-    placards_.push_back({.picture = &inset_->picture(), .place = views.place_beside_hud(half, 0)});
+    placards_.push_back({.picture = &frame.inset_picture(), .place = views.place_beside_hud(half, 0)});
     placards_.push_back({.letters = &name_panel_, .place = views.place_beside_hud(name_half, 2 * half.y)});
 }
 

@@ -337,7 +337,8 @@ CubeMapPlan plan_cube_map(
     reserve_headroom(room.by_tile);
     const std::span<const TileDemands> by_tile = std::span(room.by_tile).first(used);
     for (const ViewRequest& view : requests[0].views)
-        plan.pixels += double(view.cones->size().x) * view.cones->size().y;
+        if (!view.beside)
+            plan.pixels += double(view.cones->size().x) * view.cones->size().y;
 
     Allocation allocation{requests, quality, by_tile, plan, room.held};
     double density = quality.texels_per_pixel;

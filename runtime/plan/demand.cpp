@@ -17,6 +17,7 @@ struct Disc {
     double times = 1; // D's ratio over its pixels
     double most_D = 1e300; // of its pixels; infinite where that is unknown
     double pixel = 0; // the finest in the ship, radians
+    int rays = 1; // ViewRequest's
 };
 
 /// The range of tan(angle) of a disc along one axis of a face, clamped to the face. Returns false if the disc misses it.
@@ -140,7 +141,7 @@ void add_disc(Demands& demands, const Held& held, const Disc& disc, double E, in
                 const double above = disc.finest_pixel * (E * least + (1 - least) / E);
                 const double below = disc.coarsest_pixel * (E * most + (1 - most) / E);
                 own.sub_tiles[sub_tile].add({here, std::clamp(disc.finest, above, below) * per_angle,
-                    std::clamp(disc.coarsest, above, below) * per_angle});
+                    std::clamp(disc.coarsest, above, below) * per_angle / disc.rays});
             }
     });
 }
@@ -176,7 +177,7 @@ struct Walk {
         const double most_varied = level <= coarsest_level ? 1.22 : 1.5;
         if (!last && (disc.radius > 0.25 || (!galilean && disc.coarsest > most_varied * disc.finest)))
             return split(level, at);
-        if (view.dark_D > 0)
+        if (view.dark_D > 0 && !view.beside)
             dark_pixels += dark_part(disc) * pixels(level, at);
         if (disc.times > most_uneven && cap.radius < 1)
             cut(centre, cap);
@@ -254,6 +255,7 @@ struct Walk {
             disc.coarsest = std::max(disc.coarsest, disc.finest);
             disc.finest_pixel = 0, disc.coarsest_pixel = 1e300;
         }
+        disc.rays = view.rays;
         disc.radius = std::min(pi, disc.radius + view.parallax_rad);
         add_disc(demands, held, disc, E, finest_clip_level);
     }

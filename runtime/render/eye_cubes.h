@@ -41,6 +41,9 @@ public:
 
     /// Computes the observers for the instant that is drawn; returns the greatest e^rapidity of any.
     double observe();
+    /// The same for the small picture's observer, after observe(), and chooses the cube map that it is warped from.
+    void observe_inset(Inset& inset);
+    void forget_inset(); ///< there is no small picture any more
     /// The processor's part: plans the cube maps, culls and uploads. pre_exposure applies to cube maps that are drawn
     /// anew. probe: further rays that the probed view's eye must see, or null.
     void plan(double pre_exposure, const Probe* probe);
@@ -51,7 +54,11 @@ public:
     double dark_D(const ViewState& view, double pre_exposure) const;
     void redraw() { drawn_ = false; } ///< the next frame draws all cube maps anew
 
-    const Observer& observer_of(const ViewState& view) const { return observers[all[view.eye].observer]; }
+    const Observer& observer_of(const ViewState& view) const { return observers[view.observer]; }
+    /// The least numbers that are exact for an eye's observer.
+    StoredLight light_of(std::size_t eye) const;
+    /// The rays along each side of a view's pixels.
+    int rays_of(const ViewState& view) const;
     /// The directions in which the view may see something that moves.
     void find_bodies(const ViewState& view, std::vector<ShipCap>& bodies) const;
     std::size_t triangles() const; ///< sent to the device for the last frame
@@ -59,10 +66,13 @@ public:
 
     std::vector<EyeCube> all;
     std::vector<CubeMapPlan> plans; ///< one for each eye
-    std::vector<Observer> observers;
+    std::vector<Observer> observers; ///< the views', then the small picture's
 
 private:
     std::size_t eye_for(const ViewState& view);
+    void forget_inset_eye();
+    bool shares_cube(const Observer& inset, const Observer& first) const;
+    StoredLight inset_light(const Observer& inset) const;
     /// Bounds the surfaces of the cube map that is drawn now.
     void bound(EyeCube& eye, const CubeMapPlan& plan) const;
     void request_views(std::size_t eye, double pre_exposure, const Probe* probe);
@@ -73,6 +83,8 @@ private:
     const GpuWorld& world_;
     FrameState& state_;
     const ViewSet& views_;
+    bool inset_observed_ = false; ///< the last observer is the small picture's
+    bool inset_eye_ = false; ///< the last eye is the small picture's, because it can share no other cube map
     bool drawn_ = false; ///< the cube maps may be shown once more
     int shown_ = 0; ///< number of frames that have shown them
     PlanScratch scratch_;

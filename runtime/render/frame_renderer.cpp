@@ -19,6 +19,7 @@ void FrameRenderer::draw(
         draw_cubes(world);
         meter_.record(world);
         measurement_.draw_probes(world);
+        passes_.draw_inset(world);
     }
     for (std::size_t output = 0; output < targets.size(); ++output) {
         if (!targets[output].view)
@@ -40,6 +41,8 @@ void FrameRenderer::update(const Shot& shot, const Panel* hud)
     state_.shot = shot;
     state_.all_light = counts_all_light_ || measurement_.overlay_on(); // whose lines follow surfaces in the dark too
     const double most_E = eyes_.observe();
+    if (views_.inset)
+        eyes_.observe_inset(*views_.inset);
     if (state_.pattern == Pattern::none)
         eyes_.plan(pre_exposure(most_E), measurement_.probe());
     const Trace::Span span(device_.trace, "upload");
@@ -123,19 +126,31 @@ template <class Undo> void FrameRenderer::apply_layout_or(bool rejects_empty, co
 /// The factor that keeps every radiance of this instant in the range of the stored coefficients.
 double FrameRenderer::pre_exposure(double most_E) const
 {
-    const Effects& effects = state_.shot.effects;
+    double least = pre_exposure(state_.shot, most_E, eyes_.light_of(views_.probed_view().eye));
+    if (views_.inset) {
+        const ViewState& view = views_.inset->view;
+        const Observer& observer = eyes_.observer_of(view);
+        least = std::min(least, pre_exposure(observer.shot, observer.most_E(), eyes_.light_of(view.eye)));
+    }
+    return least;
+}
+
+/// The same for the observers of one shot. light: that their cube map stores.
+double FrameRenderer::pre_exposure(const Shot& shot, double most_E, StoredLight light) const
+{
+    const Effects& effects = shot.effects;
     const bool gains = effects.headlight || effects.doppler;
     // Red-shifted sunlight also leaves the visible range: by Wien's law its share at 360 nm falls as exp(-6.92 (1/D -
     // 1)).
     const double leaves = effects.doppler ? std::exp(6.92 * (most_E - 1)) : 1;
-    const bool unshifted = world_.stored_light(effects) == StoredLight::unshifted;
+    const bool unshifted = light == StoredLight::unshifted;
     const double brightest
         = unshifted ? std::max(world_.brightest * world_.unshifted->gain, world_.unshifted->most) : world_.brightest;
-    const double light
-        = starbow::pre_exposure(brightest, state_.shot.exposure_ev, (gains ? most_E * most_E * most_E : 1) * leaves);
+    const double factor
+        = starbow::pre_exposure(brightest, shot.exposure_ev, (gains ? most_E * most_E * most_E : 1) * leaves);
     // A glow's coefficient may represent light of any strength, so it is limited by its size alone.
     const bool by_size = !unshifted && world_.spectra.most > 0;
-    return by_size ? std::min(light, starbow::pre_exposure(world_.spectra.most, -1000, 1)) : light;
+    return by_size ? std::min(factor, starbow::pre_exposure(world_.spectra.most, -1000, 1)) : factor;
 }
 
 void FrameRenderer::resize(std::size_t output, glm::ivec2 size)
@@ -177,6 +192,21 @@ void FrameRenderer::move_head(const Head& head)
 {
     views_.move_head(head);
     eyes_.move();
+}
+
+void FrameRenderer::show_inset(const Shot& shot, int width)
+{
+    if (!views_.inset || int(views_.inset->picture.extent.width) != width) {
+        drop_inset();
+        views_.inset = in_room([&] { return std::make_unique<Inset>(device_, pipelines_, width); });
+    }
+    views_.inset->shot = shot;
+}
+
+void FrameRenderer::drop_inset()
+{
+    views_.inset.reset();
+    eyes_.forget_inset();
 }
 
 void FrameRenderer::repeatable(bool on)

@@ -16,9 +16,9 @@ public:
     FrameRenderer(const FrameRenderer&) = delete; // its parts know each other by reference
     FrameRenderer& operator=(const FrameRenderer&) = delete;
 
-    /// The whole frame: observers, plan, culling and upload; cube maps; meter and probes; then each output's views,
-    /// instruments, head-up display and finish. hud: the panel, or null. targets: one for each output. An output without
-    /// a view is left out: it is minimised, or its monitor is away.
+    /// The whole frame: observers, plan, culling and upload; cube maps; meter and probes; the small picture; then each
+    /// output's views, instruments, head-up display and finish. hud: the panel, or null. targets: one for each output. An
+    /// output without a view is left out: it is minimised, or its monitor is away.
     void draw(vk::CommandBuffer commands, const Shot& shot, const Panel* hud, std::span<const Target> targets)
     {
         draw(commands, commands, shot, hud, targets);
@@ -65,6 +65,11 @@ public:
     void meter(bool on) { state_.meters = on; }
     /// Lays placards over all views, beside the head-up display, from the next frame on. They must last until it is drawn.
     void place(std::span<const Placard> placards) { passes_.place(placards); }
+    /// Draws a small picture of another shot of the same event as well, from the next frame on; not while a test pattern is
+    /// shown. width: pixels. The device must have finished the frame before. Throws NoRoom; then there is none.
+    void show_inset(const Shot& shot, int width);
+    void drop_inset(); ///< the device must have finished the frame before
+    const Image& inset_picture() const { return views_.inset->picture; } ///< of the last frame; only while there is one
     /// Sets the overlay of all views and the probes from the next frame on; none: at no cost. In a world whose depth is
     /// not kept, the first call takes as long as a change of the layout.
     void measure(const std::optional<Measuring>& what);
@@ -84,6 +89,7 @@ private:
     void apply_layout(LayoutParts parts);
     template <class Undo> void apply_layout_or(bool rejects_empty, const Undo& undo);
     double pre_exposure(double most_E) const;
+    double pre_exposure(const Shot& shot, double most_E, StoredLight light) const;
 
     Device& device_;
     Pipelines& pipelines_;

@@ -1,43 +1,27 @@
 #include "inset.h"
+#include "config/model/one_view.h"
 #include "debug.h"
+#include <limits>
 
 namespace starbow {
-namespace {
 
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
-
-Layout small_layout(int width)
-{
-    Output output;
-    output.name = "inset";
-    output.size = {width, int(width * Inset::aspect)};
-    output.viewports = {{.projection = Planar{.fov_y_deg = Inset::fov_y_deg}}};
-    Layout layout;
-    layout.outputs = {output};
-    return layout;
-}
-
-} // namespace
-
-Inset::Inset(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, int width)
-    : picture_(make_image(device,
+Inset::Inset(Device& device, const Pipelines& pipelines, int width)
+    : picture(make_image(device,
         {vk::Format::eR8G8B8A8Srgb, {std::uint32_t(width), std::uint32_t(int(width * aspect))},
-            vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled}))
-    , frame_(device, pipelines, world, small_layout(width), quality)
+            vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled
+                | vk::ImageUsageFlagBits::eTransferSrc}))
 {
-    name_object(device, picture_, "inset: picture");
-}
-
-void Inset::record(vk::CommandBuffer commands, const Shot& shot)
-{
-    transition(commands, picture_, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {},
-        vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-    const Target target{*picture_.image, *picture_.view, picture_.extent, picture_.format};
-    frame_.draw(commands, shot, nullptr, {&target, 1});
-    transition(commands, picture_, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-        Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader,
-        Access::eShaderSampledRead);
+    name_object(device, picture, "small picture");
+    MapStore store(std::filesystem::path{}); // a flat view has a matrix
+    const Layout layout = one_view(Planar{.fov_y_deg = fov_y_deg}, {width, int(width * aspect)});
+    view.compiled = compile_output(store, layout, 0, layout.outputs[0].size).front();
+    view.output = std::numeric_limits<std::size_t>::max();
+    const std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 2},
+        {vk::DescriptorType::eUniformTexelBuffer, 2}, {vk::DescriptorType::eCombinedImageSampler, 12}};
+    pool = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
+    name_object(device, pool, "small picture: descriptor pool");
+    view.warp_set = std::move(device.device.allocateDescriptorSets({*pool, *pipelines.layouts.warp_set}).front());
+    name_object(device, view.warp_set, "small picture: descriptor set");
 }
 
 } // namespace starbow

@@ -1,26 +1,22 @@
 #pragma once
-#include "frame_renderer.h"
+#include "config/model/shot.h"
+#include "view_state.h"
 
 namespace starbow {
 
-/// A small flat picture of another shot, to be laid over the views as a placard. It has a cube map of its own, as large as
-/// its pixels need.
-class Inset {
-public:
+/// A small flat picture of another shot of the same event, to be laid over the views as a placard. It is warped from the
+/// cube map of the frame's first view, or from a small one of its own where that costs less: see EyeCubes::observe_inset.
+struct Inset {
     static constexpr double fov_y_deg = 60;
     static constexpr double aspect = 0.75; ///< height over width
 
-    /// width: pixels. Throws InputError, NoRoom.
-    Inset(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, int width);
+    /// width: pixels. Throws NoRoom.
+    Inset(Device& device, const Pipelines& pipelines, int width);
 
-    /// Draws it; from then on picture() can be sampled.
-    void record(vk::CommandBuffer commands, const Shot& shot);
-    const Image& picture() const { return picture_; }
-    FrameRenderer& frame() { return frame_; }
-
-private:
-    Image picture_;
-    FrameRenderer frame_;
+    Shot shot;
+    Image picture; ///< in eShaderReadOnlyOptimal once it is drawn
+    vk::raii::DescriptorPool pool = nullptr; ///< declared before the view, so that it outlives its set
+    ViewState view; ///< of no output
 };
 
 } // namespace starbow

@@ -59,8 +59,8 @@ void StarPass::write_sets()
 
 void StarPass::bind(vk::CommandBuffer commands, std::size_t observer) const
 {
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 1, *sets_[false_colours_],
-        std::uint32_t(observer * stride_));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 1,
+        *sets_[false_colours_[observer]], std::uint32_t(observer * stride_));
 }
 
 void StarPass::fit(vk::Extent2D extent)
@@ -75,15 +75,16 @@ void StarPass::fit(vk::Extent2D extent)
     name_object(device_, picture_, "star pass: picture");
 }
 
-void StarPass::prepare(std::span<const glm::dmat3> motion_from_world, bool false_colours)
+void StarPass::prepare(std::span<const Observer> observers)
 {
-    false_colours_ = false_colours;
     const vk::Buffer before = *constants_.buffer;
-    grow(device_, constants_, motion_from_world.size() * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
+    grow(device_, constants_, observers.size() * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
     if (*constants_.buffer != before)
         write_sets();
-    for (std::size_t at = 0; at < motion_from_world.size(); ++at) {
-        const glm::dmat3& turn = motion_from_world[at];
+    false_colours_.clear();
+    for (std::size_t at = 0; at < observers.size(); ++at) {
+        const glm::dmat3& turn = observers[at].motion_from_world;
+        false_colours_.push_back(observers[at].false_colours);
         shared::StarConstants constants{};
         glm::vec4* rows[] = {&constants.row0, &constants.row1, &constants.row2};
         for (int i = 0; i < 3; ++i)

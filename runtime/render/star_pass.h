@@ -16,8 +16,12 @@ public:
     bool on() const { return world_.star_count > 0; }
     /// Makes room for an output. The device must have finished the frame before.
     void fit(vk::Extent2D extent);
-    /// motion_from_world: one for each observer.
-    void prepare(std::span<const glm::dmat3> motion_from_world, bool false_colours);
+    /// One of those who see the stars.
+    struct Observer {
+        glm::dmat3 motion_from_world;
+        bool false_colours;
+    };
+    void prepare(std::span<const Observer> observers);
 
     /// Between begin and end the viewports are drawn: bind a pipeline of Pipelines::stars for format(), its set 0 and the
     /// push constants, then call draw() with the stars that may be in view. Afterwards fragment shaders may read the
@@ -43,7 +47,7 @@ private:
     vk::Format format_;
     vk::raii::DescriptorPool pool_ = nullptr;
     std::array<vk::raii::DescriptorSet, 2> sets_ = {nullptr, nullptr}; ///< standard observer; false colours
-    bool false_colours_ = false;
+    std::vector<bool> false_colours_; ///< by observer
     void bind(vk::CommandBuffer commands, std::size_t observer) const;
     void write_sets();
 

@@ -27,7 +27,7 @@ WarpVariant ViewConstants::variant(const ViewState& view) const
     const bool moves = eyes_.observer_of(view).E != 1
         || eyes_.all[view.eye].cube.several_rest_frames(); // without motion D is 1 everywhere
     const bool beside = state_.reprojects() && view.beside_m != glm::dvec3(0);
-    const Effects& on = state_.shot.effects;
+    const Effects& on = eyes_.observer_of(view).shot.effects;
     WarpVariant variant{view.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
         eyes_.plans[view.eye].levels > 1, view.compiled.channels() == 3, beside, beside && state_.layout.stereo.turning,
         world_.star_count > 0};
@@ -66,7 +66,7 @@ WarpVariant ViewConstants::in_flight(WarpVariant variant, const Effects& on) con
 WarpVariant ViewConstants::variant_shown(const ViewState& view) const
 {
     WarpVariant all = variant(view);
-    all.rays = state_.quality.pixel_rays;
+    all.rays = eyes_.rays_of(view);
     return all;
 }
 
@@ -89,13 +89,14 @@ WarpVariant ViewConstants::variant_metered(const ViewState& view, const Effects&
 shared::ViewPush ViewConstants::push(const ViewState& view, const glm::dmat3& axes_from_cockpit) const
 {
     const glm::dmat3 m = axes_from_cockpit * view.compiled.matrix.value_or(glm::dmat3(1));
+    const ResponseBuffers& response = world_.response(eyes_.observer_of(view).shot.effects);
     const vk::Extent2D atlas = eyes_.all[view.eye].cube.atlases()[0].extent;
     shared::ViewPush push{};
     push.row0 = shared::row(m, 0, unit_of(view.compiled));
     push.row1 = shared::row(m, 1, state_.pattern == Pattern::none ? eyes_.plans[view.eye].finest_clip_level[0] : 0);
-    push.row2 = shared::row(m, 2, world_.response(state_.shot.effects).first_log2_D);
+    push.row2 = shared::row(m, 2, response.first_log2_D);
     push.origin = glm::vec4(view.geometry().corner, 1.0 / atlas.width, 1.0 / atlas.height);
-    push.corner = glm::vec4(view.geometry().corner, 0, world_.response(state_.shot.effects).per_octave);
+    push.corner = glm::vec4(view.geometry().corner, 0, response.per_octave);
     if (state_.pattern == Pattern::none) {
         const PlannedImage* single = single_image(view);
         push.eye = single ? tile_entry(*single).texel_from_face

@@ -30,18 +30,25 @@ ViewDescriptors::ViewDescriptors(Device& device, const GpuWorld& world, const Fr
 
 void ViewDescriptors::write()
 {
-    for (ViewState& view : views_.all) {
-        writes_.clear(), serials_.clear(), images_used_ = buffers_used_ = 0;
+    for (ViewState& view : views_.all)
+        write(view);
+    if (views_.inset && state_.pattern == Pattern::none)
+        write(views_.inset->view);
+}
+
+void ViewDescriptors::write(ViewState& view)
+{
+    writes_.clear(), serials_.clear(), images_used_ = buffers_used_ = 0;
+    if (*view.label_set)
         collect_label_set(view);
-        if (state_.pattern == Pattern::none) {
-            write_rest_frames(view);
-            collect_warp_set(view);
-        }
-        if (serials_ == view.written)
-            continue;
-        device_.device.updateDescriptorSets(writes_, {});
-        view.written = serials_;
+    if (state_.pattern == Pattern::none) {
+        write_rest_frames(view);
+        collect_warp_set(view);
     }
+    if (serials_ == view.written)
+        return;
+    device_.device.updateDescriptorSets(writes_, {});
+    view.written = serials_;
 }
 
 void ViewDescriptors::image(
@@ -71,7 +78,7 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
 {
     const CubePass& cube = eyes_.all[view.eye].cube;
     const std::vector<Image>& atlases = cube.atlases();
-    const ResponseBuffers& response = world_.response(state_.shot.effects);
+    const ResponseBuffers& response = world_.response(eyes_.observer_of(view).shot.effects);
     const vk::raii::Sampler& filter = eyes_.plans[view.eye].levels > 1 ? linear_ : finest_;
     const vk::raii::DescriptorSet& set = view.warp_set;
     image(set, 0, views_.map_of(view), nearest_);
@@ -88,7 +95,7 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
     image(set, 6, views_.inverse_of(view), nearest_);
     buffer(set, 10, response.own_rows);
     image(set, 11, cube.several_rest_frames() ? atlases.back() : nothing_, filter);
-    const FinishPass* finish = views_.outputs[view.output].finish.get();
+    const FinishPass* finish = views_.finish_of(view);
     const Image* shares = finish ? finish->shares(view.geometry()) : nullptr;
     image(set, 13, shares ? *shares : nothing_, nearest_);
     buffer(set, 12, view.rest_frames);

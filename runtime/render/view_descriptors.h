@@ -17,6 +17,7 @@ public:
     vk::Sampler nearest() const { return *nearest_; } ///< for direction maps
 
 private:
+    void write(ViewState& view);
     /// Writes the constants of the rest frames in view, and of the sky.
     void write_rest_frames(ViewState& view);
     void collect_label_set(const ViewState& view);

@@ -47,7 +47,7 @@ void ViewMeter::meter_stars(vk::CommandBuffer commands, const ViewState& view, c
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 0, *view.warp_set, {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.star_layout,
         vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
-    stars_.sample(commands, eyes_.all[view.eye].observer, cell.corner, cell.size, meter_->every(), own.channels);
+    stars_.sample(commands, view.observer, cell.corner, cell.size, meter_->every(), own.channels);
 }
 
 std::optional<double> ViewMeter::metered() const

@@ -49,6 +49,8 @@ void ViewPasses::prepare(const Panel* hud)
             view.shown_part = shown_part(view.compiled);
         }
     }
+    if (views_.inset && !pattern)
+        find_lit(views_.inset->view);
     prepare_placards();
     hud_on_ = hud;
     if (!hud)
@@ -94,11 +96,13 @@ void ViewPasses::prepare_stars()
     glm::ivec2 size(1);
     for (const OutputState& output : views_.outputs)
         size = glm::max(size, output.size);
+    if (views_.inset)
+        size = glm::max(size, views_.inset->view.geometry().size);
     stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)});
-    star_turns_.clear();
+    star_observers_.clear();
     for (const Observer& one : eyes_.observers)
-        star_turns_.push_back(one.rest_frames[0].motion_from_frame);
-    stars_.prepare(star_turns_, state_.shot.effects.false_colours);
+        star_observers_.push_back({one.rest_frames[0].motion_from_frame, one.shot.effects.false_colours});
+    stars_.prepare(star_observers_);
 }
 
 void ViewPasses::draw_warp(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
@@ -113,7 +117,7 @@ void ViewPasses::find_lit(ViewState& view)
     const Observer& observer = eyes_.observer_of(view);
     eyes_.find_bodies(view, bodies_);
     view.pixels.find(*view.compiled.cones, observer.rest_frames[0].motion_from_cockpit, observer.E,
-        eyes_.dark_D(view, state_.pre_exposure), ray_spread(state_.quality.pixel_rays), bodies_);
+        eyes_.dark_D(view, state_.pre_exposure), ray_spread(eyes_.rays_of(view)), bodies_);
 }
 
 void ViewPasses::draw_parts(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
@@ -133,7 +137,7 @@ void ViewPasses::draw_lit(vk::CommandBuffer commands, const ViewState& view, vk:
 {
     WarpVariant variant = constants_.variant_shown(view);
     const LitPixels& pixels = view.pixels;
-    const shared::ViewPush constants = constants_.exposed_push(view, std::exp2(state_.shot.exposure_ev));
+    const shared::ViewPush constants = constants_.exposed_push(view, std::exp2(eyes_.observer_of(view).shot.exposure_ev));
     const glm::ivec2 corner = view.geometry().corner;
     if (!pixels.with_bodies.empty())
         draw_parts(commands, view, pipelines_.warp(variant, target), constants, corner, pixels.with_bodies);
@@ -149,21 +153,47 @@ void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, std:
     const Label label(device_, commands, "stars");
     const glm::ivec2 size = views_.outputs[output].size;
     stars_.begin(commands, {std::uint32_t(size.x), std::uint32_t(size.y)});
-    for (const ViewState& view : views_.all) {
-        if (!drawn_on(view, output, layer, canvas))
-            continue;
-        const shared::ViewPush constants = constants_.star_push(view, exposure);
-        const WarpVariant own = constants_.variant_of_stars(view);
-        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.stars(own, stars_.format()));
-        commands.bindDescriptorSets(
-            vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 0, *view.warp_set, {});
-        commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.star_layout,
-            vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
-        const int places = view.map && views_.maps[*view.map].closes ? 2 : 1;
-        stars_.draw(commands, eyes_.all[view.eye].observer, view.geometry().corner, view.geometry().size,
-            places * (own.channels ? 3 : 1), eyes_.all[view.eye].stars);
-    }
+    for (const ViewState& view : views_.all)
+        if (drawn_on(view, output, layer, canvas))
+            draw_stars_of(commands, view, exposure);
     stars_.end(commands);
+}
+
+void ViewPasses::draw_stars_of(vk::CommandBuffer commands, const ViewState& view, double exposure)
+{
+    const shared::ViewPush constants = constants_.star_push(view, exposure);
+    const WarpVariant own = constants_.variant_of_stars(view);
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.stars(own, stars_.format()));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 0, *view.warp_set, {});
+    commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.star_layout,
+        vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
+    const int places = view.map && views_.maps[*view.map].closes ? 2 : 1;
+    stars_.draw(commands, view.observer, view.geometry().corner, view.geometry().size, places * (own.channels ? 3 : 1),
+        eyes_.all[view.eye].stars);
+}
+
+void ViewPasses::draw_inset(vk::CommandBuffer commands)
+{
+    if (!views_.inset)
+        return;
+    const Label label(device_, commands, "small picture");
+    const ViewState& view = views_.inset->view;
+    const Image& picture = views_.inset->picture;
+    if (stars_.on()) {
+        stars_.begin(commands, picture.extent);
+        draw_stars_of(commands, view, std::exp2(eyes_.observer_of(view).shot.exposure_ev));
+        stars_.end(commands);
+    }
+    transition(commands, picture, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {},
+        vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+    const vk::RenderingAttachmentInfo colour(*picture.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
+    device_.begin_rendering(commands, {{}, {{0, 0}, picture.extent}, 1, 0, colour});
+    draw_lit(commands, view, picture.format);
+    device_.end_rendering(commands);
+    transition(commands, picture, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+        Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader,
+        Access::eShaderSampledRead);
 }
 
 void ViewPasses::bloom_view(vk::CommandBuffer commands, const ViewState& view)

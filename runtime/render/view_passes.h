@@ -33,6 +33,8 @@ public:
     void fade_output(vk::CommandBuffer commands, const Target& target);
     /// The measured channels of one layer of an output's first canvas.
     void record_measured(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const MeasureTarget& target);
+    /// The small picture, if there is one: stars and cube map, without glow.
+    void draw_inset(vk::CommandBuffer commands);
     /// The stars alone, the first part of warp_layer. exposure: factor of their light.
     void draw_stars(vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas, double exposure);
 
@@ -70,6 +72,7 @@ private:
     void prepare_placards();
     void prepare_stars();
     void find_lit(ViewState& view);
+    void draw_stars_of(vk::CommandBuffer commands, const ViewState& view, double exposure);
     /// corner: added to each part's.
     void draw_parts(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
         const shared::ViewPush& constants, glm::ivec2 corner, std::span<const PixelRect> parts) const;
@@ -84,7 +87,7 @@ private:
     StarPass& stars_;
     const ViewConstants& constants_;
     const ViewDescriptors& descriptors_;
-    std::vector<glm::dmat3> star_turns_; ///< a member so that its memory is reused
+    std::vector<StarPass::Observer> star_observers_; ///< a member so that its memory is reused
     std::vector<ShipCap> bodies_; ///< the same
     std::unique_ptr<PanelPass> hud_; ///< null before its first use
     std::vector<Placard> placards_;

@@ -258,6 +258,11 @@ int ViewSet::lab_panel_width(double aspect) const
     return std::clamp(int(2 * place.half.x / finest), 160, 4096);
 }
 
+const FinishPass* ViewSet::finish_of(const ViewState& view) const
+{
+    return view.output < outputs.size() ? outputs[view.output].finish.get() : nullptr;
+}
+
 Target ViewSet::canvas_target(std::size_t output, int canvas, const Target& last) const
 {
     const FinishPass* finish = outputs[output].finish.get();
@@ -290,7 +295,7 @@ vk::DeviceSize ViewSet::memory() const
         bytes += view.bloom ? view.bloom->memory() : 0;
     for (const OutputState& output : outputs)
         bytes += output.finish ? output.finish->memory() : 0;
-    return bytes;
+    return bytes + (inset ? inset->picture.bytes : 0);
 }
 
 } // namespace starbow

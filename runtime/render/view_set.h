@@ -1,34 +1,14 @@
 #pragma once
-#include "bloom_pass.h"
 #include "finish_pass.h"
 #include "frame_state.h"
 #include "input/controls.h"
+#include "inset.h"
 #include "layout_parts.h"
 #include "panel_pass.h"
-#include "runtime/plan/lit_pixels.h"
 #include "runtime/world/eye_event.h"
 #include <memory>
 
 namespace starbow {
-
-/// A view of the layout with its objects on the device.
-struct ViewState {
-    std::size_t output = 0;
-    std::size_t eye = 0; ///< index of its eye's cube map in EyeCubes::all
-    CompiledView compiled;
-    std::optional<std::size_t> map; ///< index into ViewSet::maps
-    Image label; ///< label of the test patterns, made at their first use
-    float shown_part = 1; ///< see pattern_label.h; for test patterns
-    vk::raii::DescriptorSet warp_set = nullptr, label_set = nullptr;
-    std::vector<std::uint64_t> written; ///< serials of the two sets' resources
-    vk::Rect2D hud_box;
-    std::unique_ptr<BloomPass> bloom; ///< null without glow
-    glm::dvec3 cube_m{0}; ///< place from which its cube map is drawn, cockpit frame, metres
-    glm::dvec3 beside_m{0}; ///< the eye's place relative to cube_m
-    LitPixels pixels; ///< at which something shows, for this frame
-    Buffer rest_frames; ///< RestFrameConstants; null where no shader reads them
-    const View& geometry() const { return compiled.view; }
-};
 
 struct OutputState {
     glm::ivec2 size{0}; ///< pixels
@@ -86,6 +66,8 @@ public:
     std::optional<glm::dvec3> direction(std::size_t output, const glm::dvec2& pixel) const;
     /// The index of the view that shows it there; of several the one with the largest part of the pixel.
     std::optional<std::size_t> view_at(std::size_t output, const glm::dvec2& pixel) const;
+    /// The finish pass of the view's output; null where there is none.
+    const FinishPass* finish_of(const ViewState& view) const;
     /// The target of one of an output's canvases: the finish pass's, or `last` where the output needs no finish.
     Target canvas_target(std::size_t output, int canvas, const Target& last) const;
 
@@ -106,6 +88,7 @@ public:
     std::vector<MapImage> maps;
     PanelPass::Place hud_place;
     MapStore store;
+    std::unique_ptr<Inset> inset; ///< null: no small picture
 
 private:
     std::optional<glm::dvec3> direction(const ViewState& view, std::size_t output, const glm::dvec2& pixel) const;

@@ -332,6 +332,32 @@ TEST(CubeMapPlan, AtRestAViewAheadNeedsOneImage)
     EXPECT_LT(plan.texels / plan.pixels, 1.3);
 }
 
+TEST(CubeMapPlan, ASmallPictureOfTheSameDirectionsCostsNothing)
+{
+    // Its pixels are four times as wide. Without rays of its own it would need mips; a limit of texels stays as it is.
+    const CompiledView large = view_of(Planar{60}, {800, 600}), small = view_of(Planar{60}, {200, 150});
+    const glm::dmat3 ahead = motion_from_world({}, {1, 0, 0, 0});
+    for (const double most : {3.0, 0.5}) {
+        const Quality quality{.texels_per_pixel = 0.9, .max_texels_per_pixel = most};
+        const ViewRequest own{large.cones.get(), ahead};
+        const CubeMapPlan alone = plan_cube_map({own}, 1, quality);
+        const auto with = [&](int rays, bool beside) {
+            return plan_cube_map(
+                {own, {.cones = small.cones.get(), .motion_from_cockpit = ahead, .rays = rays, .beside = beside}}, 1,
+                quality);
+        };
+        const CubeMapPlan both = with(2, true);
+        ASSERT_EQ(both.images.size(), 1u);
+        EXPECT_EQ(both.levels, 1);
+        EXPECT_EQ(both.pixels, alone.pixels);
+        // Its rays reach a part of its own pixels beyond the edge: some texels.
+        EXPECT_NEAR(both.images[0].texels_per_unit, alone.images[0].texels_per_unit, 0.01 * alone.images[0].texels_per_unit);
+        EXPECT_LT(both.texels, 1.01 * alone.texels);
+        EXPECT_GT(with(1, true).levels, most > 1 ? 1 : 0);
+        EXPECT_GT(with(2, false).pixels, alone.pixels);
+    }
+}
+
 TEST(CubeMapPlan, ClipMapsTheRectangleToTheSquare)
 {
     for (int face = 0; face < 6; ++face) {

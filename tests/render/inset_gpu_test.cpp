@@ -1,0 +1,208 @@
+// The small picture is warped from the cube map of the frame's own views. It must be the picture of its own shot, and the
+// frame's own picture must stay.
+#include "config/model/beside.h"
+#include "shaders/physics/physics.h"
+#include "tests/support/small_world.h"
+#include <algorithm>
+
+namespace starbow::gpu_test::inset_gpu_test {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+constexpr std::array kinds = {Beside::at_rest, Beside::aberration, Beside::doppler, Beside::headlight};
+constexpr int width = 160;
+constexpr ivec2 size(width, int(width* Inset::aspect));
+
+Bytes inset_of(OffscreenRenderer& whole)
+{
+    const Image& picture = whole.frame().inset_picture();
+    using Stage = vk::PipelineStageFlagBits2;
+    using Access = vk::AccessFlagBits2;
+    device().now([&](vk::CommandBuffer commands) {
+        transition(commands, picture, vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader, {},
+            vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+    });
+    const std::vector<std::byte> bytes = read_back(device(), picture, 4);
+    const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    return {first, first + bytes.size()};
+}
+
+Quality reference_quality()
+{
+    return within(device(),
+        {.texels_per_pixel = 3, .max_texels_per_pixel = 1000, .cube_samples = 8, .lod_error_texels = 0, .pixel_rays = 3});
+}
+
+/// Steps of 255 between two pictures.
+struct Steps {
+    double mean = 0;
+    int most = 0;
+};
+Steps steps(const Bytes& a, const Bytes& b)
+{
+    Steps all;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const int off = std::abs(int(a[i]) - int(b[i]));
+        all.mean += off / (0.75 * double(a.size())); // alpha is the same
+        all.most = std::max(all.most, off);
+    }
+    return all;
+}
+
+/// The shot's event for an eye at a place of the cockpit, metres.
+Shot at_eye(Shot shot, const dvec3& eye_m, double hyper_stereo, double unit_m)
+{
+    const dvec3 offset = shot.ship_from_cockpit * (eye_m * (hyper_stereo / unit_m));
+    shot.position += physics::eye_place(shot.u, offset);
+    shot.time += physics::eye_time(shot.u, offset);
+    return shot;
+}
+
+Layout shipped(const std::string& name)
+{
+    return load_layout(starbow::testing::source_dir() / "config/layouts" / (name + ".json"));
+}
+
+/// A shipped layout with small outputs.
+Layout small(const std::string& name, int longest)
+{
+    Layout layout = shipped(name);
+    for (Output& output : layout.outputs) {
+        const double part = double(longest) / std::max(output.size.x, output.size.y);
+        output.size = ivec2(dvec2(output.size) * part);
+    }
+    return layout;
+}
+
+/// Compares the small pictures of a frame with those of their own shots, drawn alone from a cube map of their own, and the
+/// frame's large picture with the one without them. shared: the small picture comes from the large one's cube map; it must
+/// then be nearer to a fine picture than one with a cube map of its own.
+void compare(const GpuWorld& world, const Layout& layout, const Shot& ship, const Quality& quality, bool shared)
+{
+    OffscreenRenderer whole(device(), pipelines(), world, layout, quality, false);
+    const Layout alone = one_view(Planar{Inset::fov_y_deg}, size);
+    OffscreenRenderer own(device(), pipelines(), world, alone, quality, false);
+    OffscreenRenderer fine(device(), pipelines(), world, alone, reference_quality(), false);
+    for (OffscreenRenderer* one : {&whole, &own})
+        one->frame().repeatable(true);
+    const std::vector<Bytes> bare = whole.picture(ship);
+    for (const Beside kind : kinds) {
+        SCOPED_TRACE(name_of(kind));
+        const dvec3 eye_m = whole.frame().views().probed_view().cube_m;
+        const Shot event = at_eye(ship, eye_m, layout.stereo.hyper_stereo, world.scene.unit_m);
+        whole.frame().show_inset(starbow::beside(ship, kind, 0.5), width);
+        const std::vector<Bytes> with = whole.picture(ship);
+        const Bytes shown = inset_of(whole), apart = own.picture(starbow::beside(event, kind, 0.5))[0];
+        if (shared) {
+            const Bytes wanted = fine.picture(starbow::beside(event, kind, 0.5))[0];
+            EXPECT_LT(steps(shown, wanted).mean, 0.6 * steps(apart, wanted).mean); // it was 0.3 to 0.45
+            EXPECT_GT(steps(apart, wanted).mean, 0);
+        } else {
+            EXPECT_LE(steps(shown, apart).most, 1); // it was 0
+        }
+        for (std::size_t output = 0; output < bare.size(); ++output)
+            EXPECT_LE(steps(bare[output], with[output]).most, 1); // it was 0
+        whole.frame().drop_inset();
+        EXPECT_EQ(whole.picture(ship), bare);
+    }
+}
+
+Shot flying(double gamma, bool coloured, double look = 0)
+{
+    Shot ship = shot_at({0.3, 0.1, -8}, {0, 0, -u_of_gamma(gamma)}, {std::sin(look), 0.05, -std::cos(look)});
+    ship.effects.doppler = ship.effects.headlight = coloured;
+    ship.exposure_ev = coloured && gamma > 10 ? -8 : 0;
+    return ship;
+}
+
+} // namespace
+
+TEST(InsetGpuTest, TheAvenueAtEverySpeed)
+{
+    const bool all = starbow::testing::all_cases();
+    for (const double gamma : {1.0, 1.1, 4.0, 100.0})
+        for (const bool coloured : {false, true})
+            for (const double look : {0.0, 0.6, 3.0}) {
+                if (!all && (coloured != (gamma > 1.1) || (look == 0.6) != (gamma == 1)))
+                    continue;
+                SCOPED_TRACE(std::to_string(gamma) + " " + std::to_string(look));
+                compare(avenue().world, small("desk", 400), flying(gamma, coloured, look), test_quality(), gamma == 1);
+            }
+}
+
+TEST(InsetGpuTest, EveryLayout)
+{
+    for (const std::string name : {"desk", "dome", "stereo", "headset", "alice-bob"})
+        for (const double gamma : {1.0, 4.0}) {
+            SCOPED_TRACE(name + " " + std::to_string(gamma));
+            compare(avenue().world, small(name, 480), flying(gamma, true), test_quality(), gamma == 1);
+        }
+}
+
+TEST(InsetGpuTest, LiveQualities)
+{
+    for (const std::string name : {"balanced", "draft", "fine"})
+        for (const double gamma : {1.0, 4.0}) {
+            SCOPED_TRACE(name + " " + std::to_string(gamma));
+            const Quality quality = load_quality(starbow::testing::source_dir() / "config/qualities" / (name + ".json"));
+            compare(avenue().world, shipped("desk"), flying(gamma, false), within(device(), quality), gamma == 1);
+        }
+}
+
+TEST(InsetGpuTest, MovingBodies)
+{
+    for (const std::string name : {"twins-out", "twins-turn", "gamow-cycling", "train-far"}) {
+        SCOPED_TRACE(name);
+        const Shot ship = load_shot(starbow::testing::source_dir() / "config/shots" / (name + ".json"));
+        const GpuWorld world = upload_scene(
+            *GpuEnvironment::context, load_scene(starbow::testing::source_dir() / "config/scenes" / (ship.scene + ".json")));
+        compare(world, small("desk", 400), ship, test_quality(), false);
+        device().device.waitIdle();
+    }
+}
+
+TEST(InsetGpuTest, BesideAComparison)
+{
+    for (const Comparison comparison : {Comparison::galilean, Comparison::no_light_delay}) {
+        Shot ship = flying(4, true);
+        ship.effects.comparison = comparison;
+        ship.effects.false_colours = true;
+        compare(avenue().world, small("desk", 400), ship, test_quality(), false);
+    }
+}
+
+TEST(InsetGpuTest, ItFollowsEveryChangeOfTheFrame)
+{
+    // From rest to flight and back, through another quality, size and layout, and through a test pattern.
+    const Layout layout = small("desk", 400);
+    OffscreenRenderer whole(device(), pipelines(), avenue().world, layout, test_quality(), false);
+    whole.frame().repeatable(true);
+    const auto shown = [&](const Shot& ship) {
+        whole.frame().show_inset(starbow::beside(ship, Beside::doppler, 0), width);
+        whole.picture(ship);
+        return inset_of(whole);
+    };
+    const Shot resting = flying(1, true), fast = flying(4, true);
+    const Bytes at_rest = shown(resting), in_flight = shown(fast);
+    EXPECT_GT(steps(at_rest, in_flight).mean, 5);
+    EXPECT_EQ(shown(resting), at_rest);
+    Quality other = test_quality();
+    other.cube_samples = 1;
+    whole.frame().adopt(other);
+    EXPECT_GT(steps(shown(fast), in_flight).most, 0);
+    whole.frame().adopt(test_quality());
+    EXPECT_EQ(shown(fast), in_flight);
+    whole.frame().adopt(layout);
+    EXPECT_EQ(shown(fast), in_flight);
+    EXPECT_EQ(shown(resting), at_rest);
+    whole.frame().show(Pattern::grid);
+    whole.picture(resting);
+    whole.frame().show(Pattern::none);
+    EXPECT_EQ(shown(resting), at_rest);
+    whole.frame().show_inset(starbow::beside(fast, Beside::doppler, 0), width / 2);
+    whole.picture(fast);
+    EXPECT_EQ(inset_of(whole).size(), in_flight.size() / 4);
+    EXPECT_EQ(shown(fast), in_flight);
+}
+
+} // namespace starbow::gpu_test::inset_gpu_test
