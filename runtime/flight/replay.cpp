@@ -31,8 +31,8 @@ Replay::Replay(const fs::path& file)
     if (!first)
         throw InputError(file_ + ":1", "", "is cut off; a record of a flight is right");
     header_ = parse_record_header(file_, *first);
-    look_ahead();
-    compare_here(flight_at(header_.start, header_.rules));
+    const Flight start = flight_at(header_.start, header_.rules);
+    pass_checks(&start);
 }
 
 /// The next line without its end; nullopt at the end of the file. An unfinished last line is left out: a crash
@@ -69,6 +69,9 @@ void Replay::look_ahead()
 
 std::optional<RecordEntry> Replay::next()
 {
+    if (open_)
+        pass_checks(nullptr);
+    open_ = ahead_.has_value();
     if (!ahead_)
         return {};
     RecordEntry entry = std::get<RecordEntry>(*ahead_);
@@ -77,21 +80,19 @@ std::optional<RecordEntry> Replay::next()
     return entry;
 }
 
-void Replay::compare(const Flight& flight)
-{
-    look_ahead();
-    compare_here(flight);
-}
+void Replay::compare(const Flight& flight) { pass_checks(&flight); }
 
-/// Compares with all checks before the next frame.
-void Replay::compare_here(const Flight& flight)
+/// Leaves the present frame, and compares the flight with all checks before the next one. Null: compares nothing.
+void Replay::pass_checks(const Flight* flight)
 {
+    open_ = false;
+    look_ahead();
     while (ahead_ && std::holds_alternative<RecordCheck>(*ahead_)) {
         const RecordCheck check = std::get<RecordCheck>(*ahead_);
-        ++checks_;
-        if (differs_.empty() && (check.ticks != flight.ticks || check.digest != digest(flight)))
-            differs_ = "by " + shown(double(flight.ticks) * tick_s) + " s of flight (" + file_ + ":" + std::to_string(line_)
-                + "): " + shown_digest(digest(flight)) + " instead of " + shown_digest(check.digest);
+        checks_ += flight != nullptr;
+        if (flight && differs_.empty() && (check.ticks != flight->ticks || check.digest != digest(*flight)))
+            differs_ = "by " + shown(double(flight->ticks) * tick_s) + " s of flight (" + file_ + ":" + std::to_string(line_)
+                + "): " + shown_digest(digest(*flight)) + " instead of " + shown_digest(check.digest);
         whole_ = check.last;
         look_ahead();
     }
