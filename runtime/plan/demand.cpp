@@ -302,9 +302,9 @@ double add_demands(Demands& demands, const RestFrameRequest& request, int finest
     const Held held = request.bounds ? Held(*request.bounds, finest_clip_level) : Held();
     if (held.radius < 0)
         return dark_pixels;
-    const double spread = ray_spread(pixel_rays);
     for (const ViewRequest& view : request.views) {
         const ConeHierarchy& cones = *view.cones;
+        const double spread = ray_spread(pixel_rays * view.rays);
         // At least 20 blocks across: coarser blocks draw too much in vain.
         const double wanted = std::max(cones.size().x, cones.size().y) / 20.0;
         int level = 0;

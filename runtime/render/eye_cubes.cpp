@@ -190,7 +190,8 @@ void EyeCubes::request_views(std::size_t i, double pre_exposure, const Probe* pr
         };
         for (const ViewState& view : views_.all)
             add(view);
-        if (views_.inset)
+        // A request within the first view's would change nothing but the rounding of the plan.
+        if (views_.inset && (inset_eye_ || !ViewSet::shows_all_of(views_.probed_view(), views_.inset->view)))
             add(views_.inset->view);
         for (std::size_t ray = 0; probe && ray < probe->count(); ++ray)
             if (views_.probed_view(probe->ray(ray).view).eye == i)

@@ -258,6 +258,24 @@ int ViewSet::lab_panel_width(double aspect) const
     return std::clamp(int(2 * place.half.x / finest), 160, 4096);
 }
 
+bool ViewSet::shows_all_of(const ViewState& large, const ViewState& small)
+{
+    if (!large.compiled.matrix || !small.compiled.matrix)
+        return false;
+    const glm::dmat3 large_from_small = glm::inverse(*large.compiled.matrix) * *small.compiled.matrix;
+    const glm::dvec2 size(small.geometry().size), most = glm::dvec2(large.geometry().size) - 0.5;
+    glm::dvec2 first(1e300), last(-1e300);
+    for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
+        // The outermost of two rays along each side of a pixel.
+        const glm::dvec3 there = large_from_small * glm::dvec3(0.25 + corner * (size - 0.5), 1);
+        if (there.z <= 0)
+            return false;
+        first = glm::min(first, glm::dvec2(there) / there.z), last = glm::max(last, glm::dvec2(there) / there.z);
+    }
+    return glm::all(glm::greaterThanEqual(first, glm::dvec2(0.5))) && glm::all(glm::lessThanEqual(last, most))
+        && glm::all(glm::greaterThanEqual(last - first, 2.0 * size));
+}
+
 const FinishPass* ViewSet::finish_of(const ViewState& view) const
 {
     return view.output < outputs.size() ? outputs[view.output].finish.get() : nullptr;
