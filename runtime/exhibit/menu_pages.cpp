@@ -81,16 +81,14 @@ std::string title_of(const Words& words, const std::string& kind, const std::str
 std::vector<MenuPage> menu_of(const Session& session)
 {
     const Words& words = session.words;
-    MenuPage first{.title = words("menu.title"), .items = {}};
-    first.items.push_back({words("menu.worlds"), std::size_t(worlds)});
-    first.items.push_back({words("menu.tours"), std::size_t(tours)});
-    if (visitor_flies(session)) // a tour shows its own effects
-        first.items.push_back({words("menu.show"), std::size_t(switches)});
-    first.items.push_back({words("menu.hands"), std::size_t(hands)});
-    first.items.push_back({words("menu.language"), std::size_t(languages)});
-    return {std::move(first), page_of(words, words("menu.worlds"), CommandKind::scene, "scene", session.options.menu_scenes),
+    std::vector<MenuPage> pages{{.title = words("menu.title"), .items = {}},
+        page_of(words, words("menu.worlds"), CommandKind::scene, "scene", session.options.menu_scenes),
         page_of(words, words("menu.tours"), CommandKind::tour, "tour", session.options.menu_tours), switches_of(session),
         hands_of(session), languages_of(words)};
+    for (std::size_t page = worlds; page < pages.size(); ++page)
+        if (!pages[page].items.empty() && (page != switches || visitor_flies(session))) // a tour shows its own effects
+            pages[beginning].items.push_back({pages[page].title, page});
+    return pages;
 }
 
 Caption caption_of(const MenuState& menu, std::span<const MenuPage> pages, const Words& words,

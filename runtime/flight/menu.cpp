@@ -68,6 +68,10 @@ std::optional<Command> advance(MenuState& menu, std::span<const MenuPage> pages,
     const bool touched = by != 0 || hands.stop || hands.home || hands.undo || hands.menu || controls.pressed;
     menu.idle_ns = touched ? 0 : menu.idle_ns + dt_ns;
     const MenuPage& page = pages[menu.page];
+    if (page.items.empty()) { // its last choice has gone meanwhile
+        menu = {};
+        return {};
+    }
     const auto count = int(page.items.size());
     menu.item = std::size_t((std::min(int(menu.item), count - 1) + by + count) % count);
     if (hands.menu || menu.idle_ns > closes_after_ns)

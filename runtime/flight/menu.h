@@ -20,7 +20,7 @@ struct MenuItem {
 
 struct MenuPage {
     std::string title;
-    std::vector<MenuItem> items; ///< at least one
+    std::vector<MenuItem> items; ///< a page without any closes the menu
     bool stays = false; ///< its commands leave the menu open: they are switches
 };
 

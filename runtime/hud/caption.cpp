@@ -99,6 +99,8 @@ static void write_menu(Panel& panel, const Typesetter& typesetter, const Caption
                   panel, text, middle * width - 0.5 * typesetter.width_of(text, size), baseline * height, size, strength);
           };
     const int count = int(caption.choices.size()), chosen = caption.chosen;
+    if (count == 0)
+        return;
     const auto at = [&](int i) { return caption.choices[std::size_t((i + count) % count)]; };
     std::string top = caption.text;
     if (caption.flying)

@@ -135,10 +135,23 @@ TEST(MenuTest, AMenuThatNobodyTouchesCloses)
     EXPECT_FALSE(visitor.menu.open);
 }
 
+TEST(MenuTest, APageWithoutChoicesClosesTheMenu)
+{
+    Visitor visitor;
+    visitor.pages[1].items.clear();
+    visitor.does(opens);
+    visitor.does(takes);
+    EXPECT_FALSE(visitor.menu.open);
+    Controls flies = controls_with(Steering{.turn = {0, 1, 0}});
+    advance(visitor.menu, visitor.pages, flies, frame_ns);
+    EXPECT_EQ(flies.turn.y, 1) << "the hands reach the ship again";
+}
+
 TEST(MenuTest, RandomHandsNeverLeaveTheMenusPages)
 {
     std::mt19937 random{3};
     Visitor visitor;
+    const MenuItem world = visitor.pages[1].items[0];
     int chosen = 0;
     for (int i = 0; i < 200'000; ++i) {
         const auto once_in = [&](unsigned frames) { return random() % frames == 0; };
@@ -146,7 +159,7 @@ TEST(MenuTest, RandomHandsNeverLeaveTheMenusPages)
         Controls hands = controls_with(Steering{
             .turn = {0, turn, 0}, .stop = once_in(10), .home = once_in(100), .undo = once_in(100), .menu = once_in(20)});
         if (i % 5000 == 0)
-            visitor.pages[1].items.resize(1 + random() % 2, visitor.pages[1].items[0]); // a world goes, or comes
+            visitor.pages[1].items.resize(random() % 3, world); // a world goes, or comes
         chosen += advance(visitor.menu, visitor.pages, hands, frame_ns).has_value();
         ASSERT_LT(visitor.menu.page, visitor.pages.size());
     }

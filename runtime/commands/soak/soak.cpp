@@ -248,6 +248,7 @@ int soak(const SoakOptions& options)
         ExhibitOptions exhibit{
             .programme = programme, .layout = load_layout(folder.layout()), .words = words, .profiles = known_profiles()};
         exhibit.quality = load_quality(shipped_file("qualities", "draft"));
+        exhibit.menu_scenes = shipped_names("scenes"), exhibit.menu_tours = shipped_names("tours");
         exhibit.warms_up = false;
         exhibit.version = "soak";
         exhibit.paced = false;
