@@ -31,17 +31,22 @@ keys=(a b c d e f g h i j k l m n o p q r s t u v w x y z 0 1 2 3 4 5 6 7 8 9 F1
     Return space BackSpace Delete Insert Home End Page_Up Page_Down Up Down Left Right comma period minus plus slash bracketleft
     bracketright semicolon apostrophe grave equal shift+a ctrl+c ctrl+z alt+F4 super shift ctrl KP_Add KP_Subtract KP_5 Pause Print)
 any() { echo "${keys[RANDOM % ${#keys[@]}]}"; }
-cat >"$folder/talk.sh" <<END
-# talk.sh: what the remote tells of the exhibit, without what differs from moment to moment
-"$program" tell --port $port --pin 314159 status | grep -Ev '^(frame|uptime|quality|visit|caption|step)'
-END
+# The script of the devices can't call this shell's functions.
 cat >"$folder/home.sh" <<END
-. "$rig/monitors.sh"; trap - EXIT
-is() { until_true "\$2" eval '[ "\$("$program" tell --port $port --pin 314159 status | sed -n "s/^visit: //p")" = '\$1' ]' || { echo "the visit is not \$1" >"$folder/trouble"; exit 1; }; }
-touched() { xdotool windowfocus "\$(xdotool search --name '^Starbow a')"; xdotool key j; is flying 30; sh "$folder/talk.sh" >"\$1"; }
+. "$rig/monitors.sh"
+trap - EXIT
+program="$program" port=$port
+fail() { echo "\$*" >"$folder/trouble"; exit 1; }
+# begins_anew FILE: a touch begins a visit; FILE receives the state, without the lines that differ from moment to moment
+begins_anew() {
+    xdotool windowfocus "\$(xdotool search --name '^Starbow a')"
+    xdotool key j
+    is visit flying 30
+    ask status | grep -Ev '^(frame|uptime|quality|visit|caption|step)' >"\$1"
+}
 case \$1 in
-first) until_true 120 "$program" tell --port $port --pin 314159 status; is attract 60; touched "$folder/first"; is asking 90 ;;
-again) is attract 120; touched "$folder/again"; "$program" tell --port $port --pin 314159 restart ;;
+first) until_true 120 ask status; is visit attract 60; begins_anew "$folder/first"; is visit asking 90 ;;
+again) is visit attract 120; begins_anew "$folder/again"; ask restart ;;
 esac
 END
 {

@@ -8,6 +8,7 @@ program=$(realpath "$1") x_client=$(realpath "$2")/x_client rig=$(dirname "$0")/
 serve Xvfb -noreset -screen 0 1400x1100x24
 export STARBOW_VALIDATION=1 XDG_STATE_HOME=$folder/state
 prepare_remote
+patience=20
 cat >"$folder/exhibit.json" <<END
 { "layout": "./small.json", "scene": "avenue", "quality": "draft", "presenter": {}, "tutorial": false,
   "remote": { "port": $port, "pins": "pins" } }
@@ -20,12 +21,7 @@ ok
 timeout 600 "$program" run --exhibit "$folder/exhibit.json" --record "$folder/guided.jsonl" >"$folder/log" 2>&1 &
 exhibit=$!
 started+=($exhibit)
-ask() { "$program" tell --port $port --pin 314159 "$@" 2>&1; }
 until_true 60 ask status || fail "the exhibit does not answer: $(ask status)"
-now() { ask status | sed -n "s/^$1: //p"; }
-is() { # NAME VALUE [SECONDS]
-    until_true "${3:-20}" eval "[ \"\$(now $1)\" = '$2' ]" || fail "$1 is $(now "$1"), not $2"
-}
 window_of() { xdotool search --name "^Starbow $1\$" 2>/dev/null | head -n 1; }
 has_windows() { [ -n "$(window_of guide)" ] && [ -n "$(window_of a)" ]; }
 until_true 60 has_windows || fail "there is no window of the guide beside the visitors'"

@@ -17,8 +17,6 @@ timeout 300 "$program" run --exhibit "$folder/exhibit.json" --record "$folder/vi
 exhibit=$!
 started+=($exhibit)
 
-ask() { "$program" tell --port $port --pin "$pin" "$@" 2>&1; }
-pin=314159
 until_true 60 ask status || fail "the exhibit does not answer: $(ask status)"
 applied() { # COMMAND [VALUE]: the exhibit must carry it out.
     local answer
@@ -30,9 +28,6 @@ refused() { # TEXT COMMAND [VALUE]: one line with the text, and exit 2.
     shift
     answer=$(ask "$@") && fail "$*: is not refused: $answer"
     [ "$(wc -l <<<"$answer")" = 1 ] && [[ $answer == *"$says"* ]] || fail "$*: $answer"
-}
-is() { # NAME VALUE: a line of the state
-    until_true 10 eval "ask status | grep -qx '$1: $2'" || fail "$1 is not $2: $(ask status | grep "^$1:")"
 }
 brightest() { import -window root -format '%[fx:maxima]' info:; }
 is_black() { [ "$(brightest)" = 0 ]; }

@@ -28,12 +28,7 @@ ok
 timeout 300 "$program" run --exhibit "$folder/exhibit.json" --record "$folder/visits" >"$folder/log" 2>&1 &
 exhibit=$!
 started+=($exhibit)
-ask() { "$program" tell --port $port --pin 314159 "$@" 2>&1; }
 until_true 60 ask status || fail "the exhibit does not answer: $(ask status)"
-now() { ask status | sed -n "s/^$1: //p"; }
-is() { # NAME VALUE [SECONDS]
-    until_true "${3:-10}" eval "[ \"\$(now $1)\" = '$2' ]" || fail "$1 is $(now "$1"), not $2"
-}
 press() {
     xdotool windowfocus "$(xdotool search --name '^Starbow a')" 2>/dev/null
     xdotool key "$@"

@@ -56,3 +56,12 @@ prepare_remote() {
 { "outputs": [{ "name": "a", "size": [320, 240], "viewports": [{ "projection": { "type": "planar" } }] }] }
 END
 }
+
+# ask COMMAND [VALUE]: what the running exhibit ($program, $port) answers its engineer, or the role of another $pin.
+pin=314159
+ask() { "$program" tell --port "$port" --pin "$pin" "$@" 2>&1; }
+now() { ask status | sed -n "s/^$1: //p"; } # NAME: its value in the exhibit's state
+patience=10
+is() { # NAME VALUE [SECONDS]: waits until the state has the value, by default for $patience seconds
+    until_true "${3:-$patience}" eval "[ \"\$(now $1)\" = '$2' ]" || fail "$1 is $(now "$1"), not $2"
+}
