@@ -26,30 +26,20 @@ std::string glfw_says()
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 
-void present_barrier(vk::CommandBuffer commands, const Target& target, vk::ImageMemoryBarrier2 barrier)
-{
-    barrier.image = target.image;
-    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
-    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
-}
-
 /// Discards a target's contents and makes it ready for drawing.
 void discard(vk::CommandBuffer commands, const Target& target)
 {
     constexpr auto drawn = Stage::eColorAttachmentOutput;
-    present_barrier(commands, target,
-        {drawn, {}, drawn, Access::eColorAttachmentWrite, vk::ImageLayout::eUndefined,
-            vk::ImageLayout::eColorAttachmentOptimal});
+    transition(commands, target.image, vk::ImageLayout::eUndefined, drawn, {}, vk::ImageLayout::eColorAttachmentOptimal,
+        drawn, Access::eColorAttachmentWrite);
 }
 
 /// Makes a drawn target ready for its presentation.
 void hand_over(vk::CommandBuffer commands, const Target& target)
 {
     constexpr auto drawn = Stage::eColorAttachmentOutput;
-    present_barrier(commands, target,
-        {drawn, Access::eColorAttachmentWrite, drawn, {}, vk::ImageLayout::eColorAttachmentOptimal,
-            vk::ImageLayout::ePresentSrcKHR});
+    transition(commands, target.image, vk::ImageLayout::eColorAttachmentOptimal, drawn, Access::eColorAttachmentWrite,
+        vk::ImageLayout::ePresentSrcKHR, drawn, {});
 }
 
 /// A size with the same shape whose sides are at most so long.

@@ -39,17 +39,6 @@ Output output_of(const std::optional<Presenting>& rules)
     return output;
 }
 
-void picture_barrier(vk::CommandBuffer commands, vk::Image image, vk::ImageLayout from, vk::ImageLayout to)
-{
-    using Stage = vk::PipelineStageFlagBits2;
-    using Access = vk::AccessFlagBits2;
-    const bool before = to == vk::ImageLayout::eTransferDstOptimal;
-    const vk::ImageMemoryBarrier2 barrier(Stage::eTransfer, before ? Access() : Access::eTransferWrite, Stage::eTransfer,
-        before ? Access::eTransferWrite : Access(), from, to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image,
-        {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
-    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
-}
-
 } // namespace
 
 PresenterWindow::PresenterWindow(Device& device, Presenter& presenter, const std::optional<Presenting>& rules)
@@ -196,11 +185,14 @@ void PresenterWindow::copy(const PresenterPicture& picture)
     commands_[0].reset();
     commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     const vk::Image image = window_->picture();
-    picture_barrier(commands, image, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
+    constexpr auto copied = vk::PipelineStageFlagBits2::eTransfer;
+    transition(commands, image, vk::ImageLayout::eUndefined, copied, {}, vk::ImageLayout::eTransferDstOptimal, copied,
+        vk::AccessFlagBits2::eTransferWrite);
     commands.copyBufferToImage(*texels_.buffer, image, vk::ImageLayout::eTransferDstOptimal,
         vk::BufferImageCopy(0, std::uint32_t(picture.size.x), 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {0, 0, 0},
             {std::uint32_t(shown.x), std::uint32_t(shown.y), 1}));
-    picture_barrier(commands, image, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::ePresentSrcKHR);
+    transition(commands, image, vk::ImageLayout::eTransferDstOptimal, copied, vk::AccessFlagBits2::eTransferWrite,
+        vk::ImageLayout::ePresentSrcKHR, copied, {});
     commands.end();
 
     const vk::SemaphoreSubmitInfo acquired(window_->acquired(), 0, vk::PipelineStageFlagBits2::eTransfer),

@@ -159,6 +159,14 @@ void transition(vk::CommandBuffer commands, const Image& image, vk::ImageLayout 
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
 }
 
+void transition(vk::CommandBuffer commands, vk::Image image, vk::ImageLayout from, vk::PipelineStageFlags2 from_stage,
+    vk::AccessFlags2 from_access, vk::ImageLayout to, vk::PipelineStageFlags2 to_stage, vk::AccessFlags2 to_access)
+{
+    vk::ImageMemoryBarrier2 barrier(from_stage, from_access, to_stage, to_access, from, to, VK_QUEUE_FAMILY_IGNORED,
+        VK_QUEUE_FAMILY_IGNORED, image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
+    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
+}
+
 namespace {
 
 /// The bytes of a staging buffer, and so many rows of a texture at a time.

@@ -97,8 +97,10 @@ Image make_texture_array(
 Image make_texture_array(
     Device& device, vk::Format format, glm::ivec2 size, std::uint32_t layers, std::span<const std::byte> pixels);
 
-/// One image barrier, whole image.
+/// One image barrier, whole image. The second form: of an image of a window, in colours and without mips.
 void transition(vk::CommandBuffer commands, const Image& image, vk::ImageLayout from, vk::PipelineStageFlags2 from_stage,
+    vk::AccessFlags2 from_access, vk::ImageLayout to, vk::PipelineStageFlags2 to_stage, vk::AccessFlags2 to_access);
+void transition(vk::CommandBuffer commands, vk::Image image, vk::ImageLayout from, vk::PipelineStageFlags2 from_stage,
     vk::AccessFlags2 from_access, vk::ImageLayout to, vk::PipelineStageFlags2 to_stage, vk::AccessFlags2 to_access);
 
 vk::Rect2D rect_of(glm::ivec2 corner, glm::ivec2 size);
