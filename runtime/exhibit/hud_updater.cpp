@@ -66,9 +66,7 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
     const InputCapabilities capabilities = session.hid.capabilities();
     Readings shown = readings(session.flight.ship, scene, session.flight.effects);
     shown.frames_per_s = rate_;
-    shown.information = session.information;
-    if (shown.information != Information::laboratory) // both clocks begin at 0
-        shown.world_s -= session.programme.start.time * scene.seconds_per_time_unit();
+    show_on(session.information, session.programme.start.time * scene.seconds_per_time_unit(), shown);
     shown.mode = session.flight.mode, shown.frozen = session.flight.frozen, shown.lever = session.flight.lever;
     if (session.guide) {
         shown.prompt = session.guide->prompt(words);

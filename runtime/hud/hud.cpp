@@ -114,6 +114,13 @@ Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effec
         .effects = effects};
 }
 
+void show_on(Information information, double start_s, Readings& readings)
+{
+    readings.information = information;
+    if (information != Information::laboratory)
+        readings.world_s -= start_s;
+}
+
 std::string light_name(const Effects& on, const Words& words)
 {
     if (on.comparison != Comparison::none)

@@ -58,6 +58,9 @@ struct Readings {
     Information information = Information::laboratory;
 };
 Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects);
+/// Chooses the display of information. On those for visitors and guides both clocks begin at 0; start_s: the world's time at
+/// the flight's start.
+void show_on(Information information, double start_s, Readings& readings);
 
 /// The name of the shown light, in a few words.
 std::string light_name(const Effects& effects, const Words& words);

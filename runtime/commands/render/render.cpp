@@ -91,9 +91,7 @@ int render(const RenderOptions& options)
     if (options.hud) {
         Readings shown = readings(ship_at(shot), context.world.scene, shot.effects);
         shown.exposure_ev = shot.exposure_ev;
-        shown.information = information_named(options.information);
-        if (shown.information != Information::laboratory) // the shot is the start, where both clocks show 0
-            shown.world_s = 0;
+        show_on(information_named(options.information), shown.world_s, shown); // the shot is the start
         panel = Typesetter().draw(shown, words, renderer.frame().views().hud_width());
     }
     render_still(options.out, renderer, shot, options.exr, panel ? &*panel : nullptr);

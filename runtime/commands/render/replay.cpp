@@ -76,9 +76,8 @@ private:
     {
         const SceneFile& scene = context_.world.scene;
         Readings shown = readings(flight.ship, scene, flight.effects);
-        shown.information = information_, shown.lever = flight.lever, shown.mode = flight.mode, shown.frozen = flight.frozen;
-        if (information_ != Information::laboratory) // both clocks begin at 0
-            shown.world_s -= start_.time * scene.seconds_per_time_unit();
+        shown.lever = flight.lever, shown.mode = flight.mode, shown.frozen = flight.frozen;
+        show_on(information_, start_.time * scene.seconds_per_time_unit(), shown);
         return shown;
     }
 

@@ -18,7 +18,7 @@ std::string text_of(const Caption& caption)
     return all;
 }
 
-/// What the frames show, frame by frame: equal digests mean equal states and texts.
+/// A digest of the states and texts of all frames: where it is equal, so are they.
 std::uint64_t digest_of_frames(TourFilm& film, const Show& show, const Words& words)
 {
     std::uint64_t shown = digest(std::string_view());
