@@ -1,6 +1,7 @@
 #pragma once
 #include "shot.h"
 #include <array>
+#include <string_view>
 
 namespace starbow {
 
@@ -9,6 +10,8 @@ namespace starbow {
 enum class Beside { none, at_rest, aberration, doppler, headlight };
 constexpr std::array<const char*, 5> beside_names = {"none", "at-rest", "aberration", "doppler", "headlight"};
 inline Beside after(Beside beside) { return Beside((std::size_t(beside) + 1) % beside_names.size()); }
+/// Throws InputError for an unknown name.
+Beside beside_named(std::string_view name);
 inline const char* name_of(Beside beside) { return beside_names[std::size_t(beside)]; }
 
 /// The shot of the small picture. start_ev: the exposure of the small picture, EV; headlight alone has the shot's own, as

@@ -101,6 +101,18 @@ fs::path shipped_file(const std::string& kind, const std::string& name)
 
 Words words_in(const std::string& language) { return load_words(shipped_file("words", language)); }
 
+std::vector<std::pair<std::string, std::string>> languages_here(const std::function<void(const std::string&)>& say)
+{
+    std::vector<std::pair<std::string, std::string>> languages;
+    for (const std::string& name : shipped_names("words"))
+        try {
+            languages.emplace_back(name, words_in(name)("remote.this_language"));
+        } catch (const InputError& error) {
+            say(one_line(error.what()));
+        }
+    return languages;
+}
+
 Tour tour_in(const std::string& name, const Words& words)
 {
     return load_tour(

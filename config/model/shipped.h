@@ -4,7 +4,10 @@
 #include "tour_file.h"
 #include "words.h"
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace starbow {
 
@@ -34,6 +37,8 @@ std::vector<std::string> shipped_names(const std::string& kind);
 
 /// The words of a language, by the name of a shipped one or a path. Throws InputError.
 Words words_in(const std::string& language);
+/// The languages that can be read, each by its name and in its own word. say: receives the reason for each other one.
+std::vector<std::pair<std::string, std::string>> languages_here(const std::function<void(const std::string&)>& say);
 
 /// A tour in a language, by the name of a shipped one or a path. Throws InputError.
 Tour tour_in(const std::string& name, const Words& words);

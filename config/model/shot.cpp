@@ -123,6 +123,11 @@ Shot read_shot(const Place& place, bool with_scene)
     return shot;
 }
 
+Comparison comparison_named(std::string_view name)
+{
+    return Comparison(index_named(name, {comparison_names.begin(), comparison_names.end()}, "comparison"));
+}
+
 Shot load_shot(const std::filesystem::path& file)
 {
     const Document document = read_document(file);

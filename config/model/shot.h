@@ -4,12 +4,19 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <string>
+#include <string_view>
 
 namespace starbow {
 
 /// The comparisons: velocities that simply add, or everything at the ship's present, as if light came at once.
 enum class Comparison { none, galilean, no_light_delay };
 constexpr std::array<const char*, 3> comparison_names = {"none", "galilean", "no-light-delay"};
+inline Comparison after(Comparison comparison)
+{
+    return Comparison((std::size_t(comparison) + 1) % comparison_names.size());
+}
+/// Throws InputError for an unknown name.
+Comparison comparison_named(std::string_view name);
 
 /// The effects' switches, as in the paper "Real Time Relativity". Without aberration directions are the world's, without
 /// Doppler colours are as at rest, without headlight there is no D^3.

@@ -357,7 +357,7 @@ const std::vector<Known> known{
     {"presenter.left", {"left"}},
     {"presenter.typed"},
     {"presenter.somebody"},
-    {"presenter.asked"},
+    {"presenter.asking"},
     {"presenter.nobody"},
     {"presenter.watches"},
     {"remote.this_language"},

@@ -47,7 +47,7 @@ private:
     void watch_sizes(const std::vector<Target>& targets);
     /// Waits for the frame's turn and for the device. Returns the exposure for the frame before, if it was metered.
     std::optional<double> await_device();
-    /// The copy of the frame before goes to those who have asked for it.
+    /// Hands the small copy of the previous frame to the guide's window and to the remote, as each has requested it.
     void publish_view();
     /// Has a changed layout loaded beside, and applies one that is ready. If any file is wrong, nothing changes: the old
     /// picture stays until the new one can be drawn.

@@ -18,6 +18,8 @@ void FrameLoop::choose_in_menu(RecordEntry& entry)
         session_.menu = {};
         return;
     }
+    if (entry.controls.menu && !session_.menu.open) // a site's own words may be wrong; the remote's page says so
+        session_.languages = languages_here([](const std::string&) {});
     if (session_.menu.open || entry.controls.menu)
         if (std::optional<Command> chosen = advance(session_.menu, menu_of(session_), entry.controls, entry.dt_ns))
             entry.controls.commands.push_back(std::move(*chosen));

@@ -19,15 +19,11 @@ MenuPage page_of(const Words& words, const std::string& title, CommandKind kind,
 }
 
 /// The languages, each in its own word.
-MenuPage languages_of(const Words& words)
+MenuPage languages_of(const Session& session)
 {
-    MenuPage page{.title = words("menu.language"), .items = {}};
-    for (const std::string& name : shipped_names("words"))
-        try {
-            page.items.push_back(
-                {words_in(name)("remote.this_language"), Command{.kind = CommandKind::language, .text = name}});
-        } catch (const InputError&) { // a site's own words may be wrong; the remote's page says so
-        }
+    MenuPage page{.title = session.words("menu.language"), .items = {}};
+    for (const auto& [name, text] : session.languages)
+        page.items.push_back({text, Command{.kind = CommandKind::language, .text = name}});
     return page;
 }
 
@@ -84,7 +80,7 @@ std::vector<MenuPage> menu_of(const Session& session)
     std::vector<MenuPage> pages{{.title = words("menu.title"), .items = {}},
         page_of(words, words("menu.worlds"), CommandKind::scene, "scene", session.options.menu_scenes),
         page_of(words, words("menu.tours"), CommandKind::tour, "tour", session.options.menu_tours), switches_of(session),
-        hands_of(session), languages_of(words)};
+        hands_of(session), languages_of(session)};
     for (std::size_t page = worlds; page < pages.size(); ++page)
         if (!pages[page].items.empty() && (page != switches || visitor_flies(session))) // a tour shows its own effects
             pages[beginning].items.push_back({pages[page].title, page});

@@ -17,8 +17,6 @@ Flight& flight_of(Session& session)
     return session.guide->flight();
 }
 
-Effects& effects_of(Session& session) { return flight_of(session).effects; }
-
 /// The same tour in other words keeps its step and its time.
 void set_words(Session& session, Words words)
 {
@@ -74,16 +72,11 @@ void obey(Session& session, const Command& command, Controls& controls)
         session.directions.exposure_ev = command.number;
         break;
     case CommandKind::aberration:
-        effects_of(session).aberration = command.on;
-        break;
     case CommandKind::doppler:
-        effects_of(session).doppler = command.on;
-        break;
     case CommandKind::headlight:
-        effects_of(session).headlight = command.on;
-        break;
     case CommandKind::false_colours:
-        effects_of(session).false_colours = command.on;
+    case CommandKind::comparison:
+        apply(flight_of(session).effects, command);
         break;
     case CommandKind::slow_motion:
         flight_of(session).slowness = command.on && session.options.log.empty() ? 1 : 0;
@@ -95,16 +88,12 @@ void obey(Session& session, const Command& command, Controls& controls)
     case CommandKind::left_handed:
         session.left_handed = command.on;
         break;
-    case CommandKind::comparison:
-        effects_of(session).comparison
-            = Comparison(index_named(command.text, {comparison_names.begin(), comparison_names.end()}, "comparison"));
-        break;
     case CommandKind::language:
         set_words(session, words_in(command.text));
         keep_language(session.options.state, command.text);
         break;
     case CommandKind::beside:
-        session.beside = Beside(index_named(command.text, {beside_names.begin(), beside_names.end()}, "small picture"));
+        session.beside = beside_named(command.text);
         break;
     case CommandKind::information:
         session.information = information_named(command.text);

@@ -2,21 +2,14 @@
 #include "config/json/error.h"
 #include "config/model/shipped.h"
 #include "menu_pages.h"
-#include "runtime/flight/ship.h"
 #include "runtime/hud/hud.h"
 #include "runtime/operation/log.h"
-#include <cmath>
 #include <csignal>
 #include <sys/resource.h>
 #include <unistd.h>
 
 namespace starbow {
 namespace {
-
-std::string command_name_of(const std::filesystem::path& file)
-{
-    return (file.extension() == ".json" ? file.stem() : file.filename()).string();
-}
 
 std::vector<Cue> cues_of(const Tour& tour)
 {
@@ -36,7 +29,7 @@ std::string visitors_of(const Session& session)
     if (session.directions.fades)
         return words("remote.dark");
     if (session.visit.phase == VisitPhase::asking)
-        return words("presenter.asked");
+        return words("presenter.asking");
     if (session.options.visiting && !in_hand(session.visit))
         return words("presenter.watches");
     return words(!knows_visitor(session) ? "presenter.nobody" : "presenter.somebody");
@@ -54,29 +47,18 @@ std::vector<std::pair<std::string, std::string>> titled(
 PresenterState state_of(const Session& session)
 {
     const Words& words = session.words;
-    const Programme& programme = session.programme;
     PresenterState state;
+    describe(session, state);
     state.visitors = visitors_of(session);
-    state.scene = command_name_of(programme.scene), state.shot = command_name_of(programme.shot);
     state.world = title_of(words, "scene", state.scene), state.coming = session.coming;
-    state.language = words.language;
-    const bool flies = !session.guide || session.guide->flies();
+    state.own_effects = visitor_flies(session);
     if (session.guide && !session.guide->over()) {
-        state.tour = command_name_of(programme.tour_name);
         state.tour_title = title_of(words, "tour", state.tour);
-        state.cues = cues_of(*programme.tour);
+        state.cues = cues_of(*session.programme.tour);
         state.step = session.guide->step(), state.left_s = session.guide->left_s();
+    } else {
+        state.tour.clear();
     }
-    state.paused = flies ? session.flight.frozen : session.guide->paused();
-    state.own_effects = flies;
-    state.fade = session.directions.fades, state.hold = session.directions.holds;
-    state.effects = session.flight.effects, state.slow_motion = session.flight.slowness > 0;
-    const double rapidity = rapidity_of(session.flight.ship);
-    state.speed = std::tanh(rapidity), state.gamma = std::cosh(rapidity), state.max_gamma = session.rules.max_gamma;
-    state.beside = session.beside, state.information = session.information;
-    state.one_button = session.one_button, state.left_handed = session.left_handed;
-    state.exposure_ev = session.directions.exposure_ev;
-    state.caption = session.directions.caption;
     return state;
 }
 
@@ -132,12 +114,9 @@ Presenter::Presenter(const ExhibitOptions& options)
     const Typesetter font; // throws here what would end the thread
     painter_ = std::make_unique<PresenterPainter>();
     scenes_ = shipped_names("scenes"), tours_ = shipped_names("tours"), shots_ = shipped_names("shots");
-    for (const std::string& name : shipped_names("words"))
-        try {
-            languages_.emplace_back(name, words_in(name)("remote.this_language"));
-        } catch (const InputError& error) {
-            write_log(LogKind::words_unreadable, one_line(error.what()) + "; the guide's window does without this language");
-        }
+    languages_ = languages_here([](const std::string& why) {
+        write_log(LogKind::words_unreadable, why + "; the guide's window does without this language");
+    });
 }
 
 Presenter::~Presenter() = default;
@@ -174,7 +153,7 @@ void Presenter::press(int key)
     if (size_.x == 0)
         return; // nothing is shown yet that could be meant
     if (std::optional<Command> command = starbow::press(sheet_, hands_, key)) {
-        state_ = foreseen(std::move(state_), *command);
+        static_cast<ExhibitState&>(state_) = after(state_, *command);
         given_.push_back(std::move(*command));
     }
     sheet_ = sheet_of(state_, hands_, words_); // the next key may come before the next picture

@@ -1,41 +1,19 @@
 #include "remote_control.h"
-#include "runtime/flight/ship.h"
 #include "runtime/operation/log.h"
-#include <cmath>
 
 namespace starbow {
 namespace {
 
-/// The name of a file, or of its path, as commands give it: chart-0.5 of chart-0.5 and of shots/chart-0.5.json.
-std::string name_of(const std::filesystem::path& file)
-{
-    return (file.extension() == ".json" ? file.stem() : file.filename()).string();
-}
-
 void describe(const Session& session, Snapshot& out)
 {
-    const Programme& programme = session.programme;
-    out.scene = name_of(programme.scene);
-    out.shot = name_of(programme.shot);
-    out.tour = name_of(programme.tour_name);
-    out.language = session.words.language;
-    out.layout = name_of(session.layout.file);
+    describe(session, static_cast<ExhibitState&>(out));
+    out.layout = command_name_of(session.layout.file);
     out.quality = session.quality_name;
     out.pattern = pattern_names[std::size_t(session.alignment.pattern())];
     out.step = session.guide ? int(session.guide->step()) + 1 : 0;
-    out.steps = programme.tour ? int(programme.tour->steps.size()) : 0;
-    out.paused = visitor_flies(session) ? session.flight.frozen : session.guide->paused();
-    out.fade = session.directions.fades, out.hold = session.directions.holds;
+    out.steps = session.programme.tour ? int(session.programme.tour->steps.size()) : 0;
     out.visit = session.options.visiting || knows_visitor(session) ? visit_phase_names[std::size_t(session.visit.phase)]
                                                                    : visit_phase_names[std::size_t(VisitPhase::attract)];
-    out.effects = session.flight.effects, out.slow_motion = session.flight.slowness > 0;
-    out.information = session.information;
-    out.one_button = session.one_button, out.left_handed = session.left_handed;
-    const double rapidity = rapidity_of(session.flight.ship);
-    out.speed = std::tanh(rapidity), out.gamma = std::cosh(rapidity);
-    out.max_gamma = session.rules.max_gamma;
-    out.exposure_ev = session.directions.exposure_ev;
-    out.caption = session.directions.caption;
     out.frame_ms = 1e3 * session.frame_s;
     out.frames_per_s = session.frame_s > 0 ? 1 / session.frame_s : 0;
     out.error = session.refused.empty() ? session.directions.refusal : session.refused;

@@ -4,6 +4,7 @@
 #include "menu_pages.h"
 #include "runtime/flight/pace.h"
 #include "runtime/flight/record_files.h"
+#include "runtime/flight/ship.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/messages.h"
 #include "runtime/operation/vitals.h"
@@ -11,6 +12,7 @@
 #include "runtime/world/surroundings.h"
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <utility>
@@ -85,6 +87,29 @@ void unlock_builders_keys(Session& session)
 Visiting counted_by(const Programme& programme)
 {
     return {.idle_s = programme.tour ? programme.tour->again_after_s : Visiting().idle_s, .ask_s = 0, .fade_s = 0};
+}
+
+std::string command_name_of(const std::filesystem::path& file)
+{
+    return (file.extension() == ".json" ? file.stem() : file.filename()).string();
+}
+
+void describe(const Session& session, ExhibitState& out)
+{
+    const Programme& programme = session.programme;
+    out.scene = command_name_of(programme.scene), out.shot = command_name_of(programme.shot);
+    out.tour = command_name_of(programme.tour_name);
+    out.language = session.words.language;
+    out.paused = visitor_flies(session) ? session.flight.frozen : session.guide->paused();
+    out.fade = session.directions.fades, out.hold = session.directions.holds;
+    out.effects = session.flight.effects, out.slow_motion = session.flight.slowness > 0;
+    out.information = session.information, out.beside = session.beside;
+    out.one_button = session.one_button, out.left_handed = session.left_handed;
+    const double rapidity = rapidity_of(session.flight.ship);
+    out.speed = std::tanh(rapidity), out.gamma = std::cosh(rapidity);
+    out.max_gamma = session.rules.max_gamma;
+    out.exposure_ev = session.directions.exposure_ev;
+    out.caption = session.directions.caption;
 }
 
 bool visitor_flies(const Session& session) { return !session.guide || session.guide->flies(); }

@@ -5,6 +5,7 @@
 #include "display_hold.h"
 #include "exhibit.h"
 #include "input/calm.h"
+#include "input/exhibit_state.h"
 #include "input/head_tracker.h"
 #include "input/hid.h"
 #include "input/keyboard.h"
@@ -61,6 +62,7 @@ struct Session {
     double home_black = 0; ///< the part of black on that way
     bool somebody = false; ///< has touched a control in this frame
     MenuState menu{}; ///< the visitors'
+    std::vector<std::pair<std::string, std::string>> languages{}; ///< names and own words, as read when the menu opened
     bool one_button; ///< the visitor flies with one
     bool left_handed; ///< the controls are a left-handed visitor's
     Scan scan{}; ///< of the one button
@@ -118,6 +120,10 @@ double wait_limit_s(const Service& service);
 
 inline double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
+/// The name of a file, or of its path, as commands give it: chart-0.5 of chart-0.5 and of shots/chart-0.5.json.
+std::string command_name_of(const std::filesystem::path& file);
+/// Writes the state that remotes and the guide's window show. out: its memory is used again.
+void describe(const Session& session, ExhibitState& out);
 /// Gives a builder's keys back for ten minutes.
 void unlock_builders_keys(Session& session);
 /// The rules by which visits are counted where somebody else attends to them.

@@ -54,7 +54,7 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, double
     flight.effects.headlight ^= controls.headlight;
     flight.effects.false_colours ^= controls.false_colours;
     if (controls.comparison)
-        flight.effects.comparison = Comparison((int(flight.effects.comparison) + 1) % int(comparison_names.size()));
+        flight.effects.comparison = after(flight.effects.comparison);
     flight.hud ^= controls.hud;
     flight.look_rad = controls.look_ahead ? glm::dvec2(0) : flight.look_rad + controls.look_rad;
     flight.look_rad.y = std::clamp(flight.look_rad.y, -half_pi, half_pi);

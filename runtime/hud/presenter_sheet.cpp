@@ -150,14 +150,13 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
         toggle(key, label, kind, on).usable = state.own_effects;
 
     constexpr const char* comparisons[]{"remote.none", "remote.galilean", "remote.no_light_delay"};
-    const std::size_t compared = std::size_t(state.effects.comparison), beside = std::size_t(state.beside);
-    step('C', "remote.comparison",
-        {.kind = Order::comparison, .text = std::string(comparison_names[(compared + 1) % comparison_names.size()])},
-        words(comparisons[compared]), compared > 0)
+    const Comparison compared = state.effects.comparison;
+    step('C', "remote.comparison", {.kind = Order::comparison, .text = comparison_names[std::size_t(after(compared))]},
+        words(comparisons[std::size_t(compared)]), compared != Comparison::none)
         .usable
         = state.own_effects;
-    step('X', "presenter.beside", {.kind = Order::beside, .text = beside_names[(beside + 1) % beside_names.size()]},
-        words(std::string("beside.") + beside_names[beside]), beside > 0);
+    step('X', "presenter.beside", {.kind = Order::beside, .text = name_of(after(state.beside))},
+        words(std::string("beside.") + name_of(state.beside)), state.beside != Beside::none);
     step('I', "remote.information", {.kind = Order::information, .text = std::string(name_of(after(state.information)))},
         words("remote.display." + std::string(name_of(state.information))), false);
     deed(down, "↓", "presenter.darker", brighter(-exposure_step_ev)).state = exposure_text(state.exposure_ev, words);
@@ -248,61 +247,6 @@ std::optional<Command> press(const PresenterSheet& sheet, PresenterHands& hands,
     else
         hands.typed.emplace();
     return {};
-}
-
-PresenterState foreseen(PresenterState state, const Command& command)
-{
-    switch (command.kind) {
-    case Order::fade:
-        state.fade = command.on;
-        break;
-    case Order::hold:
-        state.hold = command.on;
-        break;
-    case Order::pause:
-        state.paused = command.on;
-        break;
-    case Order::aberration:
-        state.effects.aberration = command.on;
-        break;
-    case Order::doppler:
-        state.effects.doppler = command.on;
-        break;
-    case Order::headlight:
-        state.effects.headlight = command.on;
-        break;
-    case Order::false_colours:
-        state.effects.false_colours = command.on;
-        break;
-    case Order::slow_motion:
-        state.slow_motion = command.on;
-        break;
-    case Order::one_button:
-        state.one_button = command.on;
-        break;
-    case Order::left_handed:
-        state.left_handed = command.on;
-        break;
-    case Order::beside:
-        for (std::size_t i = 0; i < beside_names.size(); ++i)
-            if (beside_names[i] == command.text)
-                state.beside = Beside(i);
-        break;
-    case Order::information:
-        state.information = information_named(command.text);
-        break;
-    case Order::comparison:
-        for (std::size_t i = 0; i < comparison_names.size(); ++i)
-            if (comparison_names[i] == command.text)
-                state.effects.comparison = Comparison(i);
-        break;
-    case Order::exposure:
-        state.exposure_ev = command.number;
-        break;
-    default:
-        break; // its key gives the same command again
-    }
-    return state;
 }
 
 void type(PresenterHands& hands, char32_t c)

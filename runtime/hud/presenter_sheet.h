@@ -1,8 +1,6 @@
 #pragma once
-#include "config/model/beside.h"
-#include "config/model/information.h"
 #include "config/model/words.h"
-#include "input/command.h"
+#include "input/exhibit_state.h"
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,24 +16,14 @@ struct Cue {
 };
 
 /// The running exhibit as its guide's window shows it.
-struct PresenterState {
+struct PresenterState : ExhibitState {
     std::string visitors; ///< a line: who is there
     std::string world, coming; ///< the visitors' names of the shown world, and of one that is being read; empty: none
-    std::string scene, shot, tour, language; ///< names of files, as in commands; empty: none
     std::string tour_title;
     std::vector<Cue> cues; ///< of the tour; empty: none is shown, or it is over
     std::size_t step = 0; ///< the present one, counted from 0
     double left_s = 0; ///< of the present step
-    bool paused = false; ///< the tour, or else the world
-    bool fade = false, hold = false, slow_motion = false;
     bool own_effects = true; ///< the flight's effects can be switched; a tour shows its own
-    Effects effects{};
-    Beside beside = Beside::none;
-    Information information = Information::visitor;
-    bool one_button = false, left_handed = false;
-    double speed = 0, gamma = 1, max_gamma = 1;
-    double exposure_ev = 0; ///< the guide's change
-    std::string caption; ///< the guide's
     std::string said; ///< about the last command; empty: none came
     bool refused = false; ///< it was refused
     /// The choices of each list: a name as in a command, and one for people.
@@ -44,7 +32,7 @@ struct PresenterState {
 
 enum class PresenterList { worlds, tours, views, limits, languages };
 
-/// What the guide has opened in the window.
+/// The guide's place in the window: the open list, its page, and the caption that is being typed.
 struct PresenterHands {
     PresenterList list = PresenterList::worlds;
     std::size_t page = 0; ///< of the list
@@ -98,8 +86,6 @@ PresenterSheet sheet_of(const PresenterState& state, const PresenterHands& hands
 
 /// A key of the sheet, or one that types; nothing happens at any other. Returns the command that it gives.
 std::optional<Command> press(const PresenterSheet& sheet, PresenterHands& hands, int key);
-/// The state that a command will lead to, as far as keys depend on it: a second press may come before the first one's frame.
-PresenterState foreseen(PresenterState state, const Command& command);
 /// A character that is typed into a caption.
 void type(PresenterHands& hands, char32_t character);
 

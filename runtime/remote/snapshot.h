@@ -1,6 +1,5 @@
 #pragma once
-#include "config/model/information.h"
-#include "config/model/shot.h"
+#include "input/exhibit_state.h"
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,22 +7,11 @@
 namespace starbow {
 
 /// The running exhibit as a remote shows it, once a frame.
-struct Snapshot {
-    // Names of files, without folder and .json; empty: none.
-    std::string scene, shot, tour;
-    std::string language, layout, quality;
+struct Snapshot : ExhibitState {
+    std::string layout, quality; ///< names of files; empty: none
     std::string pattern; ///< one of pattern_names; "none" or empty: the world
     int step = 0, steps = 0; ///< of the tour, the first one 1; 0: no tour
-    bool paused = false, fade = false, hold = false;
     std::string visit; ///< one of visit_phase_names
-    Effects effects;
-    bool slow_motion = false, one_button = false, left_handed = false;
-    Information information = Information::laboratory;
-    double speed = 0; ///< v/c
-    double gamma = 1;
-    double max_gamma = 1; ///< at full throttle
-    double exposure_ev = 0; ///< a docent's change
-    std::string caption; ///< by the command
     double frames_per_s = 0, frame_ms = 0;
     std::string error; ///< the last one, as a sentence; empty: none
     double uptime_s = 0;

@@ -58,7 +58,7 @@ TEST(Held, TheShipComesToCoastingWithinTheLimitsThatAreFelt)
         EXPECT_GT(most_gain_step, 1e-4) << int(mode); // there was a thrust to take away
         EXPECT_LE(most_jerk, 1.05 * glm::radians(rules.turn_jerk_deg_per_s3)) << int(mode);
         EXPECT_LT(glm::length(flight.turn_rad_s), 1e-4) << int(mode);
-        // What was gained on the way: at most the gain times the time constant of its fading, 2 * 0.8 / 4 s.
+        // The rapidity gained while the thrust fades is at most the gain times the fading's time constant, 2 * 0.8 / 4 s.
         EXPECT_NEAR(rapidity(flight), began + 0.16, 0.17) << int(mode);
         const double settled = rapidity(flight);
         EXPECT_NEAR(rapidity(fly(flight, held, 3000, rules)), settled, 1e-3) << int(mode);

@@ -142,7 +142,8 @@ TEST(Messages, AddressesAreComparedAsPlainOnes)
 
 TEST(Messages, StatusesAndAnswersAreJson)
 {
-    Snapshot now{.scene = "avenue", .tour = "twins", .step = 2, .steps = 9, .effects = {.doppler = false}, .speed = 0.5};
+    Snapshot now;
+    now.scene = "avenue", now.tour = "twins", now.step = 2, now.steps = 9, now.effects.doppler = false, now.speed = 0.5;
     now.effects.comparison = Comparison::no_light_delay;
     now.caption = "\xff\"</script>";
     now.gamma = std::numeric_limits<double>::infinity();

@@ -161,7 +161,8 @@ public:
                     scene = command.command.kind == CommandKind::scene ? command.command.text : scene;
                     ++count;
                 }
-                remote->next_snapshot() = {.scene = scene, .step = frame, .uptime_s = frame / 100.};
+                Snapshot& next = remote->next_snapshot() = {};
+                next.scene = scene, next.step = frame, next.uptime_s = frame / 100.;
                 remote->publish_snapshot();
                 remote->next_condition().metrics = "frames_total " + std::to_string(frame) + "\n";
                 remote->publish_condition();

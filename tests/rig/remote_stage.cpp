@@ -30,14 +30,12 @@ std::string apply(const Command& command, Snapshot& now)
 {
     using enum CommandKind;
     switch (command.kind) {
-    case fade:
-        now.fade = command.on;
-        break;
     case stop:
         now.speed = 0, now.gamma = 1;
         break;
     case reset:
-        now = {.scene = "avenue", .language = "en", .layout = "desk", .quality = "balanced", .max_gamma = 1e6};
+        now = {};
+        now.scene = "avenue", now.language = "en", now.layout = "desk", now.quality = "balanced", now.max_gamma = 1e6;
         break;
     case tour:
         now.tour = command.text, now.step = 1, now.steps = 12, now.shot.clear();
@@ -48,9 +46,6 @@ std::string apply(const Command& command, Snapshot& now)
     case back:
         now.step = std::max(now.step - 1, 1);
         break;
-    case pause:
-        now.paused = command.on;
-        break;
     case scene:
         if (command.text == "gone")
             return "There is no gone.json in config/scenes";
@@ -58,38 +53,6 @@ std::string apply(const Command& command, Snapshot& now)
         break;
     case shot:
         now.shot = command.text, now.tour.clear();
-        break;
-    case speed_limit:
-        now.max_gamma = command.number;
-        break;
-    case exposure:
-        now.exposure_ev = command.number;
-        break;
-    case aberration:
-        now.effects.aberration = command.on;
-        break;
-    case doppler:
-        now.effects.doppler = command.on;
-        break;
-    case headlight:
-        now.effects.headlight = command.on;
-        break;
-    case false_colours:
-        now.effects.false_colours = command.on;
-        break;
-    case comparison:
-        for (std::size_t i = 0; i < comparison_names.size(); ++i)
-            if (command.text == comparison_names[i])
-                now.effects.comparison = Comparison(i);
-        break;
-    case language:
-        now.language = command.text;
-        break;
-    case caption:
-        now.caption = command.text;
-        break;
-    case hold:
-        now.hold = command.on;
         break;
     case layout:
         now.layout = command.text;
@@ -103,6 +66,12 @@ std::string apply(const Command& command, Snapshot& now)
     case restart:
         ends = true;
         break;
+    default:
+        try {
+            static_cast<ExhibitState&>(now) = after(now, command);
+        } catch (const InputError& error) {
+            return error.what();
+        }
     }
     return "";
 }

@@ -1,0 +1,75 @@
+#include "exhibit_state.h"
+
+namespace starbow {
+
+bool apply(Effects& effects, const Command& command)
+{
+    switch (command.kind) {
+    case CommandKind::aberration:
+        effects.aberration = command.on;
+        return true;
+    case CommandKind::doppler:
+        effects.doppler = command.on;
+        return true;
+    case CommandKind::headlight:
+        effects.headlight = command.on;
+        return true;
+    case CommandKind::false_colours:
+        effects.false_colours = command.on;
+        return true;
+    case CommandKind::comparison:
+        effects.comparison = comparison_named(command.text);
+        return true;
+    default:
+        return false;
+    }
+}
+
+ExhibitState after(ExhibitState state, const Command& command)
+{
+    if (apply(state.effects, command))
+        return state;
+    switch (command.kind) {
+    case CommandKind::fade:
+        state.fade = command.on;
+        break;
+    case CommandKind::hold:
+        state.hold = command.on;
+        break;
+    case CommandKind::pause:
+        state.paused = command.on;
+        break;
+    case CommandKind::slow_motion:
+        state.slow_motion = command.on;
+        break;
+    case CommandKind::one_button:
+        state.one_button = command.on;
+        break;
+    case CommandKind::left_handed:
+        state.left_handed = command.on;
+        break;
+    case CommandKind::information:
+        state.information = information_named(command.text);
+        break;
+    case CommandKind::beside:
+        state.beside = beside_named(command.text);
+        break;
+    case CommandKind::speed_limit:
+        state.max_gamma = command.number;
+        break;
+    case CommandKind::exposure:
+        state.exposure_ev = command.number;
+        break;
+    case CommandKind::language:
+        state.language = command.text;
+        break;
+    case CommandKind::caption:
+        state.caption = command.text;
+        break;
+    default:
+        break; // it depends on the exhibit
+    }
+    return state;
+}
+
+} // namespace starbow

@@ -1,0 +1,34 @@
+#pragma once
+#include "command.h"
+#include "config/model/beside.h"
+#include "config/model/information.h"
+#include "config/model/shot.h"
+#include <string>
+
+namespace starbow {
+
+/// The state of a running exhibit that commands change and that remotes and the guide's window show.
+struct ExhibitState {
+    std::string scene, shot, tour, language; ///< names of files, without folder and .json; empty: none
+    bool paused = false; ///< the tour, or else the world
+    bool fade = false, hold = false;
+    Effects effects{};
+    bool slow_motion = false, one_button = false, left_handed = false;
+    Information information = Information::laboratory;
+    Beside beside = Beside::none;
+    double speed = 0; ///< v/c
+    double gamma = 1;
+    double max_gamma = 1; ///< at full throttle
+    double exposure_ev = 0; ///< a docent's change
+    std::string caption; ///< a docent's; empty: none
+};
+
+/// Applies a command that switches an effect, or chooses a comparison. Returns false, and changes nothing, for any other.
+/// Throws InputError for an unknown comparison.
+bool apply(Effects& effects, const Command& command);
+
+/// The state to which a command leads, as far as the command alone says it: switches, choices and numbers, but no world,
+/// view or tour. Throws InputError for an unknown name.
+ExhibitState after(ExhibitState state, const Command& command);
+
+} // namespace starbow
