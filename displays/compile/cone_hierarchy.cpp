@@ -105,10 +105,20 @@ ConeHierarchy::ConeHierarchy(const glm::dmat3& direction_from_pixel, glm::ivec2 
     const glm::dmat3& m = direction_from_pixel;
     unit_ = std::sqrt(std::abs(glm::determinant(m)));
     foot_ = -glm::dvec2(glm::dot(m[0], m[2]) / glm::dot(m[0], m[0]), glm::dot(m[1], m[2]) / glm::dot(m[1], m[1]));
+    constexpr int least_kept = 8; // pixels
+    for (int level = 0; level < levels_ && side(level) >= least_kept; ++level) {
+        const glm::ivec2 cones = count(level);
+        std::vector<BoundingCone>& kept = cones_.emplace_back();
+        kept.reserve(std::size_t(cones.x) * cones.y);
+        for (int y = 0; y < cones.y; ++y)
+            for (int x = 0; x < cones.x; ++x)
+                kept.push_back(flat_cone(level, {x, y}));
+    }
 }
 
-BoundingCone ConeHierarchy::flat_cone(glm::ivec2 low, glm::ivec2 high) const
+BoundingCone ConeHierarchy::flat_cone(int level, glm::ivec2 block) const
 {
+    const glm::ivec2 low = block * side(level), high = glm::min(low + side(level), size_);
     const glm::dvec2 first = glm::dvec2(low) + 0.5, last = glm::dvec2(high) - 0.5;
     auto at = [&](const glm::dvec2& p) { return *flat_ * glm::dvec3(p, 1); };
     const glm::dvec3 corners[4] = {at(first), at({last.x, first.y}), at({first.x, last.y}), at(last)};
@@ -133,9 +143,9 @@ BoundingCone ConeHierarchy::flat_cone(glm::ivec2 low, glm::ivec2 high) const
 
 BoundingCone ConeHierarchy::cone(int level, glm::ivec2 block) const
 {
-    if (!flat_)
-        return cones_[level][std::size_t(block.y) * count(level).x + block.x];
-    return flat_cone(block * side(level), glm::min((block + 1) * side(level), size_));
+    if (std::size_t(level) < cones_.size())
+        return cones_[std::size_t(level)][std::size_t(block.y) * count(level).x + block.x];
+    return flat_cone(level, block);
 }
 
 namespace {

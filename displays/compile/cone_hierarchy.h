@@ -18,8 +18,8 @@ class ConeHierarchy {
 public:
     /// From a map: the leaves have 8 x 8 pixels and enclose all of them.
     explicit ConeHierarchy(const DirectionMap& map);
-    /// From a flat picture, direction = M (x, y, 1): cones are computed on request, down to single pixels. M's first two
-    /// columns are perpendicular.
+    /// From a flat picture, direction = M (x, y, 1): cones go down to single pixels; those of small blocks are computed on
+    /// request. M's first two columns are perpendicular.
     ConeHierarchy(const glm::dmat3& direction_from_pixel, glm::ivec2 size);
 
     glm::ivec2 size() const { return size_; }
@@ -30,11 +30,11 @@ public:
     bool flat() const { return flat_.has_value(); }
 
 private:
-    BoundingCone flat_cone(glm::ivec2 low, glm::ivec2 high) const;
+    BoundingCone flat_cone(int level, glm::ivec2 block) const;
 
     glm::ivec2 size_;
     int leaf_, levels_;
-    std::vector<std::vector<BoundingCone>> cones_; ///< from a map: by level, rows from the top
+    std::vector<std::vector<BoundingCone>> cones_; ///< by level, rows from the top; of a flat picture the coarser levels
     std::optional<glm::dmat3> flat_;
     glm::dvec2 foot_{0}; ///< foot of the perpendicular from the eye, pixels
     double unit_ = 0; ///< square root of M's determinant

@@ -204,7 +204,7 @@ struct Walk {
     Disc in_the_world(const glm::dvec3& centre, const BoundingCone& cap) const
     {
         const double radius = cap.radius + spread * cap.coarsest;
-        const double across = std::hypot(centre.x, centre.y);
+        const double across = glm::length(glm::dvec2(centre)); // of a unit vector, so that no square overflows
         Disc disc;
         glm::dvec2 middle_in_world; // cosine and sine of its angle from the motion
         if (galilean) {
