@@ -26,28 +26,31 @@ const Panel* HudUpdater::update(const Session& session, const SceneFile& scene, 
     return (session.flight.hud || asks) && !covers_pattern ? &panel_ : nullptr;
 }
 
+/// Says a sentence in the place of a caption; below the choices of one button, which go on.
+static void say(const std::string& text, bool flying, Readings& shown)
+{
+    if (shown.caption && shown.caption->menu)
+        shown.caption->aside = text;
+    else
+        shown.caption = Caption{.text = text, .flying = flying};
+}
+
 /// Adds the visit's line, in the place of a tour's caption or below it.
 static void add_visit(const Session& session, Readings& shown)
 {
     const Words& words = session.words;
-    const auto say_in_flight = [&](const std::string& text) {
-        if (shown.caption && shown.caption->menu) // the choices of one button go on
-            shown.caption->aside = text;
-        else
-            shown.caption = Caption{.text = text, .flying = true};
-    };
     if (const auto left = seconds_left(session.visit, session.visiting)) {
         const char* key = session.visit.phase == VisitPhase::asking ? "visit.asking" : "visit.ending";
         shown.caption = Caption{.text = words(key, {{"left", std::to_string(int(std::ceil(*left)))}})};
     } else if (session.flight.homing && session.flight.homing->from_boundary) {
-        say_in_flight(words("visit.boundary"));
+        say(words("visit.boundary"), true, shown);
     } else if (session.flight.homeward) {
-        say_in_flight(words("visit.homeward"));
+        say(words("visit.homeward"), true, shown);
     } else if (session.directions.holds) {
         if (shown.caption) // a tour's text, which the guide speaks to
             shown.caption->aside = words("visit.held");
         else
-            say_in_flight(words("visit.held"));
+            say(words("visit.held"), true, shown);
     } else if (session.options.visiting && !in_hand(session.visit)) {
         const std::string& begin = words(session.hid.capabilities().stick ? "visit.begin_stick" : "visit.begin_keys");
         // Large for some seconds, and small beside the tour's caption, which passers-by read meanwhile.
@@ -85,7 +88,7 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
     }
     if (!session.coming.empty())
         shown.prompt = words("menu.coming", {{"world", session.coming}});
-    if (scans(session))
+    if (scans(session)) // a tour's caption of the flight speaks of keys and buttons that this visitor does not have
         shown.caption = caption_of(session.scan, session.options.one_button.value_or(OneButton()), words);
     add_visit(session, shown);
     if (session.menu.open)
@@ -93,7 +96,7 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
     if (shows_pins(session))
         shown.caption = Caption{.text = session.pins};
     else if (!session.directions.caption.empty())
-        shown.caption = Caption{.text = session.directions.caption, .flying = visitor_flies(session)};
+        say(session.directions.caption, visitor_flies(session), shown);
     if (shown.caption && !shown.caption->flying)
         shown.lever.reset();
     shown.exposure_ev = exposure_ev, shown.exposure_locked = session.exposure.locked;

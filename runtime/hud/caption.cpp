@@ -112,7 +112,18 @@ static void write_menu(Panel& panel, const Typesetter& typesetter, const Caption
         write(at(chosen + 1) + " ›", 0.87, 0.6, 0.17, 0.21, 0.6);
     if (count > 2)
         write("‹ " + at(chosen - 1), 0.13, 0.6, 0.17, 0.21, 0.6);
-    write(caption.aside, 0.5, 0.89, 0.16, 0.9, 0.8);
+    // A docent's or a tour's sentence may take two lines.
+    int size = int(0.16 * height);
+    std::vector<std::string> lines;
+    for (;; --size) {
+        lines
+            = wrapped(caption.aside, 0.92 * width, [&](const std::string& text) { return typesetter.width_of(text, size); });
+        if (size <= 6 || lines.size() == 1 || (lines.size() == 2 && size <= int(0.135 * height)))
+            break;
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        typesetter.write(panel, lines[i], 0.5 * (width - typesetter.width_of(lines[i], size)),
+            (lines.size() == 1 ? 0.89 : 0.82 + 0.14 * double(i)) * height, size, 0.8);
 }
 
 void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& caption,
