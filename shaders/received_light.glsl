@@ -32,6 +32,7 @@ const int REST_FRAMES = 1;
 layout(constant_id = 14) const bool SEVERAL_REST_FRAMES = false; // several rest frames, each with its own part of the cube map
 layout(constant_id = 22) const bool WORLD_ALONE = false; // of several rest frames only the world's is seen here
 layout(constant_id = 23) const int REST_FRAMES = MAX_REST_FRAMES; // of the world; MAX_REST_FRAMES: more than a few
+layout(constant_id = 24) const bool MILKY_WAY = false; // the sky has a panorama
 #endif
 layout(constant_id = 19) const int CUBE_SAMPLES = 1; // of each texel
 layout(constant_id = 20) const bool UNALIGNED = false; // some cube map has other axes than the motion's
@@ -52,6 +53,7 @@ layout(set = 0, binding = 10) uniform Own { vec4 own_rows[MOST_OWN_ROWS]; };
 
 layout(set = 0, binding = 11) uniform sampler2D covered_atlas; // the covered part of a texel; the same times its depth
 layout(set = 0, binding = 12) uniform RestFrames { RestFrameConstants rest_frames; };
+layout(set = 0, binding = 14) uniform sampler2D milky_way; // the sky's panorama
 
 // A rest frame's part of the cube map and the eye event there, in the cube map's axes.
 struct RestFrameView {

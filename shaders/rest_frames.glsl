@@ -11,20 +11,15 @@ vec3 light_of_rest_frames(vec3 n0, float pixel_angle, inout AberratedRay sight, 
 float covered_by_bodies(vec3 n0, float pixel_angle) { return 0.0; }
 #else
 
-int rest_frame_count() { return int(rest_frames.count[int(rest_frames.world_up.w)].x); }
+#define SKY rest_frames.sky
+#include "sky.glsl"
+
+int rest_frame_count() { return int(rest_frames.count[int(rest_frames.first.w)].x); }
 
 RestFrameView rest_frame_of(int i)
 {
     RestFrameEntry entry = entry_of(i);
     return RestFrameView(i, entry.boost.xy, entry.eye, entry.nearest.y, int(entry.boost.z), int(entry.row1.w));
-}
-
-// The sky's coefficients at the world's direction n (axes of its cube map), as in sky.frag.
-void sky_at(vec3 n, out vec4 coefficients[MAX_GROUPS])
-{
-    float height = dot(n, rest_frames.world_up.xyz), part = smoothstep(0.0, 1.0, abs(height));
-    for (int group = 0; group < GROUPS; ++group)
-        coefficients[group] = mix(rest_frames.sky_horizon[group], height > 0.0 ? rest_frames.sky_zenith[group] : rest_frames.sky_nadir[group], part);
 }
 
 // The light of the world's rest frame in front of the sky. What a texel's surfaces leave free, premultiplied, is the sky's.
@@ -33,7 +28,7 @@ vec3 light_over_sky(Place place, AberratedRay sight, float angle)
     vec4 coefficients[MAX_GROUPS], sky[MAX_GROUPS];
     cube_map(place, angle, coefficients);
     float left = 1.0 - min(textureLod(covered_atlas, place.texel * view.origin.zw, level_of(place, angle)).r, 1.0);
-    sky_at(sight.n, sky);
+    sky_light(sight.n, angle, sky);
     for (int group = 0; group < GROUPS; ++group)
         coefficients[group] += left * sky[group];
     return light_of(coefficients, sight.D);
@@ -180,7 +175,7 @@ vec3 light_of_rest_frames(vec3 n0, float pixel_angle, inout AberratedRay sight, 
     }
     // The world's rest frame has the sky's D, so both share one table look-up; each moving frame needs one more.
     vec4 world[MAX_GROUPS];
-    sky_at(sight.n, world);
+    sky_light(sight.n, world_angle(sight, n0, pixel_angle), world);
     for (int group = 0; group < GROUPS; ++group)
         world[group] *= left;
     vec3 light = vec3(0.0);

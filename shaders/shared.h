@@ -60,13 +60,18 @@ struct LightEntry {
     vec4 shifts; // of a moving lamp: x: log2 D of the first, y: number per octave, z: their number; w: gamma
 };
 
+// The sky: coefficients of the light, pre-exposed.
+struct SkyConstants {
+    vec4 up; // the world's, in the cube map's axes
+    vec4 zenith[MAX_GROUPS], horizon[MAX_GROUPS], nadir[MAX_GROUPS];
+    vec4 equatorial0, equatorial1, equatorial2; // rows of the turn from the cube map's axes to those of the Milky Way's panorama
+    vec4 red[MAX_GROUPS], green[MAX_GROUPS], blue[MAX_GROUPS]; // of the panorama's colours
+};
+
 // The cube pass, one entry per eye, rest frame and picture.
 struct CubeConstants {
     vec4 ambient; // Rec. 709 linear, w: pre-exposure
-    vec4 sky_zenith[MAX_GROUPS]; // coefficients of the light, pre-exposed
-    vec4 sky_horizon[MAX_GROUPS];
-    vec4 sky_nadir[MAX_GROUPS];
-    vec4 world_up; // the cube map's axes
+    SkyConstants sky;
     vec4 first; // indices of this rest frame's first x: instance, y: TimeEntry, z: pose; w: 0, see above
     vec4 now[1]; // w: 1 where everything is shown at the ship's present; xyz: the ship's velocity here
     LightEntry lights[MAX_LIGHTS];
@@ -130,10 +135,8 @@ struct RestFrameEntry {
 // The rest frames of one view, and the sky behind them.
 struct RestFrameConstants {
     vec4 count[1]; // x: number of rest frames
-    vec4 world_up; // axes of the world's cube map; w: 0, see above
-    vec4 sky_zenith[MAX_GROUPS]; // coefficients of the light, pre-exposed
-    vec4 sky_horizon[MAX_GROUPS];
-    vec4 sky_nadir[MAX_GROUPS];
+    vec4 first; // w: 0, see above
+    SkyConstants sky;
     RestFrameEntry entries[MAX_REST_FRAMES]; // the world's first
 };
 

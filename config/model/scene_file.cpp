@@ -66,13 +66,18 @@ Sky read_sky(const Place& place)
 
 StarSky read_stars(const Place& place, const std::filesystem::path& folder)
 {
-    reject_unknown_members(place, {"catalogue", "brightness_arcmin2", "ahead_deg"});
+    reject_unknown_members(place, {"catalogue", "brightness_arcmin2", "ahead_deg", "milky_way"});
     StarSky stars;
     stars.catalogue = folder / text(member(place, "catalogue"));
     take(place, "brightness_arcmin2", stars.brightness_arcmin2, {0, 1e9, true});
     if (auto p = find_member(place, "ahead_deg")) {
         const auto angles = items(*p, 2, 2, "angles (right ascension, declination)");
         stars.ahead_deg = {number(angles[0], {0, 360}), number(angles[1], {-90, 90})};
+    }
+    if (auto p = find_member(place, "milky_way")) {
+        reject_unknown_members(*p, {"panorama", "peak_arcmin2"});
+        stars.milky_way
+            = MilkyWay{folder / text(member(*p, "panorama")), number(member(*p, "peak_arcmin2"), {0, 1e9, true})};
     }
     return stars;
 }

@@ -40,12 +40,21 @@ struct Sky {
     double temperature_K = 0; ///< 0: no glow. 2.725 is the microwave background's
 };
 
+/// The light of the stars that are too many to be told apart: a picture of the whole sky.
+struct MilkyWay {
+    /// Equirectangular: right ascension (J2000) grows to the right from 0 at the left edge, north is up. Colours are those
+    /// of sunlight on a surface.
+    std::filesystem::path panorama;
+    double peak_arcmin2 = 0; ///< the picture's white: so many stars of magnitude 0 in each square arc minute
+};
+
 /// The stars of a catalogue, behind everything.
 struct StarSky {
     std::filesystem::path catalogue;
     double brightness_arcmin2
         = 200; ///< a star of magnitude 0 gives as much light as so many square arc minutes of the scene's white
     glm::dvec2 ahead_deg{0}; ///< right ascension and declination (J2000) of straight ahead (-z), with north up
+    std::optional<MilkyWay> milky_way{};
 };
 
 struct SceneFile {
@@ -64,6 +73,11 @@ struct SceneFile {
     std::optional<PlannedFlight> planned; ///< for exhibits with a pace
     Shot start; ///< the visitor's start; its `scene` is this file's name
 
+    /// The radiance of the Milky Way's white, over the scene's; 0 where there is none.
+    double milky_way() const
+    {
+        return stars && stars->milky_way ? stars->brightness_arcmin2 * stars->milky_way->peak_arcmin2 : 0;
+    }
     /// The factor from scene times (unit / c) to seconds.
     double seconds_per_time_unit() const { return unit_m / light_speed_m_s; }
 };

@@ -1,4 +1,6 @@
 #include "eye.h"
+#include "config/model/angles.h"
+#include "runtime/world/stars.h"
 #include <algorithm>
 #include <cmath>
 
@@ -6,11 +8,15 @@ namespace starbow {
 
 TracingEye::TracingEye(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
     const Observer& observer, const glm::dvec3& place, double beside)
-    : scene_(scene)
+    : world_(world)
+    , scene_(scene)
+    , pictures_(pictures)
     , colours_(colours)
     , observer_(observer)
     , place_(place)
 {
+    if (scene.stars)
+        equatorial_from_world_ = glm::transpose(world_from_equatorial(scene.stars->ahead_deg));
     for (std::size_t i = 0; i < observer_.rest_frames.size(); ++i) {
         const RestFrameView& rest_frame = observer_.rest_frames[i];
         const EyeEvent eye_event = eye_event_of(rest_frame, int(i), place);
@@ -73,6 +79,22 @@ TracingEye::Nearest TracingEye::nearest(
     return found;
 }
 
+/// The colour of the sky at rest, in a unit direction of the world.
+glm::dvec3 TracingEye::sky(const glm::dvec3& n) const
+{
+    const double height = n.y, h = std::min(std::abs(height), 1.0), part = h * h * (3 - 2 * h);
+    const Sky& sky = scene_.sky;
+    glm::dvec3 colour = glm::mix(sky.horizon, height > 0 ? sky.zenith : sky.nadir, part);
+    if (world_.milky_way >= 0) {
+        const glm::dvec3 there = equatorial_from_world_ * n;
+        const double right_ascension = std::atan2(there.y, there.x),
+                     declination = std::atan2(there.z, std::hypot(there.x, there.y));
+        const glm::dvec2 at(right_ascension / (2 * pi), 0.5 - declination / pi);
+        colour += scene_.milky_way() * glm::dvec3(pictures_.at(world_.milky_way, at));
+    }
+    return colour;
+}
+
 LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside) const
 {
     const Effects& effects = observer_.shot.effects;
@@ -94,9 +116,7 @@ LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside) const
     if (found.view) {
         out.light = found.view->lighting.seen(found.met, shift);
     } else {
-        const double height = out.world.y, h = std::min(std::abs(height), 1.0), part = h * h * (3 - 2 * h);
-        const Sky& sky = scene_.sky;
-        out.light = colours_.sky(glm::mix(sky.horizon, height > 0 ? sky.zenith : sky.nadir, part), shift);
+        out.light = colours_.sky(sky(out.world), shift);
     }
     if (effects.headlight)
         out.light *= out.D * out.D * out.D;

@@ -50,8 +50,13 @@ private:
     physics::AberratedRay sight(const glm::dvec3& n, double E) const;
     Nearest nearest(const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world) const;
 
+    glm::dvec3 sky(const glm::dvec3& n) const;
+
+    const World& world_;
     const SceneFile& scene_;
+    const Pictures& pictures_;
     const Colours& colours_;
+    glm::dmat3 equatorial_from_world_{1};
     Observer observer_;
     glm::dvec3 place_;
     std::vector<EyeInRestFrame> views_;

@@ -483,7 +483,7 @@ double tabled(const std::vector<glm::dvec3>& table, double light, int channel)
 ReferenceWorld open_reference_world(const std::filesystem::path& file)
 {
     ReferenceWorld opened{load_scene_file(file), {}, {}};
-    opened.world = load_world(opened.scene.gltf);
+    opened.world = load_world(opened.scene);
     check_speeds(opened.world, opened.scene);
     place_bodies(opened.world, opened.scene);
     if (opened.scene.stars)

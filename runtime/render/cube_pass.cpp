@@ -36,7 +36,7 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     , uploads_(device, pipelines, world)
 {
     const Sky& sky = world.scene.sky;
-    sky_ = sky.zenith != sky.horizon || sky.nadir != sky.horizon;
+    sky_ = sky.zenith != sky.horizon || sky.nadir != sky.horizon || world.world.milky_way >= 0;
 }
 
 void CubePass::prepare(const CubeMapPlan& plan, std::span<const EyeEvent> eye_events, StoredLight light, double pre_exposure)
@@ -155,7 +155,9 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
         }
         if (sky_ && !use_.several_rest_frames) {
             set_area(commands, image.atlas, image.size);
-            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipelines_.sky(kind));
+            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipelines_.sky(world.milky_way >= 0, kind));
+            commands.bindDescriptorSets(
+                vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.surface_layout, 1, *world_.materials.back(), {});
             glm::dvec3 origin = face_direction(image.face, image.low);
             push.clip_row0 = glm::vec4(origin, 0);
             push.clip_row1 = glm::vec4(a * (image.high.x - image.low.x), 0);

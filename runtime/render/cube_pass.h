@@ -51,7 +51,7 @@ private:
     Quality quality_;
     CubeTarget target_;
     CubeUploads uploads_;
-    bool sky_; ///< it has a gradient, so that clearing does not draw it
+    bool sky_; ///< it has a gradient or a panorama, so that clearing does not draw it
     CubeTarget::Use use_; ///< where something that moves is in view, the warp pass draws the sky
     std::vector<PlannedImage> images_;
     std::vector<double> contractions_; ///< one for each rest frame

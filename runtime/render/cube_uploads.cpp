@@ -89,18 +89,7 @@ shared::CubeConstants CubeUploads::constants_of(const EyeEvent& eye_event, Store
     const double scale = pre_exposure;
     shared::CubeConstants constants{};
     constants.ambient = glm::vec4(scene.ambient * scale, scale);
-    const Spectra& stored = world_.spectra_of(light);
-    for (std::size_t group = 0; group < std::size_t(stored.groups); ++group) {
-        constants.sky_zenith[group] = glm::vec4(stored.sky[0][group] * scale);
-        constants.sky_horizon[group] = glm::vec4(stored.sky[1][group] * scale);
-        constants.sky_nadir[group] = glm::vec4(stored.sky[2][group] * scale);
-    }
-    if (light == StoredLight::plain) {
-        constants.sky_zenith[0] = glm::vec4(scene.sky.zenith * scale, 0);
-        constants.sky_horizon[0] = glm::vec4(scene.sky.horizon * scale, 0);
-        constants.sky_nadir[0] = glm::vec4(scene.sky.nadir * scale, 0);
-    }
-    constants.world_up = glm::vec4(eye_event.cube_from_frame * glm::dvec3(0, 1, 0), 0);
+    constants.sky = sky_constants(world_, light, eye_event.cube_from_frame, scale);
     constants.now[0] = glm::vec4(0, 0, eye_event.beta, eye_event.now);
     for (std::size_t i = 0; i < world_.world.lamps.size(); ++i)
         constants.lights[i] = light_entry(world_, world_.world.lamps[i], eye_event, scale);

@@ -75,7 +75,8 @@ double brightest(const World& world, const SceneFile& scene)
     double light = peak(scene.ambient);
     for (const Light& lamp : scene.lights)
         light += std::visit([&](const auto& l) { return peak(l.radiance); }, lamp);
-    double most = std::max({light, peak(scene.sky.zenith), peak(scene.sky.horizon), peak(scene.sky.nadir)});
+    const Sky& sky = scene.sky;
+    double most = std::max({light, std::max({peak(sky.zenith), peak(sky.horizon), peak(sky.nadir)}) + scene.milky_way()});
     for (const Material& material : world.materials)
         most = std::max(
             most, peak(glm::dvec3(material.emissive)) + peak(glm::dvec3(material.base_colour)) * std::max(light, 1.0));
@@ -101,6 +102,27 @@ SurfaceVariant GpuWorld::variant(int material, StoredLight light) const
     variant.coefficients.own = int(stored.basis.own.size());
     variant.kinds = stored.kinds, variant.matrices = stored.matrices, variant.unshifted = stored.unshifted;
     return variant;
+}
+
+shared::SkyConstants sky_constants(
+    const GpuWorld& world, StoredLight light, const glm::dmat3& cube_from_frame, double pre_exposure)
+{
+    const SceneFile& scene = world.scene;
+    const bool plain = light == StoredLight::plain;
+    const std::array<glm::dvec3, 6> colours = sky_colours(scene);
+    shared::SkyConstants constants{};
+    glm::vec4* const to[]{
+        constants.zenith, constants.horizon, constants.nadir, constants.red, constants.green, constants.blue};
+    const Spectra& stored = world.spectra_of(light);
+    for (std::size_t i = 0; i < colours.size(); ++i)
+        for (std::size_t group = 0; group < std::size_t(plain ? 1 : stored.groups); ++group)
+            to[i][group] = glm::vec4((plain ? glm::dvec4(colours[i], 0) : stored.sky[i][group]) * pre_exposure);
+    constants.up = glm::vec4(cube_from_frame * glm::dvec3(0, 1, 0), 0);
+    const glm::dvec2 ahead_deg = scene.stars ? scene.stars->ahead_deg : glm::dvec2(0);
+    const glm::dmat3 equatorial = glm::transpose(cube_from_frame * world_from_equatorial(ahead_deg));
+    constants.equatorial0 = shared::row(equatorial, 0), constants.equatorial1 = shared::row(equatorial, 1),
+    constants.equatorial2 = shared::row(equatorial, 2);
+    return constants;
 }
 
 void put_spectra(Device& device, GpuWorld& world, SpectralLevel level)
@@ -172,7 +194,7 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
             found = gpu.samplers.emplace(kind, make_sampler(device, kind)).first;
         return *found->second;
     };
-    auto count = std::uint32_t(world.materials.size());
+    const auto count = std::uint32_t(world.materials.size()) + 1;
     vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 2 * count);
     gpu.pool = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, size});
     name_object(device, gpu.pool, "world: descriptor pool");
@@ -185,8 +207,9 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
             return vk::DescriptorImageInfo(sampler_of(texture), *(texture < 0 ? gpu.white : gpu.textures[texture]).view,
                 vk::ImageLayout::eShaderReadOnlyOptimal);
         };
-        vk::DescriptorImageInfo base = picture(world.materials[i].base_texture),
-                                emissive = picture(world.materials[i].emissive_texture);
+        const bool sky = i + 1 == count;
+        vk::DescriptorImageInfo base = picture(sky ? world.milky_way : world.materials[i].base_texture),
+                                emissive = picture(sky ? -1 : world.materials[i].emissive_texture);
         device.device.updateDescriptorSets(
             {vk::WriteDescriptorSet(*gpu.materials[i], 0, 0, vk::DescriptorType::eCombinedImageSampler, base),
                 vk::WriteDescriptorSet(*gpu.materials[i], 1, 0, vk::DescriptorType::eCombinedImageSampler, emissive)},

@@ -36,7 +36,7 @@ struct GpuWorld {
     std::map<Sampler, vk::raii::Sampler> samplers; ///< one for all textures that are sampled alike
     Image white; ///< for materials without a texture
     vk::raii::DescriptorPool pool = nullptr;
-    std::vector<vk::raii::DescriptorSet> materials;
+    std::vector<vk::raii::DescriptorSet> materials; ///< and last the sky's, which is like a material
 
     std::uint32_t star_count = 0;
     std::vector<StarPatch> star_patches;
@@ -54,6 +54,12 @@ struct GpuWorld {
     {
         return unshifted && !on.doppler && !on.false_colours ? StoredLight::unshifted : StoredLight::coefficients;
     }
+    /// The sky's picture and its sampler; white where it has none.
+    const Image& milky_way() const { return world.milky_way < 0 ? white : textures[std::size_t(world.milky_way)]; }
+    const vk::raii::Sampler& milky_way_sampler() const
+    {
+        return samplers.at(world.milky_way < 0 ? Sampler{} : world.textures[std::size_t(world.milky_way)].sampler);
+    }
     const Spectra& spectra_of(StoredLight light) const { return light == StoredLight::unshifted ? *unshifted : spectra; }
     /// The numbers that a texel of the cube map holds.
     CoefficientCounts coefficients(StoredLight light) const
@@ -63,6 +69,10 @@ struct GpuWorld {
     }
     SurfaceVariant variant(int material, StoredLight light) const;
 };
+
+/// The sky's constants for the passes. cube_from_frame: the turn to the axes of the world's cube map.
+shared::SkyConstants sky_constants(
+    const GpuWorld& world, StoredLight light, const glm::dmat3& cube_from_frame, double pre_exposure);
 
 /// Sets another spectral level. No frame of this world may be under way, and FrameRenderers made before must not draw it.
 /// Throws InputError, before anything is changed, for a world with too many emission basis spectra.

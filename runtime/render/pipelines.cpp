@@ -69,7 +69,7 @@ SpecializationConstants constants(const WarpVariant& v)
     return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
         of_the_pass, std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), v.by_table,
         v.several_rest_frames, v.galilean, v.single, std::uint32_t(v.rays), v.cut, std::uint32_t(v.cube_samples),
-        v.unaligned, v.layered, v.world_alone, std::uint32_t(v.rest_frames)};
+        v.unaligned, v.layered, v.world_alone, std::uint32_t(v.rest_frames), v.milky_way};
 }
 
 /// A shader that reads the cube map, in its builds (received_light.glsl).
@@ -196,14 +196,14 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
         .vertices = true});
 }
 
-vk::Pipeline Pipelines::sky(const TargetKind& target)
+vk::Pipeline Pipelines::sky(bool milky_way, const TargetKind& target)
 {
     return find_or_make({.name = "sky pipeline",
         .vertex = sky_vert,
         .fragment = sky_frag,
         .layout = *layouts.surface_layout,
         .target = target,
-        .constants = {std::uint32_t(target.colours.size())},
+        .constants = {std::uint32_t(target.colours.size()), milky_way},
         .depth = true});
 }
 

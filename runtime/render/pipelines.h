@@ -93,6 +93,7 @@ struct WarpVariant {
     bool unaligned = false; ///< some cube map may have other axes than the motion's
     bool layered = false; ///< the exposure's samples count by the view's part of each pixel
     bool world_alone = false; ///< no body is seen in these pixels, of several rest frames
+    bool milky_way = false; ///< of several rest frames: the sky has a panorama
     int rest_frames = 1; ///< of the world, if something that moves is in view; MAX_REST_FRAMES: more than a few
     auto operator<=>(const WarpVariant&) const = default;
 };
@@ -115,7 +116,7 @@ struct TargetKind {
 
 /// The specialization constants of a pass; constant_id is the index. On the stack, as Formats.
 struct SpecializationConstants {
-    std::array<std::uint32_t, 24> list{};
+    std::array<std::uint32_t, 25> list{};
     std::size_t count = 0;
 
     SpecializationConstants() = default;
@@ -141,7 +142,7 @@ public:
     explicit Pipelines(Device& device);
 
     vk::Pipeline surface(const SurfaceVariant& variant, const TargetKind& target);
-    vk::Pipeline sky(const TargetKind& target);
+    vk::Pipeline sky(bool milky_way, const TargetKind& target);
     vk::Pipeline warp(const WarpVariant& variant, vk::Format target);
     /// The stars of a view's pixels at which no light of the cube map shows.
     vk::Pipeline dark(const WarpVariant& variant, vk::Format target);

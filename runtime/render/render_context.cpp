@@ -8,7 +8,7 @@ namespace starbow {
 LoadedScene load_scene(const std::filesystem::path& file)
 {
     SceneFile scene = load_scene_file(file);
-    World world = load_world(scene.gltf);
+    World world = load_world(scene);
     add_detail_levels(world);
     std::vector<Star> stars;
     if (scene.stars)

@@ -35,6 +35,7 @@ WarpVariant ViewConstants::variant(const ViewState& view) const
     variant.coefficients = world_.coefficients(light);
     variant.several_rest_frames = eyes_.all[view.eye].cube.several_rest_frames();
     const int rest_frames = variant.several_rest_frames ? int(world_.world.frames.size()) : 1;
+    variant.milky_way = variant.several_rest_frames && world_.world.milky_way >= 0;
     variant.rest_frames = rest_frames <= few_rest_frames ? rest_frames : MAX_REST_FRAMES;
     variant.single = single_image(view);
     variant.cut = eyes_.plans[view.eye].cut;

@@ -99,6 +99,7 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
     const Image* shares = finish ? finish->shares(view.geometry()) : nullptr;
     image(set, 13, shares ? *shares : nothing_, nearest_);
     buffer(set, 12, view.rest_frames);
+    image(set, 14, world_.milky_way(), world_.milky_way_sampler());
 }
 
 void ViewDescriptors::write_rest_frames(ViewState& view)
@@ -134,13 +135,7 @@ void ViewDescriptors::write_rest_frames(ViewState& view)
         entry.cap = glm::vec4(glm::transpose(turn) * glm::dvec3(there), there.w);
     }
     all.count[0].x = float(count);
-    all.world_up = glm::vec4(rest_frames[0].cube_from_frame * glm::dvec3(0, 1, 0), 0);
-    const auto& sky = world_.spectra_of(eye.cube.light()).sky;
-    for (std::size_t group = 0; group < MAX_GROUPS; ++group) {
-        all.sky_zenith[group] = glm::vec4(sky[0][group] * state_.pre_exposure);
-        all.sky_horizon[group] = glm::vec4(sky[1][group] * state_.pre_exposure);
-        all.sky_nadir[group] = glm::vec4(sky[2][group] * state_.pre_exposure);
-    }
+    all.sky = sky_constants(world_, eye.cube.light(), rest_frames[0].cube_from_frame, state_.pre_exposure);
     std::memcpy(view.rest_frames.mapped, &all, sizeof all);
 }
 

@@ -64,11 +64,12 @@ void add_surfaces(Spectra& spectra, const World& world, const SceneFile& scene, 
     }
 }
 
-void add_sky(Spectra& spectra, const Sky& sky)
+void add_sky(Spectra& spectra, const SceneFile& scene)
 {
-    const glm::dvec3* colours[] = {&sky.zenith, &sky.horizon, &sky.nadir};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const glm::dvec3& rgb = *colours[i];
+    const Sky& sky = scene.sky;
+    const std::array<glm::dvec3, 6> colours = sky_colours(scene);
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+        const glm::dvec3& rgb = colours[i];
         const double mean = (rgb.r + rgb.g + rgb.b) / 3;
         for (int group = 0; group < MAX_GROUPS; ++group)
             spectra.sky[i][std::size_t(group)] = glm::dvec4(0);
@@ -77,7 +78,7 @@ void add_sky(Spectra& spectra, const Sky& sky)
             for (int c = 0; c < columns_of_a_set; ++c)
                 spectra.sky[i][group] += glm::dvec4(columns[c]) * (c < 3 ? rgb[c] : mean);
         }
-        if (sky.temperature_K > 0) {
+        if (sky.temperature_K > 0 && i < 3) { // its glow is behind the Milky Way as well
             const std::size_t k
                 = std::size_t(spectra.basis.reflected) + index_of(spectra.basis, BlackBody{sky.temperature_K});
             spectra.sky[i][k / 4][int(k % 4)] += 1;
@@ -87,6 +88,13 @@ void add_sky(Spectra& spectra, const Sky& sky)
 }
 
 } // namespace
+
+std::array<glm::dvec3, 6> sky_colours(const SceneFile& scene)
+{
+    const Sky& sky = scene.sky;
+    const double milky = scene.milky_way();
+    return {sky.zenith, sky.horizon, sky.nadir, glm::dvec3(milky, 0, 0), glm::dvec3(0, milky, 0), glm::dvec3(0, 0, milky)};
+}
 
 NeededLevel needed_level(const World& world, const SceneFile& scene)
 {
@@ -143,7 +151,7 @@ Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel lev
             "has " + std::to_string(sets - 1) + " materials with a reflectance of their own; at most "
                 + std::to_string(MAX_MATRICES / int(spectra.columns.size() / sets) - 1)
                 + " is right here, the others need a base colour");
-    add_sky(spectra, scene.sky);
+    add_sky(spectra, scene);
     return spectra;
 }
 

@@ -45,13 +45,18 @@ struct Spectra {
         glm::dvec4 own{0}; ///< glow: coefficients of the world's own emission spectra
     };
     std::vector<Surface> surfaces; ///< one for each material
-    std::array<std::array<glm::dvec4, MAX_GROUPS>, 3> sky; ///< zenith, horizon, nadir: coefficients
+    /// Coefficients of the sky's light: at the zenith, the horizon and the nadir; and of the Milky Way's red, green and
+    /// blue.
+    std::array<std::array<glm::dvec4, MAX_GROUPS>, 6> sky;
     double most = 0; ///< the greatest coefficient of the world's own emission spectra
 };
 
 /// Computes a world's spectral data. world: after place_bodies. Throws InputError where a world has more emission spectra of
 /// its own than MAX_OWN. It throws too where a spectral line illuminates a surface that moves relative to it.
 Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel level);
+
+/// The colours of Spectra::sky, as those of sunlight on a surface.
+std::array<glm::dvec3, 6> sky_colours(const SceneFile& scene);
 
 /// The same light, stored as its colour at D = 1: three numbers are exact where no observer shifts it. colours: of the
 /// basis coefficients at D = 1 (Response::unshifted). None where the coefficients are such colours already, or the matrices

@@ -12,6 +12,8 @@
 
 namespace starbow {
 
+struct SceneFile;
+
 /// A world as plain arrays, ready for the device. Everything is at rest in its own frame, apart from animations; most of
 /// it is at rest in the world's frame. Lengths are in scene units.
 struct Vertex {
@@ -149,6 +151,7 @@ struct World {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<Texture> textures;
+    int milky_way = -1; ///< index into `textures` of the sky's picture (MilkyWay::panorama); -1: none
     std::vector<Material> materials; ///< never empty: glTF's default material stands in where none is named
     std::vector<Primitive> primitives;
     std::vector<Cluster> clusters;
@@ -167,5 +170,7 @@ struct World {
 /// Reads glTF 2.0 (.glb or .gltf) and nothing outside the file's own folder. Throws InputError in one line for anything
 /// broken, required but unsupported, or absurdly large.
 World load_world(const std::filesystem::path& file);
+/// A scene's world: its glTF, and the picture of its Milky Way, if it has one. Throws InputError.
+World load_world(const SceneFile& scene);
 
 } // namespace starbow

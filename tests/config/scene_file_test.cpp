@@ -13,7 +13,8 @@ const std::string whole = R"({
     "unit_m": 2, "light_speed_m_s": 10,
     "sky": { "zenith": [0.1, 0.2, 0.3], "horizon": [1, 1, 1], "nadir": [0, 0, 0],
         "temperature_K": 2.725 },
-    "stars": { "catalogue": "skies/few.txt", "brightness_arcmin2": 30, "ahead_deg": [84, -19] },
+    "stars": { "catalogue": "skies/few.txt", "brightness_arcmin2": 30, "ahead_deg": [84, -19],
+        "milky_way": { "panorama": "skies/milky.png", "peak_arcmin2": 0.5 } },
     "ambient": [0.25, 0.5, 0.75],
     "lights": [
         { "type": "directional", "towards": [0, 3, 4], "radiance": [1, 2, 3] },
@@ -49,6 +50,8 @@ TEST(SceneFileTest, EveryMemberIsRead)
     EXPECT_EQ(scene.stars->catalogue, file.parent_path() / "skies/few.txt");
     EXPECT_EQ(scene.stars->brightness_arcmin2, 30);
     EXPECT_EQ(scene.stars->ahead_deg, glm::dvec2(84, -19));
+    EXPECT_EQ(scene.stars->milky_way.value().panorama, file.parent_path() / "skies/milky.png");
+    EXPECT_EQ(scene.milky_way(), 15);
     ASSERT_EQ(scene.lights.size(), 4u);
     const auto sun = std::get<DirectionalLight>(scene.lights[0]);
     EXPECT_NEAR(glm::distance(sun.towards, glm::dvec3(0, 0.6, 0.8)), 0, 1e-15);
@@ -124,6 +127,12 @@ TEST(SceneFileTest, WrongScenesAreRefused)
             {with(R"("stars": { "catalogue": "a", "brightness": 1 })"), "/stars/brightness", "1", "unknown name"},
             {with(R"("stars": { "catalogue": "a", "brightness_arcmin2": 0 })"), "/stars/brightness_arcmin2", "0",
                 "is too small; a number above 0"},
+            {with(R"("stars": { "catalogue": "a", "milky_way": "a.png" })"), "/stars/milky_way", "\"a.png\"",
+                "is not an object"},
+            {with(R"("stars": { "catalogue": "a", "milky_way": { "panorama": "a.png" } })"), "/stars/milky_way", "{",
+                "lacks \"peak_arcmin2\""},
+            {with(R"("stars": { "catalogue": "a", "milky_way": { "panorama": "a.png", "peak_arcmin2": 0 } })"),
+                "/stars/milky_way/peak_arcmin2", "0", "is too small"},
             {with(R"("stars": { "catalogue": "a", "ahead_deg": [84] })"), "/stars/ahead_deg", "[84]", "has length 1; "},
             {with(R"("stars": { "catalogue": "a", "ahead_deg": [-1, 0] })"), "/stars/ahead_deg/0", "-1", "is too small"},
             {with(R"("stars": { "catalogue": "a", "ahead_deg": [0, 91] })"), "/stars/ahead_deg/1", "91", "is too large"},

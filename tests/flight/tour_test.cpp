@@ -170,7 +170,7 @@ TEST(Tours, TheTwinsMeetAtTwentyAndTwelve)
     const Tour tour = shipped_tour("twins");
     const Show show{tour, {}, 1, false};
     const SceneFile scene = load_scene_file(source_dir() / "config/scenes/twins.json");
-    World world = load_world(scene.gltf);
+    World world = load_world(scene);
     place_bodies(world, scene);
     sort_instances(world);
     constexpr double deep

@@ -213,7 +213,7 @@ TEST(Instruments, AClockOnAMovingBodyHasItsRetardedReading)
     SceneFile scene = load_scene_file(source_dir() / "config/scenes/clocks.json");
     const dvec3 u(0.9, 0.2, -0.4);
     scene.bodies = {{"clock", {"dial 3"}, u, {2, {1, -1, 4}}, {}}};
-    World world = load_world(scene.gltf);
+    World world = load_world(scene);
     place_bodies(world, scene);
     sort_instances(world);
     ASSERT_EQ(world.frames.size(), 2u);
@@ -273,7 +273,7 @@ struct Riding {
     {
         SceneFile scene = load_scene_file(source_dir() / "config/scenes/clocks.json");
         scene.bodies = {{"clock", {"dial 3"}, u, {2, {1, -1, 4}}, {}}};
-        world = load_world(scene.gltf);
+        world = load_world(scene);
         place_bodies(world, scene);
         sort_instances(world);
         dial = instances_of(world, 1).first;
@@ -412,7 +412,7 @@ TEST(Instruments, AComparisonIsReadAsItIsShown)
 TEST(Instruments, AClockIsReadOnlyWhileItIsThere)
 {
     SceneFile scene = load_scene_file(source_dir() / "config/scenes/twins.json");
-    World world = load_world(scene.gltf);
+    World world = load_world(scene);
     place_bodies(world, scene);
     sort_instances(world);
     const InstanceRange range = instances_of(world, 0);

@@ -101,7 +101,7 @@ TEST(LivePicture, EqualsTheReferenceInEveryWorld)
         const Shot shot = shipped_shot(one.shot);
         const auto file = starbow::testing::source_dir() / "config/scenes" / (shot.scene + ".json");
         const ReferenceWorld world = open_reference_world(file);
-        World again = load_world(world.scene.gltf);
+        World again = load_world(world.scene);
         const GpuWorld gpu = upload(device(), pipelines(), std::move(again), world.scene, world.stars);
         const Layout layout = one_view(Planar{.fov_y_deg = 60}, {240, 180});
         OffscreenRenderer live = renderer(gpu, layout, true);
@@ -163,7 +163,7 @@ TEST(LivePicture, DistancesAreTheRaysInEveryWorld)
         const Shot shot = load_shot(file);
         const ReferenceWorld world
             = open_reference_world(starbow::testing::source_dir() / "config/scenes" / (shot.scene + ".json"));
-        World again = load_world(world.scene.gltf);
+        World again = load_world(world.scene);
         const GpuWorld gpu = upload(device(), pipelines(), std::move(again), world.scene, world.stars);
         std::vector<Shot> all{shot};
         if (starbow::testing::all_cases())

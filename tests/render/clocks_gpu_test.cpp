@@ -171,7 +171,7 @@ std::string tenths(double reading)
 GpuWorld clocks_world()
 {
     const SceneFile scene = load_scene_file(testing::source_dir() / "config/scenes/clocks.json");
-    World world = load_world(scene.gltf);
+    World world = load_world(scene);
     add_detail_levels(world);
     return upload(device(), pipelines(), std::move(world), scene, load_stars(scene.stars->catalogue));
 }

@@ -399,7 +399,7 @@ TEST(Overlay, ItsColoursAreWhatTheProbeReadsInEveryShot)
         if (!testing::all_cases() && name != "clocks" && name != "gamow")
             continue;
         const SceneFile scene = load_scene_file(testing::source_dir() / "config/scenes" / (name + ".json"));
-        World world = load_world(scene.gltf);
+        World world = load_world(scene);
         add_detail_levels(world);
         const GpuWorld gpu = upload(device(), pipelines(), std::move(world), scene, {}, SpectralLevel::colours);
         const std::size_t count = testing::all_cases() ? files.size() : 1;

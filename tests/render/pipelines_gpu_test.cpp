@@ -25,7 +25,7 @@ TEST(Pipelines, StayWithinTheirBoundAndSoDoesTheMemory)
     testing::write_text("grey.gltf", doc.text());
     const SceneFile file = load_scene_file(
         testing::write_text("grey.json", Json{{"gltf", "grey.gltf"}, {"unit_m", 1}, {"sky", smooth_sky}}.dump()));
-    const GpuWorld world = upload(quiet, own, load_world(file.gltf), file, {});
+    const GpuWorld world = upload(quiet, own, load_world(file), file, {});
     OffscreenRenderer renderer(quiet, own, world, one_view(Planar{60}, {32, 24}), default_quality(quiet, false), false);
     Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
     shot.u = {0, 0, -2}; // at rest no effect shows, and none needs a pipeline

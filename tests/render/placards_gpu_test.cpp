@@ -83,8 +83,9 @@ TEST(Placards, TheFaintestLettersHaveTheirContrastBeforeAnyPicture)
         shot.exposure_ev = ev;
         const Bytes picture = whole.picture(shot)[0];
         const auto at = [&](int x, int y) { return luminance(&picture[4 * (std::size_t(y) * size.x + std::size_t(x))]); };
-        if (ev > 0)
+        if (ev > 0) {
             EXPECT_EQ(at(4, 4), 1); // it is the brightest picture
+        }
         const double letters = at(80, 60), plate_beside = at(80 - 24, 60);
         EXPECT_GE((letters + 0.05) / (plate_beside + 0.05), 4.5) << ev << ": " << letters << " on " << plate_beside;
     }

@@ -48,7 +48,7 @@ TEST(Recompiles, AFlightThatWasDrawnBeforeCompilesNothing)
     for (const std::string name : {"gamow", "light-clock", "clocks"}) {
         SCOPED_TRACE(name);
         const SceneFile scene = load_scene_file(testing::source_dir() / "config/scenes" / (name + ".json"));
-        const GpuWorld world = upload(device(), pipelines(), load_world(scene.gltf), scene, {});
+        const GpuWorld world = upload(device(), pipelines(), load_world(scene), scene, {});
         OffscreenRenderer offscreen(
             device(), pipelines(), world, one_view(Planar{60}, {48, 32}), default_quality(device(), false), false);
         const auto draw = [&](Comparison comparison, Overlay overlay, double at) {

@@ -21,7 +21,7 @@ TEST_P(WarmUpIn, AFlightAfterItMakesNoPipeline)
     const Place& place = GetParam();
     const SceneFile scene = load_scene_file(shipped_file("scenes", place.scene));
     Pipelines own(device());
-    const GpuWorld world = upload(device(), own, load_world(scene.gltf), scene, {});
+    const GpuWorld world = upload(device(), own, load_world(scene), scene, {});
     Layout layout = load_layout(shipped_file("layouts", place.layout));
     layout.outputs[0].size = place.size;
     const Quality quality = within(device(), load_quality(shipped_file("qualities", "balanced")));

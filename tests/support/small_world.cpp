@@ -31,7 +31,7 @@ GpuWorld open_world(const std::string& name, const Doc& doc, Json scene)
     scene["gltf"] = name + ".gltf";
     scene["unit_m"] = 1;
     const SceneFile file = load_scene_file(testing::write_text(name + ".json", scene.dump()));
-    World world = load_world(file.gltf);
+    World world = load_world(file);
     add_detail_levels(world);
     return upload(
         device(), pipelines(), std::move(world), file, file.stars ? load_stars(file.stars->catalogue) : std::vector<Star>());

@@ -29,7 +29,7 @@ const World& world_of(const std::string& name)
     auto [at, made] = worlds.try_emplace(name);
     if (made) {
         const SceneFile scene = scene_of(name);
-        at->second = load_world(scene.gltf);
+        at->second = load_world(scene);
         place_bodies(at->second, scene);
         sort_instances(at->second);
     }

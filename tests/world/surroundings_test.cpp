@@ -33,7 +33,7 @@ TEST(SurroundingsTest, EveryRestingVertexIsInABoxAndEveryBoxHasOneOnEachSide)
         const std::vector<AlignedBox> things = things_at_rest(scene);
         EXPECT_LE(things.size(), most_things);
         EXPECT_FALSE(things.empty());
-        const World world = load_world(scene.gltf);
+        const World world = load_world(scene);
         constexpr double rounding = 1e-4;
         std::vector<AlignedBox> touched(things.size(), {glm::dvec3(1e300), glm::dvec3(-1e300)});
         for (const Instance& instance : world.instances) {

@@ -9,7 +9,7 @@ namespace {
 
 GpuWorld without_stars(RenderContext& context)
 {
-    World world = load_world(context.world.scene.gltf);
+    World world = load_world(context.world.scene);
     add_detail_levels(world);
     return upload(context.device, context.pipelines, std::move(world), context.world.scene, {}, context.world.spectra.level);
 }

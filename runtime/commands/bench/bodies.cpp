@@ -42,7 +42,7 @@ double bench_bodies(int rounds)
             body.at = {shot.time - 31, {2.5 * i - 9, 4, c.seen ? 0.0 : 62.0}};
             scene.bodies.push_back(std::move(body));
         }
-        World world = load_world(scene.gltf);
+        World world = load_world(scene);
         add_detail_levels(world);
         c.world = std::make_unique<GpuWorld>(upload(device, pipelines, std::move(world), scene, {}, SpectralLevel::fine));
         c.renderer = std::make_unique<OffscreenRenderer>(

@@ -19,7 +19,7 @@ std::array<std::array<double, 2>, 3> bench_spectra(RenderContext& context, const
     std::deque<OffscreenRenderer> renderers; // which never moves them
     worlds.reserve(reflected_counts.size());
     for (std::size_t level = 0; level < reflected_counts.size(); ++level) {
-        worlds.push_back(upload(device, context.pipelines, load_world(scene.gltf), scene, {}, SpectralLevel(level)));
+        worlds.push_back(upload(device, context.pipelines, load_world(scene), scene, {}, SpectralLevel(level)));
         renderers.emplace_back(device, context.pipelines, worlds.back(), layout, default_quality(device, false), false);
         renderers.back().picture(shot); // warms every cache
     }

@@ -44,7 +44,7 @@ void bench_stars(int rounds)
     const SceneFile scene = load_scene_file(shipped_file("scenes", "avenue"));
     const Layout layout = window_of({800, 600});
     auto under = [&](const char* name, const std::vector<Star>& stars) {
-        World world = load_world(scene.gltf);
+        World world = load_world(scene);
         add_detail_levels(world);
         return StarsCase{name, upload(device, pipelines, std::move(world), scene, stars), {}};
     };

@@ -86,7 +86,7 @@ int check(const CheckOptions& options)
 int check_scene(const std::string& name)
 {
     const SceneFile scene = load_scene_file(shipped_file("scenes", name));
-    World world = load_world(scene.gltf);
+    World world = load_world(scene);
     place_bodies(world, scene);
     for (const std::string& note : world.notes)
         std::printf("note: %s\n", note.c_str());

@@ -232,7 +232,7 @@ double cost_of(const Part& part, const Made& made, RenderContext& context, MadeF
 void explain(const Trial& trial, const Device::Options& options)
 {
     Made made{{}, load_scene_file(trial.scene), {}, trial.layout, trial.shots[0].second, trial.standard};
-    made.world = load_world(made.scene.gltf);
+    made.world = load_world(made.scene);
     add_detail_levels(made.world);
     if (made.scene.stars)
         made.stars = load_stars(made.scene.stars->catalogue);

@@ -244,7 +244,7 @@ void see_small(Table& table, ExtremesBench& stage)
 void see_far(Table& table, ExtremesBench& stage)
 {
     SceneFile scene = load_scene_file(shipped_file("scenes", "avenue"));
-    const World world = load_world(scene.gltf);
+    const World world = load_world(scene);
     Shot start = scene.start;
     start.position.z = -8;
     const glm::ivec2 small(160, 120);
@@ -309,7 +309,7 @@ void see_far(Table& table, ExtremesBench& stage)
     }
     {
         const SceneFile clocks = load_scene_file(shipped_file("scenes", "clocks"));
-        ExtremeCase c{"picture: clocks after 30 days", clocks, load_world(clocks.gltf), one_view(Planar{60}, {320, 240}),
+        ExtremeCase c{"picture: clocks after 30 days", clocks, load_world(clocks), one_view(Planar{60}, {320, 240}),
             load_shot(shipped_file("shots", "clocks-passing"))};
         c.shot.time += 30.0 * 86400 / clocks.seconds_per_time_unit();
         stage.show(table, c);

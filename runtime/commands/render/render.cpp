@@ -147,12 +147,10 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
                            ->capture_default_str();
     CLI::Option* hud = command->add_flag("--hud", options->hud, "With the head-up display");
     const std::vector<std::string_view> displays = names_of(informations);
-    CLI::Option* information
-        = command
-              ->add_option("--information", options->information, "The head-up display for a visitor, guide or laboratory")
-              ->check(CLI::IsMember(std::vector<std::string>(displays.begin(), displays.end())))
-              ->needs(hud)
-              ->capture_default_str();
+    command->add_option("--information", options->information, "The head-up display for a visitor, guide or laboratory")
+        ->check(CLI::IsMember(std::vector<std::string>(displays.begin(), displays.end())))
+        ->needs(hud)
+        ->capture_default_str();
     add_language(*command, options->language);
     CLI::Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");

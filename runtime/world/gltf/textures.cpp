@@ -22,7 +22,7 @@ std::string suspicion(std::span<const std::uint8_t> bytes, int& width, int& heig
         = [&](auto& magic) { return bytes.size() > sizeof magic && std::memcmp(bytes.data(), magic, sizeof magic) == 0; };
     int channels = 0;
     if (!starts(png) && !starts(jpeg))
-        return "is neither PNG nor JPEG; glTF allows those two";
+        return "is neither PNG nor JPEG; one of those two is right";
     if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels)) {
         // The library also fails at sizes beyond its own limits; a PNG's header says what they are.
         const auto word = [&](std::size_t at) {
