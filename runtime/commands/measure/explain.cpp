@@ -96,6 +96,8 @@ void PartList::add_light()
         own ? colours : "the scene has no lamp, glow or line but sunlit colours", {});
     add("stars", context.world.star_count > 0, count(context.world.star_count, "star", "stars") + " in the scene's sky",
         "the scene names no catalogue", [](Made& m) { m.stars.clear(), m.scene.stars.reset(); });
+    add("the Milky Way", context.world.world.milky_way >= 0, "a panorama behind the stars", "the scene names none",
+        [](Made& m) { m.world.milky_way = -1; });
     add("lamps", !scene.lights.empty(), count(scene.lights.size(), "light", "lights") + " in the scene",
         "the scene has none", [](Made& m) { m.scene.lights.clear(); });
 }
