@@ -189,7 +189,7 @@ TEST(LivePicture, ComesCloserToTheReferenceWithHigherQuality)
     for (const char* name : {"desk", "dome"}) {
         const Layout layout
             = small_layout(starbow::testing::source_dir() / "config/layouts" / (std::string(name) + ".json"), 160);
-        const Bytes truth = shown(reference(avenue_by_rays().input(), layout, shot, 0, {.samples = 256}));
+        const Bytes truth = shown(reference(avenue_by_rays().input(), layout, shot, 0, {.samples = 128}));
         double before = 0;
         for (double texels : {0.5, 1.0, 2.0, 4.0}) {
             Quality quality = test_quality();
@@ -201,7 +201,8 @@ TEST(LivePicture, ComesCloserToTheReferenceWithHigherQuality)
             EXPECT_GT(now, texels > 2 ? before - 0.3 : before + 2) << name << ", " << texels << " texels a pixel";
             before = now;
         }
-        EXPECT_GT(before, 37) << name;
+        // What is left are edges, those of bright columns before a black sky most of all.
+        EXPECT_GT(before, 36) << name;
     }
 }
 
