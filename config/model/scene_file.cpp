@@ -66,7 +66,7 @@ Sky read_sky(const Place& place)
 
 StarSky read_stars(const Place& place, const std::filesystem::path& folder)
 {
-    reject_unknown_members(place, {"catalogue", "brightness_arcmin2", "ahead_deg", "milky_way"});
+    reject_unknown_members(place, {"catalogue", "in_depth", "brightness_arcmin2", "ahead_deg", "milky_way"});
     StarSky stars;
     stars.catalogue = folder / text(member(place, "catalogue"));
     take(place, "brightness_arcmin2", stars.brightness_arcmin2, {0, 1e9, true});
@@ -78,6 +78,13 @@ StarSky read_stars(const Place& place, const std::filesystem::path& folder)
         reject_unknown_members(*p, {"panorama", "peak_arcmin2"});
         stars.milky_way
             = MilkyWay{folder / text(member(*p, "panorama")), number(member(*p, "peak_arcmin2"), {0, 1e9, true})};
+    }
+    if (auto p = find_member(place, "in_depth")) {
+        stars.in_depth = std::size_t(integer(*p, 0, 4'000'000));
+        if (!stars.milky_way)
+            complain(*p,
+                "leaves no place for the other stars, which are painted onto the Milky Way; beside a \"milky_way\" it is "
+                "right");
     }
     return stars;
 }

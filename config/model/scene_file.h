@@ -6,6 +6,7 @@
 #include "shot.h"
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -55,6 +56,9 @@ struct StarSky {
         = 200; ///< a star of magnitude 0 gives as much light as so many square arc minutes of the scene's white
     glm::dvec2 ahead_deg{0}; ///< right ascension and declination (J2000) of straight ahead (-z), with north up
     std::optional<MilkyWay> milky_way{};
+    /// So many of the brightest are drawn one by one, each at its place in depth. The others are painted onto the Milky Way's
+    /// panorama, as they are seen from the Sun.
+    std::size_t in_depth = std::numeric_limits<std::size_t>::max();
 };
 
 struct SceneFile {

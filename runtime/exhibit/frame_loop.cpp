@@ -396,7 +396,7 @@ void FrameLoop::apply_file_changes()
             .layout = session_.layout,
             .quality = quality_of(session_, device_),
             .sizes = {},
-            .has_stars = context_.world.star_count > 0};
+            .has_stars = !context_.world.stars.stars.empty()};
         for (const Target& target : screens_.targets())
             shown.sizes.push_back(target.view ? glm::ivec2(target.extent.width, target.extent.height) : glm::ivec2(0));
         session_.loader.load(std::move(shown));

@@ -34,9 +34,10 @@ Pyramid pyramid_of(int face, const Rect& rect, double texels_per_unit)
 
 } // namespace
 
-std::vector<StarPatch> star_patches(std::span<const shared::StarEntry> stars)
+std::vector<StarPatch> star_patches(std::span<const shared::StarEntry> stars, std::vector<StarPatch> before)
 {
-    std::vector<StarPatch> patches;
+    std::vector<StarPatch> patches = std::move(before);
+    patches.clear();
     const std::size_t each = std::max(least_stars, (stars.size() + most_patches - 1) / most_patches);
     for (std::size_t first = 0; first < stars.size(); first += each) {
         const auto own = stars.subspan(first, std::min(each, stars.size() - first));
@@ -44,11 +45,12 @@ std::vector<StarPatch> star_patches(std::span<const shared::StarEntry> stars)
         for (const shared::StarEntry& star : own)
             sum += glm::dvec3(star.direction);
         const glm::dvec3 axis = glm::length(sum) > 1e-3 ? glm::normalize(sum) : glm::dvec3(0, 1, 0);
-        double radius = 0;
+        double farthest = 0; // the square of a chord
         for (const shared::StarEntry& star : own) {
-            const glm::dvec3 n(star.direction);
-            radius = std::max(radius, std::atan2(glm::length(glm::cross(axis, n)), glm::dot(axis, n)));
+            const glm::dvec3 off = glm::dvec3(star.direction) - axis;
+            farthest = std::max(farthest, glm::dot(off, off));
         }
+        const double radius = 2 * std::asin(std::min(0.5 * std::sqrt(farthest), 1.0));
         patches.push_back({axis, radius, std::uint32_t(first), std::uint32_t(own.size())});
     }
     return patches;

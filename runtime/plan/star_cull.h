@@ -4,15 +4,15 @@
 
 namespace starbow {
 
-/// Stars that are neighbours in star_entries' order, and the bounding cone that holds them.
+/// Stars that are neighbours in a StarField's order, and the bounding cone that holds them.
 struct StarPatch {
-    glm::dvec3 axis; ///< unit, world
+    glm::dvec3 axis; ///< unit, world, from the eye
     double radius_rad;
     std::uint32_t first, count;
 };
 
-/// Divides all entries into at most about two thousand patches.
-std::vector<StarPatch> star_patches(std::span<const shared::StarEntry> stars);
+/// Divides all entries into at most about two thousand patches. before: a list whose memory is reused.
+std::vector<StarPatch> star_patches(std::span<const shared::StarEntry> stars, std::vector<StarPatch> before = {});
 
 /// A run of entries, from `first` on.
 struct StarRun {

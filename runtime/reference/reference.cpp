@@ -88,7 +88,7 @@ public:
         if (input.scene.stars && !input.stars.empty())
             for (ViewAt& view : views_) {
                 view.stars = stars_.size();
-                stars_.emplace_back(input.stars, *input.scene.stars, eyes_[view.eye], colours_,
+                stars_.emplace_back(input.stars, *input.scene.stars, input.scene.unit_m, eyes_[view.eye], colours_,
                     [&](const glm::dvec3& way) { return beside(view, way); });
             }
     }
@@ -487,7 +487,7 @@ ReferenceWorld open_reference_world(const std::filesystem::path& file)
     check_speeds(opened.world, opened.scene);
     place_bodies(opened.world, opened.scene);
     if (opened.scene.stars)
-        opened.stars = load_stars(opened.scene.stars->catalogue);
+        opened.stars = stars_in_depth(*opened.scene.stars);
     return opened;
 }
 

@@ -18,21 +18,25 @@ double profile(double square)
 
 } // namespace
 
-StarSpots::StarSpots(const std::vector<Star>& stars, const StarSky& sky, const TracingEye& eye, const Colours& colours,
-    const std::function<glm::dvec3(const glm::dvec3& way)>& beside)
+StarSpots::StarSpots(const std::vector<Star>& stars, const StarSky& sky, double unit_m, const TracingEye& eye,
+    const Colours& colours, const std::function<glm::dvec3(const glm::dvec3& way)>& beside)
 {
     const glm::dmat3 world_from_sky = world_from_equatorial(sky.ahead_deg);
     const double magnitude_0 = sky.brightness_arcmin2 * std::pow(pi / 180 / 60, 2);
+    const glm::dvec3 eye_m = eye.observer_of().shot.position * unit_m;
+    constexpr double astronomical_unit_m = 149597870700; // nobody is nearer to a star
     const Effects& effects = eye.observer_of().shot.effects;
     std::vector<Spot> all(stars.size());
     by_rows(int(stars.size()), [&](int first, int end) {
         for (int i = first; i < end; ++i) {
             const Star& star = stars[std::size_t(i)];
-            const physics::AberratedRay seen = eye.from_world(world_from_sky * star.direction);
+            const glm::dvec3 way = world_from_sky * star.direction * star.distance_m - eye_m;
+            const double nearer = star.distance_m / std::max(glm::length(way), astronomical_unit_m);
+            const physics::AberratedRay seen = eye.from_world(glm::normalize(way));
             if (eye.covered(seen.n, beside(seen.n)))
                 continue;
             glm::dvec3 light = colours.star(star.temperature_K, effects.doppler ? seen.D : 1)
-                * (magnitude_0 * std::pow(10, -0.4 * star.magnitude));
+                * (magnitude_0 * std::pow(10, -0.4 * star.magnitude) * nearer * nearer);
             if (effects.headlight)
                 light *= seen.D * seen.D * seen.D;
             light *= eye.solid_angle(seen); // a star is a surface too small to have a visible extent

@@ -9,8 +9,8 @@ namespace starbow {
 class StarSpots {
 public:
     /// beside: the eye's place for a direction, as in TracingEye::look.
-    StarSpots(const std::vector<Star>& stars, const StarSky& sky, const TracingEye& eye, const Colours& colours,
-        const std::function<glm::dvec3(const glm::dvec3& way)>& beside);
+    StarSpots(const std::vector<Star>& stars, const StarSky& sky, double unit_m, const TracingEye& eye,
+        const Colours& colours, const std::function<glm::dvec3(const glm::dvec3& way)>& beside);
 
     /// The light of stars in a pixel: the parts there of the spots that reach it.
     glm::dvec3 light(const ViewRays& rays, const glm::ivec2& pixel, int channel) const;

@@ -9,12 +9,14 @@
 
 namespace starbow {
 
-EyeCubes::EyeCubes(Device& device, Pipelines& pipelines, const GpuWorld& world, FrameState& state, const ViewSet& views)
+EyeCubes::EyeCubes(
+    Device& device, Pipelines& pipelines, const GpuWorld& world, FrameState& state, const ViewSet& views, SeenStars& stars)
     : device_(device)
     , pipelines_(pipelines)
     , world_(world)
     , state_(state)
     , views_(views)
+    , stars_(stars)
 {
 }
 
@@ -280,6 +282,7 @@ void EyeCubes::find_bodies(const ViewState& view, std::vector<ShipCap>& bodies) 
 
 void EyeCubes::plan(double pre_exposure, const Probe* probe)
 {
+    stars_.follow(state_.shot.position, state_.repeatable);
     bool keep = drawn_ && shown_ < state_.quality.frames_per_cube;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Trace::Span span(device_.trace, "plan");
@@ -300,12 +303,12 @@ void EyeCubes::plan(double pre_exposure, const Probe* probe)
             std::swap(eye.drawn, eye.eye_events);
             bound(eye, plans[i]);
         }
-        if (world_.star_count == 0)
+        if (!stars_.on())
             continue;
         const auto& images = plans[i].images;
         const auto own
             = std::find_if(images.begin(), images.end(), [](const PlannedImage& image) { return image.rest_frame > 0; });
-        eye.stars = stars_in({images.begin(), own}, world_.star_patches,
+        eye.stars = stars_in({images.begin(), own}, stars_.patches(),
             observers[eye.observer].rest_frames[0].cube_from_frame, std::move(eye.stars));
     }
 }

@@ -2,7 +2,7 @@
 #include "cube_pass.h"
 #include "probe.h"
 #include "runtime/world/observer.h"
-#include "star_pass.h"
+#include "seen_stars.h"
 #include "view_set.h"
 
 namespace starbow {
@@ -28,7 +28,8 @@ struct EyeCube {
 /// The eyes of all views: observers, cube-map plans, and the cube maps themselves.
 class EyeCubes {
 public:
-    EyeCubes(Device& device, Pipelines& pipelines, const GpuWorld& world, FrameState& state, const ViewSet& views);
+    EyeCubes(Device& device, Pipelines& pipelines, const GpuWorld& world, FrameState& state, const ViewSet& views,
+        SeenStars& stars);
 
     /// Assigns an eye to each view. Eyes that remain keep their cube maps.
     void assign(std::vector<ViewState>& views);
@@ -83,6 +84,7 @@ private:
     const GpuWorld& world_;
     FrameState& state_;
     const ViewSet& views_;
+    SeenStars& stars_;
     bool inset_observed_ = false; ///< the last observer is the small picture's
     bool inset_eye_ = false; ///< the last eye is the small picture's, because it can share no other cube map
     bool drawn_ = false; ///< the cube maps may be shown once more

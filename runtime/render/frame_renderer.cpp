@@ -71,16 +71,17 @@ FrameRenderer::FrameRenderer(Device& device, Pipelines& pipelines, const GpuWorl
     , pipelines_(pipelines)
     , world_(world)
     , state_{.quality = quality, .layout = with_stereo(layout, quality)}
-    , stars_(device, pipelines, world, keeps_depth)
+    , seen_stars_(device, world)
+    , stars_(device, pipelines, world, seen_stars_, keeps_depth)
     , views_(device, pipelines, state_, world.scene.unit_m, stars_.on())
-    , eyes_(device, pipelines, world, state_, views_)
+    , eyes_(device, pipelines, world, state_, views_, seen_stars_)
     , constants_(world, state_, views_, eyes_)
     , descriptors_(device, world, state_, views_, eyes_, stars_)
     , passes_(device, pipelines, state_, views_, eyes_, stars_, constants_, descriptors_)
-    , meter_(device, pipelines, state_, views_, eyes_, stars_, constants_, passes_, world.star_count)
+    , meter_(device, pipelines, state_, views_, eyes_, stars_, constants_, passes_, std::uint32_t(world.stars.brightest))
     , measurement_(device, pipelines, world, state_, views_, eyes_, constants_, descriptors_, passes_)
 {
-    state_.keeps_depth = keeps_depth || state_.reprojects() || world.star_count > 0 || world.several_rest_frames();
+    state_.keeps_depth = keeps_depth || state_.reprojects() || stars_.on() || world.several_rest_frames();
     if (prepared && prepared->method == state_.layout.stereo.method
         && prepared->matrices == uses_matrices(state_.layout, quality)) {
         for (std::size_t output = 0; output < prepared->sizes.size(); ++output)

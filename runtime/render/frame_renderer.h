@@ -96,6 +96,7 @@ private:
     const GpuWorld& world_;
     FrameState state_;
     bool counts_all_light_ = false;
+    SeenStars seen_stars_;
     StarPass stars_;
     ViewSet views_;
     EyeCubes eyes_;

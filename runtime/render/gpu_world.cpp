@@ -154,16 +154,9 @@ void put_spectra(Device& device, GpuWorld& world, SpectralLevel level)
     world.unshifted_columns = world.unshifted ? columns(world.unshifted->columns) : Buffer{};
 }
 
-void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars)
+void put_stars(GpuWorld& world, const std::vector<Star>& stars)
 {
-    world.star_count = world.scene.stars ? std::uint32_t(stars.size()) : 0;
-    world.stars = {};
-    if (world.star_count == 0)
-        return;
-    const auto entries = star_entries(stars, *world.scene.stars);
-    world.star_patches = star_patches(entries);
-    world.stars = make_static_buffer(device, std::as_bytes(std::span(entries)), vk::BufferUsageFlagBits::eStorageBuffer);
-    name_object(device, world.stars, "world: stars");
+    world.stars = world.scene.stars ? star_field(stars, *world.scene.stars, world.scene.unit_m) : StarField{};
 }
 
 GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFile& scene, const std::vector<Star>& stars,
@@ -215,7 +208,7 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
                 vk::WriteDescriptorSet(*gpu.materials[i], 1, 0, vk::DescriptorType::eCombinedImageSampler, emissive)},
             {});
     }
-    put_stars(device, gpu, stars);
+    put_stars(gpu, stars);
     world.vertices = {}, world.indices = {};
     gpu.world = std::move(world);
     put_spectra(device, gpu, level.value_or(needed_level(gpu.world, scene).level));

@@ -2,7 +2,6 @@
 #include "config/model/scene_file.h"
 #include "pipelines.h"
 #include "runtime/light/greatest_light.h"
-#include "runtime/plan/star_cull.h"
 #include "runtime/world/spectra.h"
 #include "runtime/world/stars.h"
 #include "runtime/world/world.h"
@@ -38,9 +37,7 @@ struct GpuWorld {
     vk::raii::DescriptorPool pool = nullptr;
     std::vector<vk::raii::DescriptorSet> materials; ///< and last the sky's, which is like a material
 
-    std::uint32_t star_count = 0;
-    std::vector<StarPatch> star_patches;
-    Buffer stars; ///< StarEntry each; null without stars
+    StarField stars; ///< empty without stars
 
     Spectra spectra;
     std::optional<Spectra> unshifted; ///< the same light as colours at D = 1; see starbow::unshifted
@@ -85,6 +82,6 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
 
 /// Replaces the stars; the list may be empty. No frame of this world may be under way, and FrameRenderers made before
 /// must not draw it.
-void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars);
+void put_stars(GpuWorld& world, const std::vector<Star>& stars);
 
 } // namespace starbow

@@ -9,7 +9,7 @@ namespace starbow {
 /// for a coarse grid to meet them.
 class Meter {
 public:
-    /// views: the size of each in pixels; 0: the view does not count. stars: number of the world's stars.
+    /// views: the size of each in pixels; 0: the view does not count. stars: number of the stars that count.
     Meter(const Device& device, std::span<const glm::ivec2> views, std::uint32_t stars);
 
     struct Cell {

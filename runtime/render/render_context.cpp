@@ -12,7 +12,7 @@ LoadedScene load_scene(const std::filesystem::path& file)
     add_detail_levels(world);
     std::vector<Star> stars;
     if (scene.stars)
-        stars = load_stars(scene.stars->catalogue);
+        stars = stars_in_depth(*scene.stars);
     return {std::move(scene), std::move(world), std::move(stars)};
 }
 

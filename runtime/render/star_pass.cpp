@@ -12,7 +12,7 @@ using Access = vk::AccessFlagBits2;
 
 /// A sum in 16 bits stops growing at 2,000 times a star's light, as where a million stars crowd into a few pixels, but it is
 /// drawn and read in three quarters of the time. A device that can't blend 32 bits uses 16 all the same.
-vk::Format summing_format(const Device& device, std::uint32_t stars, bool exact)
+vk::Format summing_format(const Device& device, std::size_t stars, bool exact)
 {
     constexpr std::uint32_t crowd = 100'000;
     if (!exact && stars < crowd)
@@ -23,11 +23,12 @@ vk::Format summing_format(const Device& device, std::uint32_t stars, bool exact)
 
 } // namespace
 
-StarPass::StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& world, bool exact)
+StarPass::StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& world, const SeenStars& seen, bool exact)
     : device_(device)
     , pipelines_(pipelines)
     , world_(world)
-    , format_(summing_format(device, world.star_count, exact))
+    , seen_(seen)
+    , format_(summing_format(device, world.stars.stars.size(), exact))
 {
     if (!on())
         return;
@@ -48,7 +49,7 @@ void StarPass::write_sets()
     for (std::size_t i = 0; i < sets_.size(); ++i) {
         const Buffer& black_bodies = (i == 0 ? world_.eye : world_.false_colours).black_bodies;
         const vk::DescriptorBufferInfo buffers[] = {{*constants_.buffer, 0, sizeof(shared::StarConstants)},
-            {*world_.stars.buffer, 0, VK_WHOLE_SIZE}, {*black_bodies.buffer, 0, VK_WHOLE_SIZE}};
+            {*seen_.entries().buffer, 0, VK_WHOLE_SIZE}, {*black_bodies.buffer, 0, VK_WHOLE_SIZE}};
         device_.device.updateDescriptorSets(
             {vk::WriteDescriptorSet(*sets_[i], 0, 0, vk::DescriptorType::eUniformBufferDynamic, {}, buffers[0]),
                 vk::WriteDescriptorSet(*sets_[i], 1, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[1]),
@@ -77,10 +78,12 @@ void StarPass::fit(vk::Extent2D extent)
 
 void StarPass::prepare(std::span<const Observer> observers)
 {
-    const vk::Buffer before = *constants_.buffer;
+    const std::uint64_t before = constants_.serial;
     grow(device_, constants_, observers.size() * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
-    if (*constants_.buffer != before)
+    if (*seen_.entries().buffer && (constants_.serial != before || seen_.entries().serial != written_)) {
         write_sets();
+        written_ = seen_.entries().serial;
+    }
     false_colours_.clear();
     for (std::size_t at = 0; at < observers.size(); ++at) {
         const glm::dmat3& turn = observers[at].motion_from_world;
@@ -121,7 +124,8 @@ void StarPass::sample(
 {
     bind(commands, observer);
     set_area(commands, corner, size);
-    commands.draw((world_.star_count + std::uint32_t(every) - 1) / std::uint32_t(every), 1, 0, channels ? 1 : 0);
+    commands.draw(
+        (std::uint32_t(world_.stars.brightest) + std::uint32_t(every) - 1) / std::uint32_t(every), 1, 0, channels ? 1 : 0);
 }
 
 void StarPass::end(vk::CommandBuffer commands)

@@ -1,5 +1,5 @@
 #pragma once
-#include "gpu_world.h"
+#include "seen_stars.h"
 
 namespace starbow {
 
@@ -11,9 +11,9 @@ namespace starbow {
 class StarPass {
 public:
     /// exact: measured numbers need all bits.
-    StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& world, bool exact);
+    StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& world, const SeenStars& seen, bool exact);
 
-    bool on() const { return world_.star_count > 0; }
+    bool on() const { return seen_.on(); }
     /// Makes room for an output. The device must have finished the frame before.
     void fit(vk::Extent2D extent);
     /// One of those who see the stars.
@@ -31,7 +31,8 @@ public:
         std::span<const StarRun> stars);
     void end(vk::CommandBuffer commands);
 
-    /// Draws the meter's samples into the meter's picture: each `every`-th star is a pixel of the rectangle, row by row.
+    /// Draws the meter's samples into the meter's picture: each `every`-th of the brightest stars is a pixel of the
+    /// rectangle, row by row.
     /// Bind a pipeline of Pipelines::star_meter and the rest as for draw(); the push constant `view` holds the
     /// rectangle's size and `every`.
     void sample(vk::CommandBuffer commands, std::size_t observer, glm::ivec2 corner, glm::ivec2 size, int every,
@@ -44,6 +45,7 @@ private:
     Device& device_;
     const Pipelines& pipelines_;
     const GpuWorld& world_;
+    const SeenStars& seen_;
     vk::Format format_;
     vk::raii::DescriptorPool pool_ = nullptr;
     std::array<vk::raii::DescriptorSet, 2> sets_ = {nullptr, nullptr}; ///< standard observer; false colours
@@ -53,6 +55,7 @@ private:
 
     Buffer constants_; ///< one for each observer
     vk::DeviceSize stride_ = 0;
+    std::uint64_t written_ = 0; ///< the serial number of the entries that the sets name
     Image picture_;
 };
 

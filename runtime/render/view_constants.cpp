@@ -30,7 +30,7 @@ WarpVariant ViewConstants::variant(const ViewState& view) const
     const Effects& on = eyes_.observer_of(view).shot.effects;
     WarpVariant variant{view.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
         eyes_.plans[view.eye].levels > 1, view.compiled.channels() == 3, beside, beside && state_.layout.stereo.turning,
-        world_.star_count > 0};
+        !world_.stars.stars.empty()};
     const StoredLight light = eyes_.all[view.eye].cube.light();
     variant.coefficients = world_.coefficients(light);
     variant.several_rest_frames = eyes_.all[view.eye].cube.several_rest_frames();

@@ -3,6 +3,7 @@
 #include "config/json/whole_file.h"
 #include "config/model/scene_file.h"
 #include "gltf/parts.h"
+#include "painted_sky.h"
 
 namespace starbow {
 
@@ -20,6 +21,8 @@ World load_world(const SceneFile& scene)
         throw InputError(name, "",
             "has " + std::to_string(panorama.size.x) + " x " + std::to_string(panorama.size.y) + " pixels; " + right
                 + " is right");
+    if (const std::vector<Star> stars = painted_stars(*scene.stars); !stars.empty())
+        panorama = painted(panorama, stars, scene.stars->milky_way->peak_arcmin2);
     panorama.sampler = {.u = Wrap::repeat, .v = Wrap::clamp};
     world.milky_way = int(world.textures.size());
     world.textures.push_back(std::move(panorama));

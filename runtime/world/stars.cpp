@@ -6,22 +6,25 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <sstream>
 
 namespace starbow {
 namespace {
 
 constexpr double sun_b_v = 0.65; // for stars whose B-V is not known
-constexpr std::size_t most_stars = 4'000'000; // 128 MB on the device
+constexpr std::size_t most_stars = 4'000'000; // 128 MB on the device for each place of an eye
 
 /// One whole number of a line; messages about a wrong one name `what` and the range.
 struct Column {
     const char* what;
     int low, high;
 };
-constexpr Column columns[] = {{"right ascension in 1e-4 degrees", 0, 3599999},
-    {"declination in 1e-4 degrees", -900000, 900000}, {"magnitude in 0.01", -3000, 3000}, {"B-V in 0.01", -50, 600}};
+constexpr Column columns[]
+    = {{"right ascension in 1e-5 degrees", 0, 35999999}, {"declination in 1e-5 degrees", -9000000, 9000000},
+        {"magnitude in 0.01", -3000, 3000}, {"B-V in 0.01", -50, 600}, {"parallax in 0.01 milliseconds of arc", 1, 1000000}};
 
 std::string quoted(std::string_view text)
 {
@@ -53,17 +56,20 @@ struct Line {
     Star star(std::string_view text) const
     {
         std::vector<std::string_view> words;
-        for (std::size_t at = 0; (at = text.find_first_not_of(" \t\r", at)) < text.size() && words.size() < 5;) {
+        for (std::size_t at = 0; (at = text.find_first_not_of(" \t\r", at)) < text.size() && words.size() < 6;) {
             const std::size_t end = std::min(text.find_first_of(" \t\r", at), text.size());
             words.push_back(text.substr(at, end - at));
             at = end;
         }
-        if (words.size() != 4)
-            refuse(quoted(text) + " is no star; four columns (right ascension, declination, magnitude, B-V) is right");
+        if (words.size() != 5)
+            refuse(quoted(text)
+                + " is no star; five columns (right ascension, declination, magnitude, B-V, parallax) are right");
         const double ra = value(words[0], columns[0]), dec = value(words[1], columns[1]);
         const double magnitude = value(words[2], columns[2]);
         const double b_v = words[3] == "-" ? sun_b_v : 0.01 * value(words[3], columns[3]);
-        return {equatorial(1e-4 * ra, 1e-4 * dec), 0.01 * magnitude, temperature_of(b_v)};
+        // The parallax in seconds of arc is 1 over the distance in parsecs.
+        const double distance_m = words[4] == "-" ? unknown_distance_m : parsec_m / (1e-5 * value(words[4], columns[4]));
+        return {equatorial(1e-5 * ra, 1e-5 * dec), 0.01 * magnitude, temperature_of(b_v), distance_m};
     }
 };
 
@@ -84,6 +90,34 @@ std::vector<Star> load_stars(const std::filesystem::path& path)
     }
     if (stars.empty())
         throw InputError(file, "", "holds no star; a catalogue of stars, like scenes/stars/stars.txt, is right");
+    return stars;
+}
+
+namespace {
+
+/// All stars, the brightest first; equally bright ones in the catalogue's order.
+std::vector<Star> by_brightness(const StarSky& sky)
+{
+    std::vector<Star> stars = load_stars(sky.catalogue);
+    std::stable_sort(stars.begin(), stars.end(), [](const Star& a, const Star& b) { return a.magnitude < b.magnitude; });
+    return stars;
+}
+
+} // namespace
+
+std::vector<Star> stars_in_depth(const StarSky& sky)
+{
+    std::vector<Star> stars = by_brightness(sky);
+    stars.resize(std::min(stars.size(), sky.in_depth));
+    return stars;
+}
+
+std::vector<Star> painted_stars(const StarSky& sky)
+{
+    if (sky.in_depth >= most_stars)
+        return {};
+    std::vector<Star> stars = by_brightness(sky);
+    stars.erase(stars.begin(), stars.begin() + std::ptrdiff_t(std::min(stars.size(), sky.in_depth)));
     return stars;
 }
 
@@ -124,29 +158,56 @@ glm::dmat3 world_from_equatorial(const glm::dvec2& ahead_deg)
     return glm::transpose(glm::dmat3(right, up, -ahead));
 }
 
-std::vector<shared::StarEntry> star_entries(const std::vector<Star>& stars, const StarSky& sky)
+StarField star_field(const std::vector<Star>& stars, const StarSky& sky, double unit_m)
 {
+    constexpr std::size_t brightest = 5000; // about as many as a good eye sees from the Earth
+    constexpr double astronomical_unit_m = parsec_m * pi / 648000;
     const glm::dmat3 turn = world_from_equatorial(sky.ahead_deg);
     const double arcmin2 = std::pow(degree / 60, 2);
-    std::vector<shared::StarEntry> entries;
-    entries.reserve(stars.size());
-    std::map<double, double> luminances; // a catalogue has few temperatures, because B-V is rounded
+    StarField field{{}, std::min(stars.size(), brightest), astronomical_unit_m / unit_m};
+    std::vector<std::size_t> order(stars.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto others = order.begin() + std::ptrdiff_t(field.brightest);
+    std::nth_element(order.begin(), others, order.end(),
+        [&](std::size_t a, std::size_t b) { return std::pair(stars[a].magnitude, a) < std::pair(stars[b].magnitude, b); });
+    std::vector<int> patches;
     for (const Star& star : stars) {
+        const glm::dvec3 n = turn * star.direction;
+        const double azimuth = std::atan2(n.z, n.x) / (360 * degree) + 0.5;
+        patches.push_back(int(16 * (n.y + 1)) * 64 + int(64 * azimuth));
+    }
+    for (const auto& [first, end] : {std::pair(order.begin(), others), std::pair(others, order.end())})
+        std::sort(
+            first, end, [&](std::size_t a, std::size_t b) { return std::pair(patches[a], a) < std::pair(patches[b], b); });
+    std::map<double, double> luminances; // a catalogue has few temperatures, because B-V is rounded
+    field.stars.reserve(stars.size());
+    for (std::size_t i : order) {
+        const Star& star = stars[i];
+        const double distance = std::max(star.distance_m / unit_m, field.least_distance);
         const double light = sky.brightness_arcmin2 * arcmin2 * std::pow(10, -0.4 * star.magnitude);
         const auto [luminance, added] = luminances.try_emplace(star.temperature_K);
         if (added)
             luminance->second = black_body_xyz(star.temperature_K).y;
-        entries.push_back(
-            {glm::vec4(turn * star.direction, star.temperature_K), glm::vec4(light / luminance->second, light, 0, 0)});
+        field.stars.push_back(
+            {turn * star.direction * distance, light * distance * distance, 1 / luminance->second, star.temperature_K});
     }
-    // Sorted by patches of the sky: a GPU draws neighbours together, and neighbours are in or out of view together.
-    auto patch = [](const shared::StarEntry& star) {
-        const double azimuth = std::atan2(star.direction.z, star.direction.x) / (360 * degree) + 0.5;
-        return int(16 * (star.direction.y + 1)) * 64 + int(64 * azimuth);
-    };
-    std::stable_sort(entries.begin(), entries.end(),
-        [&](const shared::StarEntry& a, const shared::StarEntry& b) { return patch(a) < patch(b); });
-    return entries;
+    return field;
+}
+
+double stars_from(const StarField& field, const glm::dvec3& eye, std::span<shared::StarEntry> entries)
+{
+    double nearest_square = std::numeric_limits<double>::infinity();
+    const double least_square = field.least_distance * field.least_distance;
+    for (std::size_t i = 0; i < field.stars.size(); ++i) {
+        const PlacedStar& star = field.stars[i];
+        const glm::dvec3 way = star.place - eye;
+        const double square = glm::dot(way, way), distance = std::sqrt(square);
+        const glm::dvec3 n = distance > 0 ? way / distance : glm::dvec3(0, 0, -1);
+        const double light = star.light / std::max(square, least_square);
+        entries[i] = {glm::vec4(n, star.temperature_K), glm::vec4(light * star.over_luminance, light, 0, 0)};
+        nearest_square = std::min(nearest_square, square);
+    }
+    return std::sqrt(nearest_square);
 }
 
 } // namespace starbow

@@ -94,6 +94,7 @@ PIONEER = np.array("""
 # Pioneer 10 did not map these cells; the table at hand has them filled by interpolation along the row. Columns and rows
 # of the rectangle that holds them.
 UNMAPPED = (PIONEER_L >= 170) & (PIONEER_L <= 260), (PIONEER_B >= 16) & (PIONEER_B <= 60)
+PIONEER_LIMIT = 6.5  # magnitude: brighter stars are not in it
 BEAM = 2.3 / 2.355  # Pioneer's resolution, about 2.3 degrees, as a Gaussian's sigma
 
 # Pioneer 10 at 440 and 640 nm, read from its isophote maps: Leinert et al. 1998, Table 34. Not used for the fit.
@@ -395,24 +396,24 @@ def colour_index(rgb):
     return np.interp(-ratio, -BV_RATIO, BV_GRID)
 
 
-def faint_stars(stars):
-    """S10(V) of the stars from 6.0 to 6.5, by |b|: neither the catalogue's nor Pioneer's.
-
-    Taken as 1.1 times those from 5.5 to 6.0: star counts grow as 10^(0.48 m), so the light of half a magnitude grows
-    as 10^(0.08 * 0.5).
-    """
-    _, b = angles(unit(stars[:, 0], stars[:, 1]) @ GALACTIC.T)
-    edges = np.array([0, 6, 12, 20, 30, 45, 60, 90])
-    chosen = stars[:, 2] >= 5.5
-    light = np.histogram(np.abs(b[chosen]), edges, weights=10**(-0.4 * (stars[chosen, 2] - 10)))[0]
-    area = 2 * 360 * 180 / np.pi * np.diff(np.sin(np.radians(edges)))
-    return lambda at: np.interp(np.abs(at), (edges[1:] + edges[:-1]) / 2, 1.1 * light / area)
+def light_of_stars(stars):
+    """The catalogue's stars that Pioneer's map holds too, S10(V) and S10(B), spread over its beam."""
+    faint = stars[stars[:, 2] >= PIONEER_LIMIT]
+    x, y = pixel(faint[:, 0], faint[:, 1])
+    places = np.clip(np.rint(y).astype(int), 0, HEIGHT - 1), np.rint(x).astype(int) % WIDTH
+    maps = []
+    for magnitude in (faint[:, 2], faint[:, 2] + faint[:, 3] - SUN_BV):
+        light = np.zeros((HEIGHT, WIDTH))
+        np.add.at(light, places, 10**(-0.4 * (magnitude - 10)))
+        maps.append(smooth(light / (np.cos(np.radians(90 - (np.arange(HEIGHT) + 0.5) / DEGREE)) / DEGREE**2)[:, None], BEAM))
+    return maps
 
 
 WHOLE_SKY_BV = 0.80     # see report.md; Pioneer's 440 and 640 nm at the poles of Table 34 give 0.65 + 0.11 ... 0.19
 BACKGROUND_BV = 0.75    # of the light the texture has clipped to black
 TONE_POWER = 1.1        # of the code value; powers from 0.9 to 1.2 fit Pioneer alike, this one its brightest places too
 GAIN_SIGMA = 4.5, 10.0  # degrees, of the smooth correction: near the plane, and elsewhere
+REMOVED_LIMIT = 7       # magnitude: what is left of brighter stars in the texture is taken out one by one
 SATURATION = 0.45       # the texture's colours are far stronger than those of starlight
 
 
@@ -428,7 +429,12 @@ def calibrate(image, stars):
     clouds = (unit(node_ra, node_dec) @ unit(80.9, -69.8) > np.cos(np.radians(6))) \
         | (unit(node_ra, node_dec) @ unit(13.2, -72.8) > np.cos(np.radians(4)))
     used = measured & ~clouds
-    extra = faint_stars(stars)
+    stars_v, stars_b = (sample(light, node_ra, node_dec) for light in light_of_stars(stars))
+    # The colour of what is left of the whole sky without the catalogue's stars.
+    whole_v = PIONEER * 10**(0.4 * (WHOLE_SKY_BV - SUN_BV))
+    rest_bv = SUN_BV - 2.5 * np.log10(node_mean(np.maximum(PIONEER - stars_b, 0)) / node_mean(np.maximum(whole_v - stars_v, 0)))
+    print(f"the catalogue's stars beyond {PIONEER_LIMIT}: S10(B) {node_mean(stars_b):.1f} of {node_mean(PIONEER):.1f}; "
+          f"what is left has B-V {rest_bv:.2f}")
 
     # The tone curve: a power of the code value over a black level (report.md). The background below that level is a
     # smooth function of latitude.
@@ -439,10 +445,11 @@ def calibrate(image, stars):
     error = 0.08 * PIONEER + 4  # Pioneer's own: 2 to 3 S10, 5 in the Milky Way, and its beam on uneven ground
 
     chroma = None
-    bv_nodes = np.full(PIONEER.shape, WHOLE_SKY_BV)
+    bv_nodes = np.full(PIONEER.shape, rest_bv)
     background = blackbody_rgb(BACKGROUND_BV)
     for _ in range(4):
-        target = PIONEER * 10**(0.4 * (bv_nodes - SUN_BV)) + extra(node_b)
+        # Where few bright stars of the catalogue crowd into a beam, a quarter is left.
+        target = np.maximum(PIONEER - stars_b, 0.25 * PIONEER) * 10**(0.4 * (bv_nodes - SUN_BV))
         matrix = np.stack(smoothed, -1)
         k, _ = optimize.nnls(matrix[used] / error[used][:, None], target[used] / error[used])
         base = sum(w * t for w, t in zip(k, terms))
@@ -450,11 +457,11 @@ def calibrate(image, stars):
         # Balance the channels, tone the colours down, then add the background's own colour.
         if chroma is None:
             total = (image * area[..., None]).sum((0, 1))
-            balanced = image / total * (total @ np.array([0.25, 0.5, 0.25])) * blackbody_rgb(WHOLE_SKY_BV)
+            balanced = image / total * (total @ np.array([0.25, 0.5, 0.25])) * blackbody_rgb(rest_bv)
         mixed = k[-1] * balanced + base[..., None] * background
         chroma = np.maximum(mixed, 1e-3) / np.maximum(mixed @ REC709_Y, 1e-3)[..., None]
         # Geometric: scales the logarithm of each channel's ratio, so that B-V scales about the mean.
-        centre = blackbody_rgb(WHOLE_SKY_BV)
+        centre = blackbody_rgb(rest_bv)
         chroma = centre * (chroma / centre)**SATURATION
         # No starlight is green, but the texture's dim parts are where one channel is clipped before the next.
         # Magenta is that of glowing hydrogen: most of it is kept.
@@ -524,6 +531,12 @@ def sphere_mean(values, weights, places, sigma):
     return ndimage.map_coordinates(coarse, [(y + 0.5) / DEGREE / 2, (x + 0.5) / WIDTH * columns], order=1)
 
 
+def node_mean(values):
+    """The mean over the sky of values at Table 35's nodes."""
+    bounds = np.concatenate([[-90], (PIONEER_B[1:] + PIONEER_B[:-1]) / 2, [90]])
+    return (values * np.diff(np.sin(np.radians(bounds)))[:, None]).sum() / 2 / 36
+
+
 def tables(rgb, used, stars):
     """Prints the outcome beside the published values."""
     area = pixel_shares()
@@ -534,15 +547,13 @@ def tables(rgb, used, stars):
         v, bv = np.squeeze(c @ REC709_Y), np.squeeze(colour_index(c))
         return v, bv, v * 10**(-0.4 * (bv - SUN_BV))
 
-    extra = faint_stars(stars)
+    stars_v, stars_b = light_of_stars(stars)
     luminance = rgb @ REC709_Y
     node_l, node_b = np.meshgrid(PIONEER_L, PIONEER_B)
-    v, bv, _ = at(*from_galactic(node_l, node_b))
-    blue = (v - extra(node_b)) * 10**(-0.4 * (bv - SUN_BV))
-    bounds = np.concatenate([[-90], (PIONEER_B[1:] + PIONEER_B[:-1]) / 2, [90]])
-    share = np.diff(np.sin(np.radians(bounds)))[:, None] / 2 / 36 * np.ones((1, 36))
-    print("whole sky, S10: V mean %.1f; B at Table 35's nodes: ours %.1f, published %.1f; B-V %.2f" % (
-        (luminance * area).sum(), (blue * share).sum(), (PIONEER * share).sum(),
+    node_ra, node_dec = from_galactic(node_l, node_b)
+    blue = at(node_ra, node_dec)[2] + sample(stars_b, node_ra, node_dec)
+    print("whole sky, S10: V mean %.1f without stars; B at Table 35's nodes: ours with stars %.1f, published %.1f; B-V %.2f" % (
+        (luminance * area).sum(), node_mean(blue), node_mean(PIONEER),
         colour_index((rgb * area[..., None]).sum((0, 1)))))
     ratio = np.log(blue / PIONEER)[used]
     print(f"Table 35, {used.sum()} nodes: ours / published: mean {np.exp(ratio.mean()):.3f}, spread {ratio.std():.3f}")
@@ -556,19 +567,19 @@ def tables(rgb, used, stars):
 
     print("  l    b  S10(V)  B-V  S10(B) ours published")
     for l, b in [(l, 0) for l in range(0, 360, 30)] + [(l, b) for l in (0, 180) for b in range(-90, 91, 15)]:
-        v, bv, _ = at(*from_galactic(l, b))
+        v, bv, own_b = at(*from_galactic(l, b))
+        with_stars = own_b + sample(stars_b, *from_galactic(l, b))[0]
         note = "" if b in PIONEER_B else " (interpolated)"
         if UNMAPPED[0][l // 10] and PIONEER_B[UNMAPPED[1]].min() <= b <= PIONEER_B[UNMAPPED[1]].max():
             note = " (not mapped by Pioneer)"
-        print(f"{l:4d} {b:+4d} {v:7.0f} {bv:5.2f} {(v - extra(b)) * 10**(-0.4 * (bv - SUN_BV)):7.0f} "
+        print(f"{l:4d} {b:+4d} {v:7.0f} {bv:5.2f} {with_stars:7.0f} "
               f"{published(l, b):9.0f}{note}")
     print("poles of Table 34: S10(V) ours, published (from B and R), B ours, published")
     for name, ra, dec, blue_there, red_there in POLES:
-        v, bv, _ = at(ra, dec)
-        _, b = angles(unit(ra, dec) @ GALACTIC.T)
+        v, bv, own_b = at(ra, dec)
         visual = blue_there * (red_there / blue_there)**0.55 if red_there else float("nan")
-        v -= extra(b)
-        print(f"  {name}: {v:.0f}, {visual:.0f}; {v * 10**(-0.4 * (bv - SUN_BV)):.0f}, {blue_there}")
+        with_v, with_b = v + sample(stars_v, ra, dec)[0], own_b + sample(stars_b, ra, dec)[0]
+        print(f"  {name}: {with_v:.0f}, {visual:.0f}; {with_b:.0f}, {blue_there}")
     order = np.argsort(np.where(used, PIONEER, 0), None)[::-1][:8]
     print("brightest nodes of Table 35, S10(B) ours/published: " + ", ".join(
         f"l {node_l.flat[i]} b {node_b.flat[i]:+d}: {blue.flat[i]:.0f}/{PIONEER.flat[i]:.0f}" for i in order))
@@ -590,10 +601,11 @@ def main(texture, catalogue, out):
     assert image.shape == (HEIGHT, WIDTH, 3), image.shape
     image = np.roll(image[:, ::-1], WIDTH // 4, 1)
     lines = [line.split() for line in open(catalogue) if not line.startswith("#")]
-    stars = np.array([[int(f) if f != "-" else 65 for f in line] for line in lines]) / [1e4, 1e4, 100, 100]
-    check_orientation(image, stars)
+    stars = np.array([[int(f) if f != "-" else 65 for f in line[:4]] for line in lines]) / [1e5, 1e5, 100, 100]
+    seen = stars[stars[:, 2] <= 6]
+    check_orientation(image, seen)
     image = move_47_tucanae(image)
-    image = remove_stars(image, stars)
+    image = remove_stars(image, stars[stars[:, 2] <= REMOVED_LIMIT])
     image = remove_grain(image)
     rgb, used = calibrate(image, stars)
     rgb = restore_galaxies(rgb)

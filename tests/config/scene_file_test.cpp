@@ -13,7 +13,7 @@ const std::string whole = R"({
     "unit_m": 2, "light_speed_m_s": 10,
     "sky": { "zenith": [0.1, 0.2, 0.3], "horizon": [1, 1, 1], "nadir": [0, 0, 0],
         "temperature_K": 2.725 },
-    "stars": { "catalogue": "skies/few.txt", "brightness_arcmin2": 30, "ahead_deg": [84, -19],
+    "stars": { "catalogue": "skies/few.txt", "in_depth": 70, "brightness_arcmin2": 30, "ahead_deg": [84, -19],
         "milky_way": { "panorama": "skies/milky.png", "peak_arcmin2": 0.5 } },
     "ambient": [0.25, 0.5, 0.75],
     "lights": [
@@ -48,6 +48,7 @@ TEST(SceneFileTest, EveryMemberIsRead)
     EXPECT_EQ(scene.ambient, glm::dvec3(0.25, 0.5, 0.75));
     ASSERT_TRUE(scene.stars);
     EXPECT_EQ(scene.stars->catalogue, file.parent_path() / "skies/few.txt");
+    EXPECT_EQ(scene.stars->in_depth, 70u);
     EXPECT_EQ(scene.stars->brightness_arcmin2, 30);
     EXPECT_EQ(scene.stars->ahead_deg, glm::dvec2(84, -19));
     EXPECT_EQ(scene.stars->milky_way.value().panorama, file.parent_path() / "skies/milky.png");
@@ -133,6 +134,7 @@ TEST(SceneFileTest, WrongScenesAreRefused)
                 "lacks \"peak_arcmin2\""},
             {with(R"("stars": { "catalogue": "a", "milky_way": { "panorama": "a.png", "peak_arcmin2": 0 } })"),
                 "/stars/milky_way/peak_arcmin2", "0", "is too small"},
+            {with(R"("stars": { "catalogue": "a", "in_depth": 5000 })"), "/stars/in_depth", "5000", "leaves no place for the other stars"},
             {with(R"("stars": { "catalogue": "a", "ahead_deg": [84] })"), "/stars/ahead_deg", "[84]", "has length 1; "},
             {with(R"("stars": { "catalogue": "a", "ahead_deg": [-1, 0] })"), "/stars/ahead_deg/0", "-1", "is too small"},
             {with(R"("stars": { "catalogue": "a", "ahead_deg": [0, 91] })"), "/stars/ahead_deg/1", "91", "is too large"},

@@ -18,7 +18,9 @@ std::vector<shared::StarEntry> even_sky(int count)
     std::vector<Star> stars;
     for (int i = 0; i < count; ++i)
         stars.push_back({glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))), 5, 5772});
-    return star_entries(stars, {"", 500, {0, 0}});
+    std::vector<shared::StarEntry> entries(stars.size());
+    stars_from(star_field(stars, {"", 500, {0, 0}}, 1), {0, 0, 0}, entries);
+    return entries;
 }
 
 glm::dmat3 view_matrix(double fov_deg, glm::ivec2 size)

@@ -48,7 +48,7 @@ TEST(Allocations, AFrameTakesNothingFromTheHeap)
     file.stars = avenue().world.scene.stars;
     Device quiet({.name = device_options(false).name});
     Pipelines quiet_pipelines(quiet);
-    const GpuWorld world = upload(quiet, quiet_pipelines, load_world(file), file, load_stars(file.stars->catalogue));
+    const GpuWorld world = upload(quiet, quiet_pipelines, load_world(file), file, stars_in_depth(*file.stars));
     OffscreenRenderer renderer(
         quiet, quiet_pipelines, world, one_view(Planar{60}, {320, 240}), default_quality(quiet, false), false);
     renderer.frame().meter(true);

@@ -173,7 +173,7 @@ GpuWorld clocks_world()
     const SceneFile scene = load_scene_file(testing::source_dir() / "config/scenes/clocks.json");
     World world = load_world(scene);
     add_detail_levels(world);
-    return upload(device(), pipelines(), std::move(world), scene, load_stars(scene.stars->catalogue));
+    return upload(device(), pipelines(), std::move(world), scene, stars_in_depth(*scene.stars));
 }
 
 constexpr double dial_radius = 1.9;

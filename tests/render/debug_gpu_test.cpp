@@ -117,7 +117,7 @@ TEST(Debug, EveryObjectHasANameAndEveryPassALabel)
     {
         Pipelines pipelines(device);
         const SceneFile scene = load_scene_file(starbow::testing::source_dir() / "config/scenes/avenue.json");
-        const GpuWorld world = upload(device, pipelines, load_world(scene), scene, load_stars(scene.stars->catalogue));
+        const GpuWorld world = upload(device, pipelines, load_world(scene), scene, stars_in_depth(*scene.stars));
         Layout layout = load_layout(starbow::testing::source_dir() / "config/layouts/anaglyph.json");
         layout.outputs[0].size = {320, 240};
         OffscreenRenderer renderer(

@@ -36,7 +36,7 @@ std::filesystem::path sky_scene(const std::string& name, const std::string& pict
     testing::write_text(name + ".gltf", doc.text());
     Json scene{{"gltf", name + ".gltf"}, {"unit_m", 299792458},
         {"stars",
-            {{"catalogue", testing::write_text("dark_star.txt", "0 0 3000 65\n").string()},
+            {{"catalogue", testing::write_text("dark_star.txt", "0 0 3000 65 -\n").string()},
                 {"brightness_arcmin2", brightness_arcmin2}, {"ahead_deg", {ahead_deg.x, ahead_deg.y}},
                 {"milky_way", {{"panorama", picture}, {"peak_arcmin2", peak_arcmin2}}}}}};
     if (moves)

@@ -260,14 +260,14 @@ TEST(Overlap, HiddenStarsDoNotCountForTheExposure)
     quad(doc, {0, 0, 10}, {-30, 0, 0}, {0, 30, 0}, unlit(doc, {0.2, 0.2, 0.2}));
     GpuWorld world = open_world("starry", doc,
         {{"stars",
-            {{"catalogue", testing::write_text("one_star.txt", "0 0 0 65\n").string()}, {"brightness_arcmin2", 1e4},
+            {{"catalogue", testing::write_text("one_star.txt", "0 0 0 65 -\n").string()}, {"brightness_arcmin2", 1e4},
                 {"ahead_deg", {0, 0}}}}});
     std::vector<Star> stars;
     for (int i = 0; i < 2000; ++i)
         stars.push_back({glm::transpose(world_from_equatorial({0, 0}))
                 * glm::normalize(dvec3(std::fmod(0.618 * i, 1.0) - 0.5, std::fmod(0.414 * i, 1.0) - 0.5, -1)),
             -8, 5772});
-    put_stars(device(), world, stars);
+    put_stars(world, stars);
     const Projection ahead = Planar{50}, behind = Planar{50, {}, {180, 0, 0}};
     const auto ev = [&](std::vector<Viewport> viewports) {
         Layout layout = one_view(ahead, size);

@@ -22,7 +22,7 @@ GpuWorld sky_world(const std::string& name, const dvec3& square = {0, -50, 0}, d
 {
     Doc doc;
     quad(doc, square, {half, 0, 0}, {0, half, 0}, unlit(doc, colour));
-    const auto one = testing::write_text("one_star.txt", "0 0 0 65\n");
+    const auto one = testing::write_text("one_star.txt", "0 0 0 65 -\n");
     return open_world(name, doc,
         {{"stars",
             {{"catalogue", catalogue.empty() ? one.string() : catalogue}, {"brightness_arcmin2", brightness_arcmin2},
@@ -181,7 +181,7 @@ TEST(Stars, AStarKeepsItsLightAndSizeAtEverySpeedOnEveryDisplay)
 {
     const dvec3 n(0, 0, -1);
     GpuWorld world = sky_world("single");
-    put_stars(device(), world, {star_at(n)});
+    put_stars(world, {star_at(n)});
     std::mt19937 random(3);
     std::uniform_real_distribution<double> one(-1, 1);
     const int tries = starbow::testing::all_cases() ? 6 : 3;
@@ -229,7 +229,7 @@ TEST(Stars, AStarKeepsItsLightAndSizeAtEverySpeedOnEveryDisplay)
 TEST(Stars, LightIsTheSameAnywhereBetweenPixels)
 {
     GpuWorld world = sky_world("drifting");
-    put_stars(device(), world, {star_at({0, 0, -1})});
+    put_stars(world, {star_at({0, 0, -1})});
     OffscreenRenderer offscreen = renderer(world, one_view(Planar{20}, {64, 64}));
     double low = 1e9, high = 0;
     for (int step = 0; step < 64; ++step) {
@@ -256,7 +256,7 @@ TEST(Stars, TheSkyCrowdsAhead)
         const double z = 1 - (2 * i + 1.0) / count, across = std::sqrt(1 - z * z), a = i * pi * (3 - std::sqrt(5.0));
         stars.push_back(star_at({across * std::cos(a), across * std::sin(a), z}));
     }
-    put_stars(device(), world, stars);
+    put_stars(world, stars);
     OffscreenRenderer offscreen = renderer(world, one_view(Fisheye{180, 90}, {400, 400}));
     for (double gamma : {1.0, 2.0, 4.0, 10.0}) {
         const Numbers numbers(offscreen, shot_at({0, 0, 0}, {0, 0, -u_of_gamma(gamma)}, {0, 0, -1}));
@@ -291,7 +291,7 @@ TEST(Stars, AStarIsABlackBodyAtDT)
     };
     for (const Case& c : {Case{5772, 2.90}, {5772, 10000 / 5772.0}, {2856, 5772 / 2856.0}, {10000, 0.2856}, {5772, 7.872983},
              {3500, 1.001}, {30000, 0.5}, {2300, 1e3}}) {
-        put_stars(device(), world, {star_at({0, 0, -1}, c.T)});
+        put_stars(world, {star_at({0, 0, -1}, c.T)});
         OffscreenRenderer offscreen = renderer(world, one_view(Planar{20}, {64, 64}));
         Shot shot = shot_at({0, 0, 0}, {0, 0, -0.5 * (c.D - 1 / c.D)}, {0, 0, -1});
         shot.effects = {true, true, true};
@@ -320,7 +320,7 @@ TEST(Stars, WithoutAberrationStarsStayAndUseTheirPixelsD)
 {
     GpuWorld world = sky_world("still");
     const dvec3 n = glm::normalize(dvec3(0.1, 0.05, -1));
-    put_stars(device(), world, {star_at(n)});
+    put_stars(world, {star_at(n)});
     OffscreenRenderer offscreen = renderer(world, one_view(Planar{20}, {64, 64}));
     Shot shot = shot_at({0, 0, 0}, {0, u_of_gamma(3), 0}, {0, 0, -1});
     shot.effects = {false, false, true};
@@ -348,7 +348,7 @@ TEST(Stars, AStarAndASmallDiscLoseAndGainTheSameLight)
     const double half = away * std::tan(half_deg * degree);
     const dvec3 disc = away * glm::normalize(dvec3(-std::tan(degree), 0, -1));
     GpuWorld world = sky_world("disc", disc, half, "", {0, 0}, {1, 1, 1});
-    put_stars(device(), world, {star_at({std::tan(degree), 0, -1})});
+    put_stars(world, {star_at({std::tan(degree), 0, -1})});
     const ReferenceWorld rays = open_reference_world(testing::scratch("disc.json"));
     auto add = [](Halves& halves, const dvec3& way, double light) { (way.x < 0 ? halves.disc : halves.star) += light; };
     auto live = [&](const Layout& layout, const Shot& shot) {
@@ -403,7 +403,7 @@ TEST(Stars, TheWholeSkysLightIsTheCataloguesSum)
     std::vector<Star> stars = load_stars(testing::source_dir() / "scenes/stars/stars.txt");
     for (Star& star : stars)
         star.temperature_K = T;
-    put_stars(device(), world, stars);
+    put_stars(world, stars);
     const dvec2 size(720, 360);
     OffscreenRenderer offscreen = renderer(world, one_view(Equirectangular{}, ivec2(size)));
     auto luminance_of = [](double kelvin) {
@@ -496,7 +496,7 @@ const AllRound all_round[]
 TEST(Stars, EachStarAppearsOnceAndWholeOnPanoramas)
 {
     GpuWorld world = sky_world("all_round");
-    put_stars(device(), world, {star_at({0, 0, -1})});
+    put_stars(world, {star_at({0, 0, -1})});
     std::mt19937 random(11);
     std::uniform_real_distribution<double> one(-1, 1);
     std::vector<std::pair<const char*, dvec3>> ways;
@@ -572,7 +572,7 @@ TEST(Stars, TheExposureFollowsTheVisibleStars)
         stars.push_back(star_at({one(random), one(random), one(random)}));
         stars.back().magnitude = 3 + 4 * one(random);
     }
-    put_stars(device(), world, stars);
+    put_stars(world, stars);
     const dmat3 turn = world_from_equatorial({0, 0});
     for (const auto& [name, projection] : displays)
         for (double gamma : {2.0}) {
@@ -650,7 +650,7 @@ TEST(Stars, ObjectsHideTheStarsBehindThem)
     std::vector<Star> stars;
     for (const Case& c : cases)
         stars.push_back(star_at(direction(c)));
-    put_stars(device(), world, stars);
+    put_stars(world, stars);
     for (const auto& [name, projection] : displays)
         for (double gamma : {1.0, 1.5}) {
             OffscreenRenderer offscreen = renderer(world, one_view(projection, size_for(name)));
@@ -678,7 +678,7 @@ TEST(Stars, ObjectsHideOtherStarsFromEachEye)
     for (StereoMethod method : {StereoMethod::exact, StereoMethod::reprojected})
         for (double x : {-0.03, 0.0, 0.03}) {
             // From an eye at x, the square covers the star at (-x, 0, -1).
-            put_stars(device(), world, {star_at({-x, 0, -1})});
+            put_stars(world, {star_at({-x, 0, -1})});
             Layout layout = one_view(Planar{20}, {400, 200});
             layout.outputs[0].packing = Packing::side_by_side;
             layout.stereo = {.method = method, .separation_m = 0.06};
@@ -701,7 +701,7 @@ TEST(Stars, ASpotIsWholeAcrossTheSeamOfTwoViewports)
         {.rect = {0.5, 0, 0.5, 1}, .projection = Planar{20, Sides{0, 20, -10, 10}}}};
     for (double offset : {-0.7, -0.2, 0.3, 1.1}) {
         const double pixel = std::tan(20 * degree) / 64;
-        put_stars(device(), world, {star_at({offset * pixel, 0, -1})});
+        put_stars(world, {star_at({offset * pixel, 0, -1})});
         OffscreenRenderer offscreen = renderer(world, layout);
         const Numbers numbers(offscreen, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
         const double light = luminance(sum_of(numbers).light) / (brightness_arcmin2 * arcmin2_sr);

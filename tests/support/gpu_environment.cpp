@@ -37,8 +37,8 @@ void GpuEnvironment::expect_no_complaints(const Device& device)
         ADD_FAILURE() << "validation: " << complaint;
 }
 
-WithoutStars::WithoutStars() { put_stars(device(), avenue().world, {}); }
-WithoutStars::~WithoutStars() { put_stars(device(), avenue().world, load_stars(avenue().world.scene.stars->catalogue)); }
+WithoutStars::WithoutStars() { put_stars(avenue().world, {}); }
+WithoutStars::~WithoutStars() { put_stars(avenue().world, stars_in_depth(*avenue().world.scene.stars)); }
 
 Quality test_quality()
 {

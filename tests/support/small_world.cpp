@@ -34,7 +34,7 @@ GpuWorld open_world(const std::string& name, const Doc& doc, Json scene)
     World world = load_world(file);
     add_detail_levels(world);
     return upload(
-        device(), pipelines(), std::move(world), file, file.stars ? load_stars(file.stars->catalogue) : std::vector<Star>());
+        device(), pipelines(), std::move(world), file, file.stars ? stars_in_depth(*file.stars) : std::vector<Star>());
 }
 
 const Json smooth_sky = {{"zenith", {0.25, 0.45, 0.80}}, {"horizon", {0.70, 0.60, 0.40}}, {"nadir", {0.30, 0.20, 0.55}}};

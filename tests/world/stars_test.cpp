@@ -36,20 +36,24 @@ glm::dvec3 from_table(double kelvin)
 TEST(StarsTest, TheShippedCatalogueHasKnownStars)
 {
     const std::vector<Star> stars = load_stars(catalogue);
-    EXPECT_EQ(stars.size(), 5044u);
-    EXPECT_LT(std::filesystem::file_size(catalogue), 120000u);
+    EXPECT_EQ(stars.size(), 118216u);
+    EXPECT_LT(std::filesystem::file_size(catalogue), 3'500'000u);
     EXPECT_TRUE(std::filesystem::exists(catalogue.parent_path() / "LICENSE"));
-    int brighter_than_1_5 = 0, south = 0;
+    int brighter_than_1_5 = 0, south = 0, known_distances = 0, eyes = 0;
     for (const Star& star : stars) {
         ASSERT_NEAR(glm::length(star.direction), 1, 1e-12);
-        ASSERT_LE(star.magnitude, 6);
-        ASSERT_GT(star.temperature_K, 2000);
-        ASSERT_LT(star.temperature_K, 35000);
+        ASSERT_LE(star.magnitude, 14);
+        ASSERT_GT(star.temperature_K, 1000);
+        ASSERT_LT(star.temperature_K, 50000);
+        known_distances += star.distance_m != unknown_distance_m;
+        eyes += star.magnitude <= 6;
         brighter_than_1_5 += star.magnitude < 1.5;
         south += star.direction.z < 0;
     }
     EXPECT_NEAR(brighter_than_1_5, 22, 1); // 22 stars are "of first magnitude"; one more is at 1.50
-    EXPECT_NEAR(south, 2522, 200); // the Milky Way's brighter half is in the south
+    EXPECT_NEAR(south, 59108, 2000);
+    EXPECT_NEAR(known_distances, 114818, 150); // some have 1000 parsecs
+    EXPECT_NEAR(eyes, 5044, 60); // a good eye's
     // Sirius, Canopus and Betelgeuse: J2000 places, magnitudes and B-V from the Bright Star Catalogue.
     struct Known {
         double ra_deg, dec_deg, magnitude, b_v;
@@ -69,11 +73,13 @@ TEST(StarsTest, TheShippedCatalogueHasKnownStars)
 
 TEST(StarsTest, CommentsAndBlankLinesAreNoStars)
 {
-    const auto stars = load_stars(write_text("few.txt", "# two\n\n  \r\n0 0 100 65\r\n2700000\t900000 -146 -\n"));
+    const auto stars = load_stars(write_text("few.txt", "# two\n\n  \r\n0 0 100 65 1000\r\n27000000\t9000000 -146 - -\n"));
     ASSERT_EQ(stars.size(), 2u);
     EXPECT_NEAR(glm::distance(stars[0].direction, glm::dvec3(1, 0, 0)), 0, 1e-12);
     EXPECT_NEAR(glm::distance(stars[1].direction, glm::dvec3(0, 0, 1)), 0, 1e-12);
     EXPECT_EQ(stars[1].magnitude, -1.46);
+    EXPECT_NEAR(stars[0].distance_m / parsec_m, 100, 1e-9); // 10 milliseconds of arc
+    EXPECT_EQ(stars[1].distance_m, unknown_distance_m);
     EXPECT_EQ(stars[1].temperature_K, stars[0].temperature_K); // a star without B-V gets the Sun's temperature
 }
 
@@ -84,17 +90,21 @@ TEST(StarsTest, WrongCataloguesAreRefused)
     };
     for (const Case& wrong :
         {Case{"", ": holds no star; "}, {"# none\n", ": holds no star; "},
-            {"0 0 0 0\n0 0 0\n", ":2: \"0 0 0\" is no star; four columns"},
-            {"0 0 0 0 0\n", ":1: \"0 0 0 0 0\" is no star; four columns"},
-            {"3600000 0 0 0\n", ":1: \"3600000\" is no right ascension in 1e-4 degrees; a whole number from 0 to 3599999"},
-            {"-1 0 0 0\n", ":1: \"-1\" is no right ascension"}, {"0 900001 0 0\n", ":1: \"900001\" is no declination"},
-            {"0 0 1.5 0\n", ":1: \"1.5\" is no magnitude in 0.01; a whole number from -3000 to 3000 is right"},
-            {"0 0 99999999999 0\n", ":1: \"99999999999\" is no magnitude"}, {"0 0 0 nan\n", ":1: \"nan\" is no B-V in 0.01"},
-            {"0 0 0 -51\n", ":1: \"-51\" is no B-V"}, {"0 0 0 --\n", ":1: \"--\" is no B-V"}}) {
+            {"0 0 0 0 1\n0 0 0 0\n", ":2: \"0 0 0 0\" is no star; five columns"},
+            {"0 0 0 0 - 0\n", ":1: \"0 0 0 0 - 0\" is no star; five columns"},
+            {"36000000 0 0 0 -\n",
+                ":1: \"36000000\" is no right ascension in 1e-5 degrees; a whole number from 0 to 35999999"},
+            {"-1 0 0 0 -\n", ":1: \"-1\" is no right ascension"}, {"0 9000001 0 0 -\n", ":1: \"9000001\" is no declination"},
+            {"0 0 1.5 0 -\n", ":1: \"1.5\" is no magnitude in 0.01; a whole number from -3000 to 3000 is right"},
+            {"0 0 99999999999 0 -\n", ":1: \"99999999999\" is no magnitude"},
+            {"0 0 0 nan -\n", ":1: \"nan\" is no B-V in 0.01"}, {"0 0 0 -51 -\n", ":1: \"-51\" is no B-V"},
+            {"0 0 0 -- -\n", ":1: \"--\" is no B-V"},
+            {"0 0 0 0 0\n",
+                ":1: \"0\" is no parallax in 0.01 milliseconds of arc; a whole number from 1 to 1000000 is right"}}) {
         const auto file = write_text("wrong.txt", wrong.text);
         const std::string message = complaint([&] { load_stars(file); });
         EXPECT_TRUE(message.starts_with(file.string() + wrong.says)) << message;
-        EXPECT_TRUE(message.ends_with(" is right")) << message;
+        EXPECT_TRUE(message.ends_with(" right")) << message;
     }
     EXPECT_NE(complaint([&] { load_stars(scratch("missing.txt")); }).find("does not exist; a catalogue"), std::string::npos);
     EXPECT_NE(complaint([&] { load_stars(source_dir()); }).find("is a folder; a catalogue"), std::string::npos);
@@ -102,7 +112,7 @@ TEST(StarsTest, WrongCataloguesAreRefused)
 
 TEST(StarsTest, MutatedCataloguesLoadOrAreRefused)
 {
-    expect_survives(load_stars, {"# three stars\n887929 74071 45 150\n786345 -82016 18 -3\n0 0 600 -\n"});
+    expect_survives(load_stars, {"# three stars\n8879290 740710 45 150 655\n7863450 -820160 18 -3 378\n0 0 600 - -\n"});
 }
 
 TEST(StarsTest, KnownColoursHaveTheirTemperatures)
@@ -175,7 +185,8 @@ TEST(StarsTest, FiveMagnitudesAreAFactorOf100)
 {
     const StarSky sky{"", 500, {0, 0}};
     const std::vector<Star> stars = {{{1, 0, 0}, 0, 5772}, {{1, 0, 0}, 5, 9000}};
-    const auto entries = star_entries(stars, sky);
+    std::vector<shared::StarEntry> entries(stars.size());
+    stars_from(star_field(stars, sky, 1), {0, 0, 0}, entries);
     const double arcmin = pi / 10800;
     EXPECT_NEAR(entries[0].light.y / (500 * arcmin * arcmin), 1, 1e-6);
     EXPECT_NEAR(entries[0].light.y / entries[1].light.y, 100, 1e-4);

@@ -94,7 +94,7 @@ void PartList::add_light()
         count(context.world.spectra.basis.own.size(), "lamp, glow or line", "lamps, glows or lines")
             + " each a coefficient of its own",
         own ? colours : "the scene has no lamp, glow or line but sunlit colours", {});
-    add("stars", context.world.star_count > 0, count(context.world.star_count, "star", "stars") + " in the scene's sky",
+    add("stars", !context.world.stars.stars.empty(), count(context.world.stars.stars.size(), "star", "stars") + " in the scene's sky",
         "the scene names no catalogue", [](Made& m) { m.stars.clear(), m.scene.stars.reset(); });
     add("the Milky Way", context.world.world.milky_way >= 0, "a panorama behind the stars", "the scene names none",
         [](Made& m) { m.world.milky_way = -1; });
@@ -237,7 +237,7 @@ void explain(const Trial& trial, const Device::Options& options)
     made.world = load_world(made.scene);
     add_detail_levels(made.world);
     if (made.scene.stars)
-        made.stars = load_stars(made.scene.stars->catalogue);
+        made.stars = stars_in_depth(*made.scene.stars);
     RenderContext context(trial.scene, options, trial.standard.spectra);
     MadeFrame all(context.device, context.pipelines, made);
     all.ms(context.device);
