@@ -39,6 +39,10 @@
 #define STAR_RADIUS 2.0 // radius of a star's spot, pixels
 #define STAR_SPOT                                                                                                           \
     (3.14159265 * STAR_RADIUS * STAR_RADIUS / 5.0) // the integral of (1 - r^2 / R^2)^4, pixels
+#define STAR_REACH 96.0 // greatest radius of a star's glare, pixels: a device draws points of twice the size
+#define GLARE_LEAST 0.1 // degrees; nearer, light is the star's own spot, as is all light within a pixel
+#define GLARE_MOST 3.0 // degrees; farther, glare is left out
+#define GLARE_SHOWN 5e-4 // of white: dimmer glare does not show
 
 // One image of the plan, in the warp pass's form: texel of the atlas = face coordinate * scale + offset. Each tile has
 // one entry for each of its sub-tiles, rows along the second coordinate, in a texel buffer after the rest frames'
@@ -109,7 +113,8 @@ struct CubePush {
 struct ViewPush {
     vec4 row0, row1, row2; // planar: rows of direction_from_pixel; map: rows of the rotation from the map's axes. The star
                            // pass has the inverse of both. row0.w: planar: a pixel's step on the plane at distance 1;
-                           // row1.w: finest clip level; row2.w: log2 D of the response's first row
+                           // row1.w: finest clip level; row2.w: log2 D of the response's first row; in the star pass the
+                           // light at which glare ends, or 0: no glare
     vec4 boost; // E, 1/E, exposure gain / pre-exposure (star pass: pre-exposure), near plane
     vec4 origin; // viewport's top left corner in the target, pixels; z, w: 1 / the atlas's size in texels
     vec4 eye; // REPROJECT: the eye's place from the cube map's, world, the cube map's axes. TURNING: xyz: the cockpit's

@@ -1,21 +1,30 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "physics/real.glsl"
+#include "physics/glare.glsl"
 // A star's spot: round, and the same at any speed. It is so wide that the sum over its pixels does not depend on its
-// centre's place between pixels, within 0.5 %: no star twinkles as it drifts.
+// centre's place between pixels, within 0.5 %: no star twinkles as it drifts. What the glare around it holds, it lacks.
 
 layout(constant_id = 9) const bool HALVES = false; // the picture has 16 bits a number
 
 layout(location = 0) flat in vec2 centre;
 layout(location = 1) flat in vec3 light;
+layout(location = 2) flat in vec4 glare;
 layout(location = 0) out vec4 shown;
 
 void main()
 {
-    vec2 off = (gl_FragCoord.xy - centre) / STAR_RADIUS;
-    float inside = max(1.0 - dot(off, off), 0.0);
+    vec2 off = gl_FragCoord.xy - centre;
+    float square = dot(off, off), inside = max(1.0 - square / (STAR_RADIUS * STAR_RADIUS), 0.0);
     inside *= inside;
-    shown = vec4(light * (inside * inside / STAR_SPOT), 1.0);
+    float part = inside * inside / STAR_SPOT;
+    if (glare.w > 0.0) {
+        float pixel = radians(glare.x);
+        part = part * (1.0 - glare.w)
+            + max(glare_at(square * glare.x * glare.x + glare.y) - glare.z, 0.0) * pixel * pixel;
+    }
+    shown = vec4(light * part, 1.0);
     if (HALVES) // must stay finite where bright stars meet; that light is white
         shown.rgb = clamp(shown.rgb, vec3(-16000.0), vec3(16000.0));
 }

@@ -21,6 +21,7 @@ layout(set = 1, binding = 2) uniform BlackBodies { vec4 black_bodies[STAR_STEPS]
 
 layout(location = 0) flat out vec2 centre; // pixels of the target; METERING_SAMPLES: x: the angle of a pixel, radians
 layout(location = 1) flat out vec3 light;  // of the whole star, spread over the solid angle of a pixel
+layout(location = 2) flat out vec4 glare;  // x: degrees of a pixel; y: square of the least angle; z: level of its end; w: part
 
 // Rec. 709 linear light of a black body, relative to a luminance of 1 at 5772 K.
 vec3 black_body(float kelvin)
@@ -49,6 +50,48 @@ vec3 starlight(StarEntry star, AberratedRay sight)
 }
 
 #include "find_in_map.glsl"
+#include "physics/glare.glsl"
+
+// True if the picture shows what lies `radius` around a point (degrees) at that distance, or ends there.
+bool holds_together(vec2 point, int channel, float radius, float pixel)
+{
+#ifndef FLAT
+    if (!MAP)
+        return true;
+    ivec2 size = textureSize(direction_map, 0).xy, middle = ivec2(point);
+    if (any(lessThan(middle, ivec2(0))) || any(greaterThanEqual(middle, size)))
+        return true;
+    vec3 here = texel_at(middle, channel).xyz;
+    float off = radius / pixel;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 at = ivec2(point + off * vec2(float(i == 0) - float(i == 1), float(i == 2) - float(i == 3)));
+        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size)))
+            continue;
+        vec4 there = texel_at(at, channel);
+        if (there.w > 0.0 && length(there.xyz - here) > 3.0 * radians(radius))
+            return false;
+    }
+#endif
+    return true;
+}
+
+// A bright star's glare; returns its radius, pixels. The same angle on every display, and as wide as it shows.
+float find_glare(vec2 point, int channel, float pixel_angle)
+{
+    float shown = view.row2.w, pixel = degrees(pixel_angle);
+    float whole = max(light.r, max(light.g, light.b)) * pixel_angle * pixel_angle; // over all directions
+    if (shown == 0.0 || !(whole > 0.0))
+        return STAR_RADIUS;
+    float least = max(GLARE_LEAST, pixel);
+    float radius = min(min(glare_end(shown / whole), GLARE_MOST), STAR_REACH * pixel);
+    while (radius > max(STAR_RADIUS * pixel, least) && !holds_together(point, channel, radius, pixel))
+        radius *= 0.7; // the picture has a seam there
+    if (radius <= max(STAR_RADIUS * pixel, least))
+        return STAR_RADIUS;
+    float level = glare_at(radius * radius + least * least);
+    glare = vec4(pixel, least * least, level, glare_within(radius, least, level));
+    return radius / pixel;
+}
 
 // Finds the point of the viewport (pixels from its corner) that shows n (motion axes). second: the second of two places. Where
 // a panorama's ends meet, and beyond its poles, a spot that the picture's edge cuts continues elsewhere.
@@ -84,13 +127,15 @@ void main()
         sight.D = from_camera(n, view.boost.xy).D;
 
     gl_Position = vec4(2.0, 2.0, 0.0, 1.0); // outside
-    gl_PointSize = 2.0 * STAR_RADIUS;
+    gl_PointSize = 1.0;
     centre = vec2(0.0);
     light = vec3(0.0);
+    glare = vec4(0.0);
     float pixel_angle;
     vec2 size = view.zenith.zw, point;
-    if (!find(sight.n, channel, second, point, pixel_angle) || any(lessThan(point, vec2(-STAR_RADIUS)))
-        || any(greaterThan(point, size + STAR_RADIUS)))
+    float reach = view.row2.w > 0.0 ? STAR_REACH : STAR_RADIUS;
+    if (!find(sight.n, channel, second, point, pixel_angle) || any(lessThan(point, vec2(-reach)))
+        || any(greaterThan(point, size + reach)))
         return;
     vec3 from_place = in_cube_axes(n, world_rest_frame()); // of the cube map
     if (REPROJECT)
@@ -104,14 +149,14 @@ void main()
     if (METERING_SAMPLES) {
         vec2 place = vec2(mod(float(gl_VertexIndex), view.corner.x), floor(float(gl_VertexIndex) / view.corner.x)) + 0.5;
         gl_Position = vec4(place / view.corner.xy * 2.0 - 1.0, 0.0, 1.0);
-        gl_PointSize = 1.0;
         centre = vec2(pixel_angle, 0.0);
         if (LAYERED) // fewer pixels of the picture show this star
             centre.x *= sqrt(part_of(ivec2(clamp(point, vec2(0.0), size - 1.0) + view.origin.xy)));
         return;
     }
+    gl_PointSize = 2.0 * find_glare(point, channel, pixel_angle);
     if (CHANNELS)
         light *= vec3(equal(ivec3(0, 1, 2), ivec3(channel)));
     centre = point + view.origin.xy;
-    gl_Position = vec4((point + STAR_RADIUS) / (size + 2.0 * STAR_RADIUS) * 2.0 - 1.0, 0.0, 1.0);
+    gl_Position = vec4((point + STAR_REACH) / (size + 2.0 * STAR_REACH) * 2.0 - 1.0, 0.0, 1.0);
 }

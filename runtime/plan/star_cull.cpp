@@ -8,7 +8,7 @@ namespace starbow {
 namespace {
 
 constexpr std::size_t most_patches = 2048, least_stars = 16;
-constexpr double spot_texels = 16; ///< exceeds a spot's radius in pixels also where pixels are coarser than the image
+constexpr double spot_texels = 128; ///< exceeds a glare's radius in pixels also where pixels are coarser than the image
 constexpr std::uint32_t gap = 64; ///< stars: drawing a gap of so many takes less time than another draw
 
 /// An image's pyramid of directions from the eye: unit normals of its four sides, inwards, and a margin outside that

@@ -88,8 +88,9 @@ public:
         if (input.scene.stars && !input.stars.empty())
             for (ViewAt& view : views_) {
                 view.stars = stars_.size();
-                stars_.emplace_back(input.stars, *input.scene.stars, input.scene.unit_m, eyes_[view.eye], colours_,
-                    [&](const glm::dvec3& way) { return beside(view, way); });
+                stars_.emplace_back(
+                    input.stars, *input.scene.stars, input.scene.unit_m, eyes_[view.eye], colours_,
+                    [&](const glm::dvec3& way) { return beside(view, way); }, exposure_);
             }
     }
 
@@ -111,9 +112,12 @@ public:
             const ViewRays::Row ways = view.rays.row(inside);
             for (int x = 0; x < own.size.x; ++x) {
                 const std::size_t at = std::size_t(own.corner.x + x);
-                light[std::size_t(own.canvas)][at] = pixel(view, ways, {x, inside}) * exposure_;
-                if (own.canvas == 0 && numbers)
+                const glm::dvec3 glare = glare_at(view, ways, {x, inside}) * exposure_;
+                light[std::size_t(own.canvas)][at] = pixel(view, ways, {x, inside}) * exposure_ + glare;
+                if (own.canvas == 0 && numbers) {
                     numbers[at] = numbers_at(view, ways, x);
+                    numbers[at].glare = glare;
+                }
             }
         }
     }
@@ -139,7 +143,11 @@ private:
         }
         for (int x = 0; x < width; ++x) {
             std::vector<Coat> coats;
-            std::vector<std::pair<const Here*, glm::dvec3>> lights;
+            struct Light {
+                const Here* of;
+                glm::dvec3 light, glare;
+            };
+            std::vector<Light> lights;
             for (const Here& each : here) {
                 const View& own = each.view->compiled->view;
                 const glm::ivec2 at(x - own.corner.x, each.y);
@@ -148,17 +156,19 @@ private:
                 const Coat coat = coat_of(*each.view, each.ways, at);
                 if (coat.order == nothing_shown)
                     continue;
-                lights.push_back({&each, pixel(*each.view, each.ways, at) * exposure_});
+                const glm::dvec3 glare = glare_at(*each.view, each.ways, at) * exposure_;
+                lights.push_back({&each, pixel(*each.view, each.ways, at) * exposure_ + glare, glare});
                 coats.push_back(coat);
-                coats.back().screen = tone::tone_map(glm::clamp(lights.back().second, glm::dvec3(0), glm::dvec3(1e30)));
+                coats.back().screen = tone::tone_map(glm::clamp(lights.back().light, glm::dvec3(0), glm::dvec3(1e30)));
             }
             if (coats.empty())
                 continue;
             const Coated together = laid_over(coats, plain_);
-            const auto& [of, foremost] = lights[together.foremost];
+            const auto& [of, foremost, glare] = lights[together.foremost];
             light[x] = foremost, screens[x] = together.screen;
             if (numbers)
-                numbers[x] = numbers_at(*of->view, of->ways, x - of->view->compiled->view.corner.x);
+                numbers[x] = numbers_at(*of->view, of->ways, x - of->view->compiled->view.corner.x),
+                numbers[x].glare = glare;
         }
     }
 
@@ -213,6 +223,21 @@ private:
             else
                 out = light;
         }
+        return out;
+    }
+
+    /// The change by glare of a pixel's light.
+    glm::dvec3 glare_at(const ViewAt& view, const ViewRays::Row& ways, const glm::ivec2& at) const
+    {
+        glm::dvec3 out(0);
+        if (stars_.empty())
+            return out;
+        const int channels = view.rays.channels();
+        for (int channel = 0; channel < channels; ++channel)
+            if (ways.centre(at.x, channel)) {
+                const glm::dvec3 glare = stars_[view.stars].glare(view.rays, at, channel);
+                channels == 3 ? void(out[channel] = glare[channel]) : void(out = glare);
+            }
         return out;
     }
 
@@ -560,7 +585,7 @@ Channels channels(const Reference& r)
         const Reference::Numbers& n = r.numbers[i];
         if (!n.shown)
             continue;
-        const glm::dvec3 light = glm::clamp(r.light[0][i] / r.exposure, glm::dvec3(-3e38), glm::dvec3(3e38));
+        const glm::dvec3 light = glm::clamp((r.light[0][i] - n.glare) / r.exposure, glm::dvec3(-3e38), glm::dvec3(3e38));
         const double values[] = {light.r, light.g, light.b, n.camera.x, n.camera.y, n.camera.z, n.world.x, n.world.y,
             n.world.z, n.D, n.distance, n.across.x, n.across.y, n.across.z};
         for (std::size_t k = 0; k < number_channels.size(); ++k)

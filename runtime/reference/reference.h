@@ -36,6 +36,7 @@ struct Reference {
         glm::dvec3 across; ///< the part of `world` at right angles to the observer's motion; at rest, all of it
         double D, distance;
         bool shown; ///< false: the other members are unset
+        glm::dvec3 glare{0}; ///< the part of `light` that an eye's glare adds or takes, which an EXR lacks
     };
     glm::ivec2 size{0};
     std::vector<std::vector<glm::dvec3>> light; ///< by picture: one, or two where eyes share pixels. Rec. 709 linear,

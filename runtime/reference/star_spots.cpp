@@ -9,6 +9,28 @@ namespace {
 
 constexpr double radius = 2; // of a spot, pixels
 
+constexpr double glare_shown = 5e-4; // of white
+constexpr double nearest_glare_deg = 0.1, farthest_glare_deg = 3, farthest_glare_pixels = 96;
+
+/// CIE 146:2002's equation of disability glare at small angles for 35 years: veiling luminance over illuminance, 1/sr. It is
+/// flat within `nearest` degrees.
+double glare_per_sr(double angle_deg, double nearest)
+{
+    const double softened = std::hypot(angle_deg, nearest), age = 1 + std::pow(35 / 62.5, 4);
+    return 10 / std::pow(softened, 3) + 5 * age / std::pow(softened, 2);
+}
+
+/// The angle, degrees, at which the glare of so much light (white times steradians) is the dimmest that shows; by bisection.
+double glare_radius(double light)
+{
+    double low = 1e-3, high = 1e3;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = std::sqrt(low * high);
+        (light * glare_per_sr(middle, 0) > glare_shown ? low : high) = middle;
+    }
+    return std::min(low, farthest_glare_deg);
+}
+
 /// The part of a spot's light that falls on a pixel so far from its middle.
 double profile(double square)
 {
@@ -19,7 +41,7 @@ double profile(double square)
 } // namespace
 
 StarSpots::StarSpots(const std::vector<Star>& stars, const StarSky& sky, double unit_m, const TracingEye& eye,
-    const Colours& colours, const std::function<glm::dvec3(const glm::dvec3& way)>& beside)
+    const Colours& colours, const std::function<glm::dvec3(const glm::dvec3& way)>& beside, double exposure)
 {
     const glm::dmat3 world_from_sky = world_from_equatorial(sky.ahead_deg);
     const double magnitude_0 = sky.brightness_arcmin2 * std::pow(pi / 180 / 60, 2);
@@ -40,11 +62,14 @@ StarSpots::StarSpots(const std::vector<Star>& stars, const StarSky& sky, double 
             if (effects.headlight)
                 light *= seen.D * seen.D * seen.D;
             light *= eye.solid_angle(seen); // a star is a surface too small to have a visible extent
-            all[std::size_t(i)] = {seen.n, light};
+            all[std::size_t(i)] = {seen.n, light, glare_radius(std::max({light.r, light.g, light.b}) * exposure)};
         }
     });
     std::copy_if(all.begin(), all.end(), std::back_inserter(spots_), [](const Spot& s) { return s.light != glm::dvec3(0); });
     sort(0, spots_.size(), 0);
+    for (std::size_t i = 0; i < spots_.size(); ++i)
+        if (spots_[i].glare_deg > nearest_glare_deg)
+            glaring_.push_back(i);
 }
 
 void StarSpots::sort(std::size_t first, std::size_t end, int axis)
@@ -74,12 +99,14 @@ void StarSpots::near(
         near(middle + 1, end, (axis + 1) % 3, way, reach, found);
 }
 
-glm::dvec3 StarSpots::light(const ViewRays& rays, const glm::ivec2& pixel, int channel) const
+template <class Candidates>
+std::vector<StarSpots::Seen> StarSpots::seen_near(
+    const ViewRays& rays, const glm::ivec2& pixel, int channel, double reach, const Candidates& candidates) const
 {
     const glm::dvec2 centre = glm::dvec2(pixel) + 0.5;
     const auto here = rays.direction(centre, channel);
     if (!here || spots_.empty())
-        return glm::dvec3(0);
+        return {};
     /// The steps of a pixel about a point, each from the directions on either side.
     auto steps = [&](const glm::dvec2& at, glm::dvec3& right, glm::dvec3& down) {
         for (int axis = 0; axis < 2; ++axis) {
@@ -97,11 +124,9 @@ glm::dvec3 StarSpots::light(const ViewRays& rays, const glm::ivec2& pixel, int c
     };
     glm::dvec3 right, down;
     if (!steps(centre, right, down))
-        return glm::dvec3(0);
-    std::vector<std::size_t> found;
-    near(0, spots_.size(), 0, *here, 1.5 * radius * (glm::length(right) + glm::length(down)), found);
-    glm::dvec3 all(0);
-    for (std::size_t i : found) {
+        return {};
+    std::vector<Seen> all;
+    for (std::size_t i : candidates(*here, glm::length(right) + glm::length(down))) {
         // Newton's method from this pixel finds the point that shows the star.
         glm::dvec2 at = centre;
         glm::dvec3 shown = *here, r = right, d = down;
@@ -111,7 +136,7 @@ glm::dvec3 StarSpots::light(const ViewRays& rays, const glm::ivec2& pixel, int c
             const double area_square = glm::dot(across, across);
             const glm::dvec2 move
                 = glm::dvec2(glm::dot(glm::cross(off, d), across), glm::dot(glm::cross(r, off), across)) / area_square;
-            lost = !(glm::length(at + move - centre) < 3 * radius);
+            lost = !(glm::length(at + move - centre) < 3 * reach);
             if (lost)
                 break;
             at += move;
@@ -123,11 +148,53 @@ glm::dvec3 StarSpots::light(const ViewRays& rays, const glm::ivec2& pixel, int c
                 break;
             shown = *next, r = right_there, d = down_there;
         }
-        if (lost)
+        if (const double off = glm::dot(at - centre, at - centre); !lost && off < reach * reach)
+            all.push_back({&spots_[i], off, glm::length(glm::cross(r, d))});
+    }
+    return all;
+}
+
+glm::dvec3 StarSpots::light(const ViewRays& rays, const glm::ivec2& pixel, int channel) const
+{
+    glm::dvec3 all(0);
+    const auto candidates = [&](const glm::dvec3& way, double step) {
+        std::vector<std::size_t> found;
+        near(0, spots_.size(), 0, way, 1.5 * radius * step, found);
+        return found;
+    };
+    for (const Seen& seen : seen_near(rays, pixel, channel, radius, candidates))
+        all += seen.spot->light * (profile(seen.off_square) / seen.solid_angle_sr);
+    return all;
+}
+
+glm::dvec3 StarSpots::glare(const ViewRays& rays, const glm::ivec2& pixel, int channel) const
+{
+    if (glaring_.empty())
+        return glm::dvec3(0);
+    const auto candidates = [&](const glm::dvec3& way, double) {
+        std::vector<std::size_t> found;
+        for (std::size_t i : glaring_)
+            if (glm::dot(way, spots_[i].way) > std::cos(1.5 * spots_[i].glare_deg * degree))
+                found.push_back(i);
+        return found;
+    };
+    glm::dvec3 all(0);
+    for (const Seen& seen : seen_near(rays, pixel, channel, farthest_glare_pixels, candidates)) {
+        const double pixel_deg = std::sqrt(seen.solid_angle_sr) / degree, nearest = std::max(nearest_glare_deg, pixel_deg);
+        const double end = std::min(seen.spot->glare_deg, farthest_glare_pixels * pixel_deg);
+        if (end <= std::max(radius * pixel_deg, nearest))
             continue;
-        const double off = glm::dot(at - centre, at - centre);
-        if (off < radius * radius)
-            all += spots_[i].light * (profile(off) / glm::length(glm::cross(r, d)));
+        const double level = glare_per_sr(end, nearest);
+        // All light within the end, by rings.
+        double part = 0;
+        constexpr int rings = 400;
+        for (int ring = 0; ring < rings; ++ring) {
+            const auto edge = [&](double at) { return end * std::pow(at / rings, 3); };
+            const double inner = edge(ring), outer = edge(ring + 1), middle = 0.5 * (inner + outer);
+            part += (glare_per_sr(middle, nearest) - level) * pi * (outer * outer - inner * inner) * degree * degree;
+        }
+        const double here = std::max(glare_per_sr(std::sqrt(seen.off_square) * pixel_deg, nearest) - level, 0.0);
+        all += seen.spot->light * (here - part * profile(seen.off_square) / seen.solid_angle_sr);
     }
     return all;
 }

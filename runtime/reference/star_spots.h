@@ -9,20 +9,37 @@ namespace starbow {
 class StarSpots {
 public:
     /// beside: the eye's place for a direction, as in TracingEye::look.
+    /// exposure: the shown picture's, on which it depends how far glare is seen.
     StarSpots(const std::vector<Star>& stars, const StarSky& sky, double unit_m, const TracingEye& eye,
-        const Colours& colours, const std::function<glm::dvec3(const glm::dvec3& way)>& beside);
+        const Colours& colours, const std::function<glm::dvec3(const glm::dvec3& way)>& beside, double exposure);
 
     /// The light of stars in a pixel: the parts there of the spots that reach it.
     glm::dvec3 light(const ViewRays& rays, const glm::ivec2& pixel, int channel) const;
+    /// What an eye's glare changes of that in a shown picture: light that it brings from stars around, less what it takes
+    /// from those in the pixel.
+    glm::dvec3 glare(const ViewRays& rays, const glm::ivec2& pixel, int channel) const;
 
 private:
     struct Spot {
         glm::dvec3 way; ///< unit, cockpit
         glm::dvec3 light; ///< divided by a solid angle, as a radiance
+        double glare_deg = 0; ///< radius within which its glare is seen, if pixels are small
     };
+    /// Where a spot is seen, as found from a pixel.
+    struct Seen {
+        const Spot* spot;
+        double off_square; ///< from the pixel's middle, pixels
+        double solid_angle_sr; ///< of a pixel there
+    };
+    /// The spots within `reach` pixels. candidates(way, pixel): the indices of spots that may be near a direction; pixel:
+    /// the width and height of a pixel there together, radians.
+    template <class Candidates>
+    std::vector<Seen> seen_near(
+        const ViewRays& rays, const glm::ivec2& pixel, int channel, double reach, const Candidates& candidates) const;
     void sort(std::size_t first, std::size_t end, int axis);
     void near(std::size_t first, std::size_t end, int axis, const glm::dvec3& way, double reach,
         std::vector<std::size_t>& found) const;
+    std::vector<std::size_t> glaring_; ///< indices of spots whose glare may be seen
     std::vector<Spot> spots_; ///< a k-d tree: the middle one of a range divides it along an axis
 };
 

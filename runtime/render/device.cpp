@@ -81,8 +81,8 @@ std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
 {
     if (physical.getProperties().apiVersion < VK_API_VERSION_1_3)
         return "Vulkan 1.3";
-    if (!physical.getFeatures().largePoints)
-        return "the feature largePoints";
+    if (!physical.getFeatures().largePoints || physical.getProperties().limits.pointSizeRange[1] < 2 * STAR_REACH)
+        return "the feature largePoints, with points of 192 pixels";
     if (physical.getProperties().limits.maxUniformBufferRange < 65536)
         return "64 KiB of constants at once (maxUniformBufferRange)";
     if (physical.getProperties().limits.maxTexelBufferElements < sizeof(shared::TileTable) / sizeof(glm::vec4))

@@ -110,8 +110,8 @@ void StarPass::draw(vk::CommandBuffer commands, std::size_t observer, glm::ivec2
     std::span<const StarRun> stars)
 {
     bind(commands, observer);
-    // The viewport is wider by a spot's radius: a point whose middle lies outside would not be drawn at all.
-    const glm::ivec2 radius(STAR_RADIUS);
+    // The viewport is wider by the glare's radius: a point whose middle lies outside would not be drawn at all.
+    const glm::ivec2 radius(STAR_REACH);
     const glm::vec2 low = corner - radius, wide = size + 2 * radius;
     commands.setViewport(0, vk::Viewport(low.x, low.y, wide.x, wide.y, 0, 1));
     commands.setScissor(0, rect_of(corner, size));

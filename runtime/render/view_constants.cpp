@@ -116,16 +116,16 @@ glm::vec4 ViewConstants::boost(const ViewState& view, double exposure) const
     return glm::vec4(E, 1 / E, std::min(exposure / state_.pre_exposure, 1e37), near_distance);
 }
 
-shared::ViewPush ViewConstants::star_push(const ViewState& view, double exposure) const
+shared::ViewPush ViewConstants::star_push(const ViewState& view, std::optional<double> exposure) const
 {
     const Observer& own = eyes_.observer_of(view);
     shared::ViewPush constants = push(view, own.rest_frames[0].motion_from_cockpit);
-    constants.boost = glm::vec4(own.E, 1 / own.E, std::min(exposure, 1e37), near_distance);
+    constants.boost = glm::vec4(own.E, 1 / own.E, std::min(exposure.value_or(1), 1e37), near_distance);
     const glm::dmat3 back
         = glm::inverse(own.rest_frames[0].motion_from_cockpit * view.compiled.matrix.value_or(glm::dmat3(1)));
     constants.row0 = shared::row(back, 0, constants.row0.w);
     constants.row1 = shared::row(back, 1, constants.row1.w);
-    constants.row2 = shared::row(back, 2);
+    constants.row2 = shared::row(back, 2, exposure ? GLARE_SHOWN : 0);
     return constants;
 }
 

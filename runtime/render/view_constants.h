@@ -30,8 +30,9 @@ public:
     shared::ViewPush push(const ViewState& view, const glm::dmat3& axes_from_cockpit) const;
     /// The same in the motion axes of the view's observer, exposed.
     shared::ViewPush exposed_push(const ViewState& view, double exposure) const;
-    /// The star pass's push constants: their rows lead from motion axes back to pixels.
-    shared::ViewPush star_push(const ViewState& view, double exposure) const;
+    /// The star pass's push constants: their rows lead from motion axes back to pixels. exposure: of a picture that is
+    /// shown, with the stars' glare; without one the light is as it is measured.
+    shared::ViewPush star_push(const ViewState& view, std::optional<double> exposure) const;
 
 private:
     bool needs_table(const Effects& on, StoredLight light) const; ///< at D = 1

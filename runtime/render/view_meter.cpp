@@ -40,7 +40,7 @@ void ViewMeter::record(vk::CommandBuffer commands)
 
 void ViewMeter::meter_stars(vk::CommandBuffer commands, const ViewState& view, const Meter::Cell& cell)
 {
-    shared::ViewPush constants = constants_.star_push(view, 1);
+    shared::ViewPush constants = constants_.star_push(view, {});
     constants.corner = glm::vec4(cell.size, meter_->every(), 0);
     const WarpVariant own = constants_.variant_metered(view, state_.shot.effects);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.star_meter(own));

@@ -148,7 +148,8 @@ void ViewPasses::draw_lit(vk::CommandBuffer commands, const ViewState& view, vk:
         draw_parts(commands, view, pipelines_.warp(variant, target), constants, corner, pixels.lit);
 }
 
-void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas, double exposure)
+void ViewPasses::draw_stars(
+    vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas, std::optional<double> exposure)
 {
     const Label label(device_, commands, "stars");
     const glm::ivec2 size = views_.outputs[output].size;
@@ -159,7 +160,7 @@ void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, std:
     stars_.end(commands);
 }
 
-void ViewPasses::draw_stars_of(vk::CommandBuffer commands, const ViewState& view, double exposure)
+void ViewPasses::draw_stars_of(vk::CommandBuffer commands, const ViewState& view, std::optional<double> exposure)
 {
     const shared::ViewPush constants = constants_.star_push(view, exposure);
     const WarpVariant own = constants_.variant_of_stars(view);
@@ -375,7 +376,7 @@ void ViewPasses::record_measured(
     vk::CommandBuffer commands, std::size_t output, std::size_t layer, const MeasureTarget& target)
 {
     if (stars_.on())
-        draw_stars(commands, output, layer, 0, 1);
+        draw_stars(commands, output, layer, 0, {});
     float nothing = std::nanf("");
     std::vector<vk::RenderingAttachmentInfo> colours;
     for (const Image* image : {&target.light_and_depth, &target.camera, &target.world}) {

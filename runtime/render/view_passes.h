@@ -36,7 +36,8 @@ public:
     /// The small picture, if there is one: stars and cube map, without glow.
     void draw_inset(vk::CommandBuffer commands);
     /// The stars alone, the first part of warp_layer. exposure: factor of their light.
-    void draw_stars(vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas, double exposure);
+    void draw_stars(
+        vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas, std::optional<double> exposure);
 
     /// The rotations from a measured view's motion axes and its cube map's axes to the world's, with the view's layer,
     /// corner and size.
@@ -72,7 +73,7 @@ private:
     void prepare_placards();
     void prepare_stars();
     void find_lit(ViewState& view);
-    void draw_stars_of(vk::CommandBuffer commands, const ViewState& view, double exposure);
+    void draw_stars_of(vk::CommandBuffer commands, const ViewState& view, std::optional<double> exposure);
     /// corner: added to each part's.
     void draw_parts(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
         const shared::ViewPush& constants, glm::ivec2 corner, std::span<const PixelRect> parts) const;

@@ -13,6 +13,7 @@ using rvec4 = glm::dvec4;
 #include "aberration.glsl"
 #include "boost.glsl"
 #include "galilean.glsl"
+#include "glare.glsl"
 #include "motion.glsl"
 #include "worldline.glsl"
 } // namespace starbow::physics_double
@@ -26,6 +27,7 @@ using rvec4 = glm::vec4;
 #include "aberration.glsl"
 #include "boost.glsl"
 #include "galilean.glsl"
+#include "glare.glsl"
 #include "motion.glsl"
 #include "worldline.glsl"
 } // namespace starbow::physics_float
