@@ -16,6 +16,7 @@ struct Measure {
         ship_s, ///< the ship's clock, seconds
         world_s, ///< the world's, seconds
         younger_s, ///< the time since the start by the world's clock, less that by the ship's, seconds
+        trip_s, ///< the ship's clock since the tour's last cut, seconds
         distance, ///< to `at` in the world, scene units
         angle_deg, ///< between the motion and the seen direction of `at`; straight ahead 0
         doppler, ///< D of light from `at`
@@ -28,13 +29,15 @@ struct Measure {
     Quantity quantity = Quantity::gamma;
     glm::dvec3 at{0}; ///< a place at rest in the world, scene units
     std::optional<glm::dvec3> relative_to; ///< the quantity at this place is subtracted
+    double over = 1; ///< by which the quantity is divided: 31557600 makes years of seconds
 };
 inline const std::vector<std::pair<std::string_view, Measure::Quantity>> measures{{"gamma", Measure::Quantity::gamma},
     {"beta", Measure::Quantity::beta}, {"rapidity", Measure::Quantity::rapidity}, {"ship_s", Measure::Quantity::ship_s},
     {"world_s", Measure::Quantity::world_s}, {"younger_s", Measure::Quantity::younger_s},
-    {"distance", Measure::Quantity::distance}, {"angle_deg", Measure::Quantity::angle_deg},
-    {"doppler", Measure::Quantity::doppler}, {"doppler_ahead", Measure::Quantity::doppler_ahead},
-    {"size", Measure::Quantity::size}, {"reading_s", Measure::Quantity::reading_s}, {"now_s", Measure::Quantity::now_s},
+    {"trip_s", Measure::Quantity::trip_s}, {"distance", Measure::Quantity::distance},
+    {"angle_deg", Measure::Quantity::angle_deg}, {"doppler", Measure::Quantity::doppler},
+    {"doppler_ahead", Measure::Quantity::doppler_ahead}, {"size", Measure::Quantity::size},
+    {"reading_s", Measure::Quantity::reading_s}, {"now_s", Measure::Quantity::now_s},
     {"own_colour_deg", Measure::Quantity::own_colour_deg}};
 constexpr bool has_place(Measure::Quantity quantity)
 {

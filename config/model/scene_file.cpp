@@ -66,14 +66,18 @@ Sky read_sky(const Place& place)
 
 StarSky read_stars(const Place& place, const std::filesystem::path& folder)
 {
-    reject_unknown_members(place, {"catalogue", "in_depth", "brightness_arcmin2", "ahead_deg", "milky_way"});
+    reject_unknown_members(place, {"catalogue", "in_depth", "brightness_arcmin2", "ahead_deg", "sun_deg", "milky_way"});
     StarSky stars;
     stars.catalogue = folder / text(member(place, "catalogue"));
     take(place, "brightness_arcmin2", stars.brightness_arcmin2, {0, 1e9, true});
-    if (auto p = find_member(place, "ahead_deg")) {
-        const auto angles = items(*p, 2, 2, "angles (right ascension, declination)");
-        stars.ahead_deg = {number(angles[0], {0, 360}), number(angles[1], {-90, 90})};
-    }
+    const auto direction = [](const Place& member) {
+        const auto angles = items(member, 2, 2, "angles (right ascension, declination)");
+        return glm::dvec2(number(angles[0], {0, 360}), number(angles[1], {-90, 90}));
+    };
+    if (auto p = find_member(place, "ahead_deg"))
+        stars.ahead_deg = direction(*p);
+    if (auto p = find_member(place, "sun_deg"))
+        stars.sun_deg = direction(*p);
     if (auto p = find_member(place, "milky_way")) {
         reject_unknown_members(*p, {"panorama", "peak_arcmin2"});
         stars.milky_way

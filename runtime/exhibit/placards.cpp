@@ -4,6 +4,7 @@
 #include "runtime/operation/log.h"
 #include "runtime/world/surroundings.h"
 #include <cmath>
+#include <cstdio>
 
 namespace starbow {
 namespace {
@@ -87,13 +88,22 @@ void Placards::add_inset(
     const glm::dvec2 half(half_x, half_x * Inset::aspect);
     try {
         const int width = std::clamp(int(2 * half.x / std::tan(degree) * degree_px), 64, 1024);
-        frame.show_inset(beside(shot, session.beside, session.programme.start.exposure_ev), width);
+        telescope_deg_ = session.beside == Beside::telescope ? telescope_fov_deg(glm::length(shot.u), telescope_deg_) : 0;
+        frame.show_inset(beside(shot, session.beside, session.programme.start.exposure_ev), width,
+            telescope_deg_ > 0 ? telescope_deg_ : beside_fov_deg);
     } catch (const InputError& error) {
         no_room_ = true;
         write_log(LogKind::inset_no_room, one_line(error.what()) + "; the small picture is left out");
         return;
     }
-    const std::string name = session.words(std::string("beside.") + name_of(session.beside));
+    std::string name;
+    if (telescope_deg_ > 0) {
+        char angle[32]; // 30, 1.5, 0.06
+        std::snprintf(angle, sizeof angle, "%g", telescope_deg_);
+        name = session.words("beside.telescope_angle", {{"angle", session.words.number(angle)}});
+    } else {
+        name = session.words(std::string("beside.") + name_of(session.beside));
+    }
     if (name != name_ || name_panel_.size.x == 0) {
         name_ = name;
         name_panel_ = draw_name(typesetter, name_, degree_px);

@@ -28,6 +28,7 @@ private:
     std::vector<std::string> sign_lines_;
     Panel sign_panel_, name_panel_;
     std::string name_;
+    double telescope_deg_ = 0; ///< the telescope's field; 0: none
     bool no_room_ = false; ///< for the small picture
     std::vector<Placard> placards_;
 };

@@ -47,9 +47,7 @@ double at_place(
     }
 }
 
-} // namespace
-
-double measured(const Measure& measure, const Ship& ship, const Ship& since, double seconds_per_time_unit)
+double undivided(const Measure& measure, const Ship& ship, const Ship& since, double seconds_per_time_unit)
 {
     const double speed = glm::length(ship.u.total()), E = physics::exp_rapidity(speed);
     switch (measure.quantity) {
@@ -63,6 +61,8 @@ double measured(const Measure& measure, const Ship& ship, const Ship& since, dou
         return ship.proper_time.total() * seconds_per_time_unit;
     case Measure::Quantity::world_s:
         return ship.time.total() * seconds_per_time_unit;
+    case Measure::Quantity::trip_s:
+        return (ship.proper_time.total() - since.proper_time.total()) * seconds_per_time_unit;
     case Measure::Quantity::younger_s:
         return (ship.time.total() - since.time.total() - (ship.proper_time.total() - since.proper_time.total()))
             * seconds_per_time_unit;
@@ -76,6 +76,13 @@ double measured(const Measure& measure, const Ship& ship, const Ship& since, dou
     const double value = at_place(measure.quantity, measure.at, ship, since, seconds_per_time_unit);
     return measure.relative_to ? value - at_place(measure.quantity, *measure.relative_to, ship, since, seconds_per_time_unit)
                                : value;
+}
+
+} // namespace
+
+double measured(const Measure& measure, const Ship& ship, const Ship& since, double seconds_per_time_unit)
+{
+    return undivided(measure, ship, since, seconds_per_time_unit) / measure.over;
 }
 
 } // namespace starbow

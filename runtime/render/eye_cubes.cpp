@@ -1,4 +1,5 @@
 #include "eye_cubes.h"
+#include "config/model/beside.h"
 #include "runtime/operation/trace.h"
 #include "runtime/plan/cull.h"
 #include "runtime/plan/scratch.h"
@@ -8,6 +9,20 @@
 #include <utility>
 
 namespace starbow {
+
+namespace {
+
+/// Turns an observer's cockpit: by a rotation among its own axes.
+void turn_cockpit(Observer& observer, const glm::dquat& by)
+{
+    observer.shot.ship_from_cockpit = observer.shot.ship_from_cockpit * by;
+    for (RestFrameView& view : observer.rest_frames) {
+        view.shot.ship_from_cockpit = view.shot.ship_from_cockpit * by;
+        view.motion_from_cockpit = view.motion_from_cockpit * glm::mat3_cast(by);
+    }
+}
+
+} // namespace
 
 EyeCubes::EyeCubes(
     Device& device, Pipelines& pipelines, const GpuWorld& world, FrameState& state, const ViewSet& views, SeenStars& stars)
@@ -76,10 +91,15 @@ void EyeCubes::observe_inset(Inset& inset)
     ViewState& view = inset.view;
     view.observer = observers.size() - 1;
     Observer& own = observers[view.observer];
-    if (state_.repeatable)
-        own.rest_frames.clear();
-    own = starbow::observer_of(world_.world, inset.shot, {}, std::move(own.rest_frames));
-    if (shares_cube(own, observers[first.observer])) {
+    if (looks_closer(inset)) {
+        own = observers[first.observer];
+        turn_cockpit(own, glm::inverse(state_.shot.ship_from_cockpit) * inset.shot.ship_from_cockpit);
+    } else {
+        if (state_.repeatable)
+            own.rest_frames.clear();
+        own = starbow::observer_of(world_.world, inset.shot, {}, std::move(own.rest_frames));
+    }
+    if (looks_closer(inset) || shares_cube(own, observers[first.observer])) {
         forget_inset_eye();
         view.eye = first.eye;
         return;
@@ -95,12 +115,15 @@ void EyeCubes::observe_inset(Inset& inset)
     all.back().now_m = place;
 }
 
-/// True if the small picture is warped from the cube map of the frame's first view: where neither is aberrated. Light that
-/// arrives at one event is the same for all observers there, but at another aberration they need other directions finely, so
-/// that the common cube map would have the texels of both. At the same aberration it has mips for the small picture alone,
-/// or that takes several rays a pixel; on two cores, without a GPU, a frame at gamma 4 took 1.28 and 1.27 times as long with
-/// these, and 1.19 with a small cube map of its own. Without aberration, several rays a pixel take 1.08, and the cube
-/// map 1.14.
+/// True if the small picture is a telescope that looks into the first view's own light, only finer, from the same cube map.
+bool EyeCubes::looks_closer(const Inset& inset) const { return inset.fov_deg < beside_fov_deg && !state_.reprojects(); }
+
+/// True if another small picture is warped from the cube map of the frame's first view: where neither is aberrated. Light
+/// that arrives at one event is the same for all observers there, but at another aberration they need other directions
+/// finely, so that the common cube map would have the texels of both. At the same aberration it has mips for the small
+/// picture alone, or that takes several rays a pixel; on two cores, without a GPU, a frame at gamma 4 took 1.28 and 1.27
+/// times as long with these, and 1.19 with a small cube map of its own. Without aberration, several rays a pixel take 1.08,
+/// and the cube map 1.14.
 bool EyeCubes::shares_cube(const Observer& inset, const Observer& first) const
 {
     const RestFrameView &own = inset.rest_frames[0], &other = first.rest_frames[0];
@@ -184,16 +207,19 @@ void EyeCubes::request_views(std::size_t i, double pre_exposure, const Probe* pr
         request.galilean = observers[eye.observer].shot.effects.comparison == Comparison::galilean;
         const auto add = [&](const ViewState& view) {
             if (view.eye == i)
-                request.views.push_back({view.compiled.cones.get(), rest_frame.motion_from_cockpit,
+                request.views.push_back({view.compiled.cones.get(), observer_of(view).rest_frames[at].motion_from_cockpit,
                     state_.reprojects()
                         ? std::min(MOST_PARALLAX, glm::length(views_.eye_offset(view, rest_frame)) / eye.nearest[at])
                         : 0,
-                    dark_D(view, pre_exposure), rays_of(view) / state_.quality.pixel_rays, view.observer != eye.observer});
+                    dark_D(view, pre_exposure), rays_of(view) / state_.quality.pixel_rays,
+                    view.observer != eye.observer && !looks_closer(*views_.inset)});
         };
         for (const ViewState& view : views_.all)
             add(view);
         // A request within the first view's would change nothing but the rounding of the plan.
-        if (views_.inset && (inset_eye_ || !ViewSet::shows_all_of(views_.probed_view(), views_.inset->view)))
+        if (views_.inset
+            && (inset_eye_ || looks_closer(*views_.inset)
+                || !ViewSet::shows_all_of(views_.probed_view(), views_.inset->view)))
             add(views_.inset->view);
         for (std::size_t ray = 0; probe && ray < probe->count(); ++ray)
             if (views_.probed_view(probe->ray(ray).view).eye == i)
@@ -308,8 +334,8 @@ void EyeCubes::plan(double pre_exposure, const Probe* probe)
         const auto& images = plans[i].images;
         const auto own
             = std::find_if(images.begin(), images.end(), [](const PlannedImage& image) { return image.rest_frame > 0; });
-        eye.stars = stars_in({images.begin(), own}, stars_.patches(),
-            observers[eye.observer].rest_frames[0].cube_from_frame, std::move(eye.stars));
+        eye.stars = stars_in({images.begin(), own}, stars_.patches(), observers[eye.observer].rest_frames[0].cube_from_frame,
+            std::move(eye.stars));
     }
 }
 

@@ -72,6 +72,7 @@ public:
 private:
     std::size_t eye_for(const ViewState& view);
     void forget_inset_eye();
+    bool looks_closer(const Inset& inset) const;
     bool shares_cube(const Observer& inset, const Observer& first) const;
     StoredLight inset_light(const Observer& inset) const;
     /// Bounds the surfaces of the cube map that is drawn now.

@@ -195,11 +195,11 @@ void FrameRenderer::move_head(const Head& head)
     eyes_.move();
 }
 
-void FrameRenderer::show_inset(const Shot& shot, int width)
+void FrameRenderer::show_inset(const Shot& shot, int width, double fov_deg)
 {
-    if (!views_.inset || int(views_.inset->picture.extent.width) != width) {
+    if (!views_.inset || int(views_.inset->picture.extent.width) != width || views_.inset->fov_deg != fov_deg) {
         drop_inset();
-        views_.inset = in_room([&] { return std::make_unique<Inset>(device_, pipelines_, width); });
+        views_.inset = in_room([&] { return std::make_unique<Inset>(device_, pipelines_, width, fov_deg); });
     }
     views_.inset->shot = shot;
 }

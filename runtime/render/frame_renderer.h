@@ -1,4 +1,5 @@
 #pragma once
+#include "config/model/beside.h"
 #include "view_measurement.h"
 #include "view_meter.h"
 
@@ -67,7 +68,7 @@ public:
     void place(std::span<const Placard> placards) { passes_.place(placards); }
     /// Draws a small picture of another shot of the same event as well, from the next frame on; not while a test pattern is
     /// shown. width: pixels. The device must have finished the frame before. Throws NoRoom; then there is none.
-    void show_inset(const Shot& shot, int width);
+    void show_inset(const Shot& shot, int width, double fov_deg = beside_fov_deg);
     void drop_inset(); ///< the device must have finished the frame before
     const Image& inset_picture() const { return views_.inset->picture; } ///< of the last frame; only while there is one
     /// Sets the overlay of all views and the probes from the next frame on; none: at no cost. In a world whose depth is

@@ -14,6 +14,7 @@
 namespace starbow {
 namespace {
 
+constexpr double astronomical_unit_m = parsec_m * pi / 648000;
 constexpr double sun_b_v = 0.65; // for stars whose B-V is not known
 constexpr std::size_t most_stars = 4'000'000; // 128 MB on the device for each place of an eye
 
@@ -109,6 +110,8 @@ std::vector<Star> stars_in_depth(const StarSky& sky)
 {
     std::vector<Star> stars = by_brightness(sky);
     stars.resize(std::min(stars.size(), sky.in_depth));
+    if (sky.sun_deg) // magnitude -26.74 at one astronomical unit (IAU 2015, resolution B2: absolute bolometric 4.74)
+        stars.push_back({equatorial(sky.sun_deg->x, sky.sun_deg->y), -26.74, sun_K, astronomical_unit_m});
     return stars;
 }
 
@@ -161,7 +164,6 @@ glm::dmat3 world_from_equatorial(const glm::dvec2& ahead_deg)
 StarField star_field(const std::vector<Star>& stars, const StarSky& sky, double unit_m)
 {
     constexpr std::size_t brightest = 5000; // about as many as a good eye sees from the Earth
-    constexpr double astronomical_unit_m = parsec_m * pi / 648000;
     const glm::dmat3 turn = world_from_equatorial(sky.ahead_deg);
     const double arcmin2 = std::pow(degree / 60, 2);
     StarField field{{}, std::min(stars.size(), brightest), astronomical_unit_m / unit_m};

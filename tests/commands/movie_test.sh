@@ -38,6 +38,14 @@ ok [ "$(count "$movie")" = 64,48,15/1,30 ]
 ok [ ! -e "$frames" ]
 ok grep -q '30 frames, 2.0 s' "$folder/said"
 ok [ ! -s "$folder/errors" ]
+# It shows the tour: at the end the ship has flown and the caption is gone. How alike two frames are, dB.
+alike() { # FRAME FRAME
+    for frame in "$1" "$2"; do ffmpeg -v error -y -i "$movie" -vf "select=eq(n\\,$frame)" -frames:v 1 "$folder/frame-$frame.png"; done
+    ffmpeg -hide_banner -i "$folder/frame-$1.png" -i "$folder/frame-$2.png" -lavfi psnr -f null - 2>&1 | sed -n 's/.*average:\([0-9a-z]*\).*/\1/p'
+}
+ok [ "$(alike 2 13)" = inf -o "$(alike 2 13)" -gt 35 ]
+ok [ "$(alike 2 29)" -lt 30 ]
+ok [ "$(alike 20 29)" -lt 35 ]
 "$program" render --tour "$folder/tour.json" --movie "$folder/odd.mp4" --fps 5 --size 63x47 >/dev/null || fail "a movie of odd size fails"
 ok [ "$(count "$folder/odd.mp4")" = 64,48,5/1,10 ]
 

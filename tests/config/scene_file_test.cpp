@@ -13,7 +13,7 @@ const std::string whole = R"({
     "unit_m": 2, "light_speed_m_s": 10,
     "sky": { "zenith": [0.1, 0.2, 0.3], "horizon": [1, 1, 1], "nadir": [0, 0, 0],
         "temperature_K": 2.725 },
-    "stars": { "catalogue": "skies/few.txt", "in_depth": 70, "brightness_arcmin2": 30, "ahead_deg": [84, -19],
+    "stars": { "catalogue": "skies/few.txt", "in_depth": 70, "brightness_arcmin2": 30, "ahead_deg": [84, -19], "sun_deg": [10, -5],
         "milky_way": { "panorama": "skies/milky.png", "peak_arcmin2": 0.5 } },
     "ambient": [0.25, 0.5, 0.75],
     "lights": [
@@ -51,6 +51,7 @@ TEST(SceneFileTest, EveryMemberIsRead)
     EXPECT_EQ(scene.stars->in_depth, 70u);
     EXPECT_EQ(scene.stars->brightness_arcmin2, 30);
     EXPECT_EQ(scene.stars->ahead_deg, glm::dvec2(84, -19));
+    EXPECT_EQ(scene.stars->sun_deg, glm::dvec2(10, -5));
     EXPECT_EQ(scene.stars->milky_way.value().panorama, file.parent_path() / "skies/milky.png");
     EXPECT_EQ(scene.milky_way(), 15);
     ASSERT_EQ(scene.lights.size(), 4u);

@@ -58,7 +58,7 @@ TEST(TourFile, ShippedToursAreReadInEveryLanguage)
         for (const auto& language : shipped("config/words")) {
             const Tour tour = load_tour(file, load_words(language), shipped_shot);
             EXPECT_EQ(tour.steps.size(), text["steps"].size());
-            EXPECT_TRUE(std::filesystem::exists(source_dir() / "config/scenes" / (tour.scene + ".json")));
+            EXPECT_TRUE(std::filesystem::exists(scene_of(tour))) << tour.scene;
             for (const Step& step : tour.steps)
                 EXPECT_TRUE(step.question || !step.caption.empty()) << "a step needs a caption or a question";
         }

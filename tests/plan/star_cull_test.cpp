@@ -83,10 +83,10 @@ TEST(StarCull, KeepsTheStarsInViewAndFewOthers)
                     ++in_view;
                 }
             }
-            // The images are rectangles on a cube's faces, the patches have a width, and spots need a margin. At greater
-            // speeds a pixel is many degrees wide.
+            // The images are rectangles on a cube's faces, the patches have a width, and glare reaches in over a margin of 128
+            // texels, 11 degrees here. At greater speeds a pixel is many degrees wide.
             if (E <= 2) {
-                EXPECT_LE(double(sum), 3 * double(in_view) + 0.12 * double(stars.size())) << "E " << E;
+                EXPECT_LE(double(sum), 3 * double(in_view) + 0.18 * double(stars.size())) << "E " << E;
             }
             EXPECT_LT(runs.size(), 300u);
         }

@@ -80,7 +80,7 @@ Layout small(const std::string& name, int longest)
 void compare(const GpuWorld& world, const Layout& layout, const Shot& ship, const Quality& quality, bool shared)
 {
     OffscreenRenderer whole(device(), pipelines(), world, layout, quality, false);
-    const Layout alone = one_view(Planar{Inset::fov_y_deg}, size);
+    const Layout alone = one_view(Planar{beside_fov_deg}, size);
     OffscreenRenderer own(device(), pipelines(), world, alone, quality, false);
     OffscreenRenderer fine(device(), pipelines(), world, alone, reference_quality(), false);
     for (OffscreenRenderer* one : {&whole, &own})
@@ -95,8 +95,8 @@ void compare(const GpuWorld& world, const Layout& layout, const Shot& ship, cons
         const Bytes shown = inset_of(whole), apart = own.picture(starbow::beside(event, kind, 0.5))[0];
         if (shared) {
             const Bytes wanted = fine.picture(starbow::beside(event, kind, 0.5))[0];
-            // 0.3 to 0.45 where a pixel of the small picture is some of the large one's; 1.35 where it is finer, in a headset;
-            // 1.2 where one with a cube map of its own has several rays a pixel, too.
+            // 0.3 to 0.45 where a pixel of the small picture is some of the large one's; 1.35 where it is finer, in a
+            // headset; 1.2 where one with a cube map of its own has several rays a pixel, too.
             const double bound = layout.file.stem() == "headset" || quality.pixel_rays > 1 ? 1.5 : 0.6;
             EXPECT_LT(steps(shown, wanted).mean, bound * steps(apart, wanted).mean) << layout.file;
             EXPECT_GT(steps(apart, wanted).mean, 0);
@@ -207,6 +207,39 @@ TEST(InsetGpuTest, ItFollowsEveryChangeOfTheFrame)
     whole.picture(fast);
     EXPECT_EQ(inset_of(whole).size(), in_flight.size() / 4);
     EXPECT_EQ(shown(fast), in_flight);
+}
+
+// At great gamma all the world is a patch of a few degrees: the telescope shows it as fine as a picture of its own would.
+TEST(InsetGpuTest, TheTelescopeIsSharpAndTheLargePictureStays)
+{
+    const Layout layout = small("desk", 400);
+    for (const double gamma : {1.0, 4.0, 30.0, 100.0})
+        for (const double look : {0.0, 0.4}) {
+            const Shot ship = flying(gamma, true, look);
+            const double fov_deg = telescope_fov_deg(u_of_gamma(gamma), 0);
+            OffscreenRenderer whole(device(), pipelines(), avenue().world, layout, test_quality(), false);
+            const Layout alone = one_view(Planar{fov_deg}, size);
+            OffscreenRenderer own(device(), pipelines(), avenue().world, alone, test_quality(), false);
+            OffscreenRenderer fine(device(), pipelines(), avenue().world, alone, reference_quality(), false);
+            whole.frame().repeatable(true), own.frame().repeatable(true);
+            const Shot event = at_eye(
+                ship, whole.frame().views().probed_view().cube_m, layout.stereo.hyper_stereo, avenue().world.scene.unit_m);
+            const Bytes bare = whole.picture(ship)[0];
+            whole.frame().show_inset(beside(ship, Beside::telescope, 0), width, fov_deg);
+            const Bytes with = whole.picture(ship)[0], shown = inset_of(whole);
+            const Shot through = beside(event, Beside::telescope, 0);
+            if (gamma > 1) {
+                EXPECT_NEAR((through.ship_from_cockpit * dvec3(0, 0, -1)).z, -1, 1e-9); // along the flight
+            }
+            const Bytes wanted = fine.picture(through)[0];
+            const Steps off = steps(shown, wanted), apart = steps(own.picture(through)[0], wanted);
+            std::printf("  gamma %g: %g degrees, %.2f steps from fine, its own picture %.2f; the large picture %.3f\n",
+                gamma, fov_deg, off.mean, apart.mean, steps(bare, with).mean);
+            // The images are cut for the large picture, too, and share its limit of texels: at gamma 100 that costs half of
+            // the sharpness, below it costs nothing.
+            EXPECT_LT(off.mean, (gamma > 50 ? 2.5 : 1.5) * apart.mean);
+            EXPECT_LT(steps(bare, with).mean, 1);
+        }
 }
 
 } // namespace starbow::gpu_test::inset_gpu_test

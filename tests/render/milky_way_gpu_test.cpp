@@ -40,7 +40,8 @@ std::filesystem::path sky_scene(const std::string& name, const std::string& pict
                 {"brightness_arcmin2", brightness_arcmin2}, {"ahead_deg", {ahead_deg.x, ahead_deg.y}},
                 {"milky_way", {{"panorama", picture}, {"peak_arcmin2", peak_arcmin2}}}}}};
     if (moves)
-        scene["bodies"] = {{{"name", "mover"}, {"nodes", {"mover"}}, {"velocity", {{"direction", {1, 0, 0}}, {"beta", 0.5}}}}};
+        scene["bodies"]
+            = {{{"name", "mover"}, {"nodes", {"mover"}}, {"velocity", {{"direction", {1, 0, 0}}, {"beta", 0.5}}}}};
     return testing::write_text(name + ".json", scene.dump());
 }
 
@@ -95,7 +96,8 @@ TEST(MilkyWay, ASpotIsInItsPlaceOnEveryDisplay)
                         }
                     // Bytes have steps of 0.9 % at white. In flight a pixel ahead is spread over 2.3 degrees, which
                     // takes 1 % of the spot's top; the greatest slope is 0.05 of white per degree.
-                    EXPECT_LT(worst, 0.02 * white) << "display " << display.index() << ", " << place.x << ", moves " << moves << ", beta " << beta;
+                    EXPECT_LT(worst, 0.02 * white)
+                        << "display " << display.index() << ", " << place.x << ", moves " << moves << ", beta " << beta;
                     if (beta == 0) {
                         EXPECT_GT(most, 0.95 * white);
                     }

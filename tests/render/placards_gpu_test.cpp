@@ -32,8 +32,8 @@ std::vector<ivec2> changed(const Bytes& a, const Bytes& b, ivec2 of)
 TEST(Placards, TheSmallPictureIsShownAsItIs)
 {
     // Over the whole view, so that its pixels are the view's.
-    const double half = std::tan(glm::radians(0.5 * Inset::fov_y_deg));
-    OffscreenRenderer whole = renderer(avenue().world, one_view(Planar{Inset::fov_y_deg}, size), false);
+    const double half = std::tan(glm::radians(0.5 * beside_fov_deg));
+    OffscreenRenderer whole = renderer(avenue().world, one_view(Planar{beside_fov_deg}, size), false);
     const Shot moving = in_flight();
     const Bytes bare = whole.picture(moving)[0];
     const Shot resting = starbow::beside(moving, Beside::at_rest, moving.exposure_ev);
@@ -56,7 +56,7 @@ TEST(Placards, TheSmallPictureIsShownAsItIs)
     whole.frame().drop_inset();
     whole.frame().repeatable(true);
     const Bytes alone = whole.picture(moving)[0];
-    OffscreenRenderer fresh = renderer(avenue().world, one_view(Planar{Inset::fov_y_deg}, size), false);
+    OffscreenRenderer fresh = renderer(avenue().world, one_view(Planar{beside_fov_deg}, size), false);
     fresh.frame().repeatable(true);
     EXPECT_EQ(alone, fresh.picture(moving)[0]);
 }

@@ -244,6 +244,50 @@ TEST(Stars, LightIsTheSameAnywhereBetweenPixels)
     EXPECT_LT(high, 1.01);
 }
 
+// ---------------------------------------------------------------- published stars
+
+// Places, magnitudes and B-V of the Bright Star Catalogue (Hoffleit and Warren 1991), which the shipped catalogue was not
+// made from. What a picture shows of each: all light about its place, and the colour index of the black body of its colour.
+TEST(Stars, BrightStarsHaveTheirPublishedMagnitudesAndColoursInThePicture)
+{
+    struct Known {
+        const char* name;
+        double ra_deg, dec_deg, V, b_v;
+        bool varies = false;
+    };
+    const Known known[] = {{"Sirius", 101.287, -16.716, -1.46, 0.00}, {"Canopus", 95.988, -52.696, -0.72, 0.15},
+        {"Arcturus", 213.915, 19.182, -0.04, 1.23}, {"Vega", 279.235, 38.784, 0.03, 0.00},
+        {"Rigel", 78.634, -8.202, 0.12, -0.03}, {"Procyon", 114.825, 5.225, 0.38, 0.42},
+        {"Betelgeuse", 88.793, 7.407, 0.50, 1.85, true}, {"Altair", 297.696, 8.868, 0.77, 0.22},
+        {"Aldebaran", 68.980, 16.509, 0.85, 1.54}, {"Spica", 201.298, -11.161, 0.98, -0.23}};
+    const auto index_of = [](const dvec2& xy) { // by trying
+        double best = 0, least = 1e9;
+        for (double b_v = -0.4; b_v < 2.2; b_v += 0.005) {
+            const dvec3 xyz = black_body_xyz(temperature_of(b_v));
+            const double off = glm::distance(dvec2(xyz) / (xyz.x + xyz.y + xyz.z), xy);
+            if (off < least)
+                least = off, best = b_v;
+        }
+        return best;
+    };
+    for (const Known& star : known) {
+        const GpuWorld world = sky_world("published", {0, -50, 0}, 0.1,
+            absolute(testing::source_dir() / "scenes/stars/stars.txt").string(), {star.ra_deg, star.dec_deg});
+        OffscreenRenderer offscreen = renderer(world, one_view(Planar{2}, {80, 80}));
+        const Numbers numbers(offscreen, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
+        const std::vector<double> solid = solid_angles(numbers);
+        dvec3 light(0);
+        for (int i = 0; i < numbers.count(); ++i)
+            if (between(numbers.camera(i), {0, 0, -1}) < 0.1 * degree)
+                light += numbers.light(i) * solid[i];
+        const double V = -2.5 * std::log10(luminance(light) / (brightness_arcmin2 * arcmin2_sr)),
+                     b_v = index_of(chromaticity_of(light));
+        std::printf("  %-12s V %5.2f, published %5.2f; B-V %5.2f, published %5.2f\n", star.name, V, star.V, b_v, star.b_v);
+        EXPECT_NEAR(V, star.V, star.varies ? 0.2 : 0.11) << star.name; // catalogues differ by as much
+        EXPECT_NEAR(b_v, star.b_v, star.varies ? 0.4 : 0.05) << star.name;
+    }
+}
+
 // ---------------------------------------------------------------- effects of speed
 
 // With evenly spread stars, (1 + beta) / 2 of them appear in the front half of the sky.

@@ -19,8 +19,9 @@ std::string text_of(const Caption& caption)
 }
 
 /// A digest of the states and texts of all frames: where it is equal, so are they.
-std::uint64_t digest_of_frames(TourFilm& film, const Show& show, const Words& words)
+std::uint64_t digest_of_frames(const Show& show, long frames_per_s, const Words& words)
 {
+    TourFilm film(show, frames_per_s);
     std::uint64_t shown = digest(std::string_view());
     for (long i = 0; i < film.frames(); ++i) {
         const Touring& touring = film.at(i);
@@ -49,8 +50,8 @@ int render_tour(const TourOptions& options)
     TourFilm states(show, options.film.frames_per_s);
     RenderContext context(scene, device_options(false));
     Filming film(options.film, layout, scene, words, states.frames(), context.device.name(),
-        {{"tour", tour.file.stem().string()}, {"states", shown_digest(digest_of_frames(states, show, words))},
-            {"bloom", options.bloom}});
+        {{"tour", tour.file.stem().string()},
+            {"states", shown_digest(digest_of_frames(show, options.film.frames_per_s, words))}, {"bloom", options.bloom}});
 
     OffscreenRenderer renderer(
         context.device, context.pipelines, context.world, layout, default_quality(context.device, true), false);
