@@ -166,9 +166,10 @@ private:
             const Coated together = laid_over(coats, plain_);
             const auto& [of, foremost, glare] = lights[together.foremost];
             light[x] = foremost, screens[x] = together.screen;
-            if (numbers)
-                numbers[x] = numbers_at(*of->view, of->ways, x - of->view->compiled->view.corner.x),
+            if (numbers) {
+                numbers[x] = numbers_at(*of->view, of->ways, x - of->view->compiled->view.corner.x);
                 numbers[x].glare = glare;
+            }
         }
     }
 
@@ -236,7 +237,10 @@ private:
         for (int channel = 0; channel < channels; ++channel)
             if (ways.centre(at.x, channel)) {
                 const glm::dvec3 glare = stars_[view.stars].glare(view.rays, at, channel);
-                channels == 3 ? void(out[channel] = glare[channel]) : void(out = glare);
+                if (channels == 3)
+                    out[channel] = glare[channel];
+                else
+                    out = glare;
             }
         return out;
     }

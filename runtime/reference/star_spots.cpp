@@ -20,6 +20,20 @@ double glare_per_sr(double angle_deg, double nearest)
     return 10 / std::pow(softened, 3) + 5 * age / std::pow(softened, 2);
 }
 
+/// The part of a point's light in its glare above the glare's level at its end, degrees: a sum over rings.
+double light_of_glare(double end, double nearest)
+{
+    const double level = glare_per_sr(end, nearest);
+    double part = 0;
+    constexpr int rings = 400;
+    for (int ring = 0; ring < rings; ++ring) {
+        const auto edge = [&](double at) { return end * std::pow(at / rings, 3); };
+        const double inner = edge(ring), outer = edge(ring + 1), middle = 0.5 * (inner + outer);
+        part += (glare_per_sr(middle, nearest) - level) * pi * (outer * outer - inner * inner) * degree * degree;
+    }
+    return part;
+}
+
 /// The angle, degrees, at which the glare of so much light (white times steradians) is the dimmest that shows; by bisection.
 double glare_radius(double light)
 {
@@ -69,7 +83,7 @@ StarSpots::StarSpots(const std::vector<Star>& stars, const StarSky& sky, double 
     sort(0, spots_.size(), 0);
     for (std::size_t i = 0; i < spots_.size(); ++i)
         if (spots_[i].glare_deg > nearest_glare_deg)
-            glaring_.push_back(i);
+            glaring_.push_back({i, std::cos(1.5 * spots_[i].glare_deg * degree)});
 }
 
 void StarSpots::sort(std::size_t first, std::size_t end, int axis)
@@ -173,9 +187,9 @@ glm::dvec3 StarSpots::glare(const ViewRays& rays, const glm::ivec2& pixel, int c
         return glm::dvec3(0);
     const auto candidates = [&](const glm::dvec3& way, double) {
         std::vector<std::size_t> found;
-        for (std::size_t i : glaring_)
-            if (glm::dot(way, spots_[i].way) > std::cos(1.5 * spots_[i].glare_deg * degree))
-                found.push_back(i);
+        for (const auto& [spot, least_cosine] : glaring_)
+            if (glm::dot(way, spots_[spot].way) > least_cosine)
+                found.push_back(spot);
         return found;
     };
     glm::dvec3 all(0);
@@ -185,16 +199,10 @@ glm::dvec3 StarSpots::glare(const ViewRays& rays, const glm::ivec2& pixel, int c
         if (end <= std::max(radius * pixel_deg, nearest))
             continue;
         const double level = glare_per_sr(end, nearest);
-        // All light within the end, by rings.
-        double part = 0;
-        constexpr int rings = 400;
-        for (int ring = 0; ring < rings; ++ring) {
-            const auto edge = [&](double at) { return end * std::pow(at / rings, 3); };
-            const double inner = edge(ring), outer = edge(ring + 1), middle = 0.5 * (inner + outer);
-            part += (glare_per_sr(middle, nearest) - level) * pi * (outer * outer - inner * inner) * degree * degree;
-        }
-        const double here = std::max(glare_per_sr(std::sqrt(seen.off_square) * pixel_deg, nearest) - level, 0.0);
-        all += seen.spot->light * (here - part * profile(seen.off_square) / seen.solid_angle_sr);
+        double change = std::max(glare_per_sr(std::sqrt(seen.off_square) * pixel_deg, nearest) - level, 0.0);
+        if (const double spot = profile(seen.off_square) / seen.solid_angle_sr; spot > 0)
+            change -= spot * light_of_glare(end, nearest);
+        all += seen.spot->light * change;
     }
     return all;
 }

@@ -15,8 +15,8 @@ public:
 
     /// The light of stars in a pixel: the parts there of the spots that reach it.
     glm::dvec3 light(const ViewRays& rays, const glm::ivec2& pixel, int channel) const;
-    /// What an eye's glare changes of that in a shown picture: light that it brings from stars around, less what it takes
-    /// from those in the pixel.
+    /// The change of that light by an eye's glare in a shown picture: the light that glare brings from stars around, less
+    /// the light that it takes from those in the pixel.
     glm::dvec3 glare(const ViewRays& rays, const glm::ivec2& pixel, int channel) const;
 
 private:
@@ -25,7 +25,7 @@ private:
         glm::dvec3 light; ///< divided by a solid angle, as a radiance
         double glare_deg = 0; ///< radius within which its glare is seen, if pixels are small
     };
-    /// Where a spot is seen, as found from a pixel.
+    /// A spot's place in the picture, as found from a pixel.
     struct Seen {
         const Spot* spot;
         double off_square; ///< from the pixel's middle, pixels
@@ -39,7 +39,11 @@ private:
     void sort(std::size_t first, std::size_t end, int axis);
     void near(std::size_t first, std::size_t end, int axis, const glm::dvec3& way, double reach,
         std::vector<std::size_t>& found) const;
-    std::vector<std::size_t> glaring_; ///< indices of spots whose glare may be seen
+    struct Glaring {
+        std::size_t spot;
+        double least_cosine; ///< of the angle within which its glare may be seen
+    };
+    std::vector<Glaring> glaring_; ///< the spots whose glare may be seen
     std::vector<Spot> spots_; ///< a k-d tree: the middle one of a range divides it along an axis
 };
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 namespace starbow {
-
 namespace {
 
 /// Turns an observer's cockpit: by a rotation among its own axes.

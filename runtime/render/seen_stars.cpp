@@ -11,18 +11,23 @@ constexpr double least_change = 1e-7;
 
 } // namespace
 
+SeenStars::SeenStars(Device& device, const GpuWorld& world)
+    : field_(world.stars)
+{
+    if (!on())
+        return;
+    entries_ = make_mapped_buffer(
+        device, field_.stars.size() * sizeof(shared::StarEntry), vk::BufferUsageFlagBits::eStorageBuffer);
+    name_object(device, entries_, "seen stars: entries");
+}
+
 void SeenStars::follow(const glm::dvec3& eye, bool exactly)
 {
     if (!on())
         return;
     const double reach = exactly ? 0 : least_change * std::max(nearest_, field_.least_distance);
-    if (*entries_.buffer && glm::distance(eye, eye_) <= reach)
+    if (eye_ && glm::distance(eye, *eye_) <= reach)
         return;
-    if (!*entries_.buffer) {
-        entries_ = make_mapped_buffer(
-            device_, field_.stars.size() * sizeof(shared::StarEntry), vk::BufferUsageFlagBits::eStorageBuffer);
-        name_object(device_, entries_, "seen stars: entries");
-    }
     const std::span entries(static_cast<shared::StarEntry*>(entries_.mapped), field_.stars.size());
     eye_ = eye;
     nearest_ = stars_from(field_, eye, entries);

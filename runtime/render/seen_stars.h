@@ -8,24 +8,19 @@ namespace starbow {
 /// processor places them in double, and only when the ship has moved so far that it shows.
 class SeenStars {
 public:
-    SeenStars(Device& device, const GpuWorld& world)
-        : device_(device)
-        , field_(world.stars)
-    {
-    }
+    SeenStars(Device& device, const GpuWorld& world);
 
     bool on() const { return !field_.stars.empty(); }
-    /// Makes the entries for an eye at a place in the world, scene units: to 0.02 seconds of arc, or exactly. The device must
-    /// have finished the frame before.
+    /// Makes the entries for an eye at a place in the world, scene units: to 0.02 seconds of arc, or exactly. The device
+    /// must have finished the frame before.
     void follow(const glm::dvec3& eye, bool exactly);
 
     std::span<const StarPatch> patches() const { return patches_; }
-    const Buffer& entries() const { return entries_; } ///< StarEntry each; null before the first follow()
+    const Buffer& entries() const { return entries_; } ///< StarEntry each; null without stars
 
 private:
-    Device& device_;
     const StarField& field_;
-    glm::dvec3 eye_{0}; ///< for which the entries are
+    std::optional<glm::dvec3> eye_; ///< for which the entries are; nullopt: none yet
     double nearest_ = 0; ///< distance of the nearest star, scene units
     Buffer entries_;
     std::vector<StarPatch> patches_;

@@ -80,10 +80,8 @@ void StarPass::prepare(std::span<const Observer> observers)
 {
     const std::uint64_t before = constants_.serial;
     grow(device_, constants_, observers.size() * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
-    if (*seen_.entries().buffer && (constants_.serial != before || seen_.entries().serial != written_)) {
+    if (constants_.serial != before)
         write_sets();
-        written_ = seen_.entries().serial;
-    }
     false_colours_.clear();
     for (std::size_t at = 0; at < observers.size(); ++at) {
         const glm::dmat3& turn = observers[at].motion_from_world;

@@ -32,9 +32,8 @@ public:
     void end(vk::CommandBuffer commands);
 
     /// Draws the meter's samples into the meter's picture: each `every`-th of the brightest stars is a pixel of the
-    /// rectangle, row by row.
-    /// Bind a pipeline of Pipelines::star_meter and the rest as for draw(); the push constant `view` holds the
-    /// rectangle's size and `every`.
+    /// rectangle, row by row. Bind a pipeline of Pipelines::star_meter and the rest as for draw(); the push constant `view`
+    /// holds the rectangle's size and `every`.
     void sample(vk::CommandBuffer commands, std::size_t observer, glm::ivec2 corner, glm::ivec2 size, int every,
         bool channels) const;
 
@@ -55,7 +54,6 @@ private:
 
     Buffer constants_; ///< one for each observer
     vk::DeviceSize stride_ = 0;
-    std::uint64_t written_ = 0; ///< the serial number of the entries that the sets name
     Image picture_;
 };
 

@@ -213,7 +213,7 @@ TEST(LivePicture, ComesCloserToTheReferenceWithHigherQuality)
             EXPECT_GT(now, texels > 2 ? before - 0.3 : before + 2) << name << ", " << texels << " texels a pixel";
             before = now;
         }
-        // What is left are edges, those of bright columns before a black sky most of all.
+        // Edges are left, those of bright columns before a black sky most of all.
         EXPECT_GT(before, 36) << name;
     }
 }
