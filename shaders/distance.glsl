@@ -94,7 +94,7 @@ float exact_distance_in(float distance, int frame, vec3 n0, float pixel_angle)
 // cube map's own keeps the nearest texel's distance, by which its direction was found.
 float exact_distance(Shown shown, float pixel_angle)
 {
-    if (REPROJECT)
+    if (REPROJECT || shown.frame < 0.0)
         return shown.distance;
     if (!SEVERAL_REST_FRAMES)
         return exact_distance_at(place_of(shown.sight.n, world_rest_frame()));

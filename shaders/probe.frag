@@ -22,5 +22,5 @@ void main()
     vec3 light = shown.light * view.boost.z;
     light_and_depth = vec4(clamp(light, vec3(-3e38), vec3(3e38)), exact_distance(shown, pixel_angle));
     camera = vec4(n, shown.sight.D);
-    world = vec4(shown.sight.n, shown.frame);
+    world = vec4(shown.sight.n, max(shown.frame, 0.0));
 }

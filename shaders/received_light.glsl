@@ -1,8 +1,9 @@
 // The light seen in a direction of the ship: aberration, the cube map's look-up, Doppler effect and headlight effect.
 //
 // A driver translates all that a shader may call before it drops what the constants below rule out. Each shader that includes
-// this is therefore built three times: whole; with OWN_EYE, for views whose cube map is drawn at their own eye; and with
-// ONE_REST_FRAME as well, for worlds where nothing moves. The last build's pipelines are made in a fifth of the time.
+// this is therefore built four times: whole; with OWN_EYE, for views whose cube map is drawn at their own eye; and with
+// ONE_REST_FRAME as well, for worlds where nothing moves. The last build's pipelines are made in a fifth of the time. A fourth,
+// with ONE_REST_FRAME and WITH_GLOBES, is for worlds with globes.
 
 layout(constant_id = 1) const bool ABERRATION = true;
 layout(constant_id = 2) const bool DOPPLER = true;
@@ -271,12 +272,16 @@ vec3 light_seen(Place place, float D, float angle)
 
 #include "rest_frames.glsl"
 
+#ifdef WITH_GLOBES
+#include "globes.glsl"
+#endif
+
 // The result of a direction.
 struct Shown {
     vec3 n;         // unit direction in the ship, motion axes
     AberratedRay sight;    // in the world, the cube map's axes; its D is the source's
     float distance; // in the world, the light's travel distance there; SKY_DISTANCE for the sky
-    float frame;    // the source's rest frame, of the world's frames
+    float frame;    // the source's rest frame, of the world's frames; -1: a globe, at rest in the world
     vec3 light;     // from light_seen
 };
 Shown shown_along(vec3 n, float pixel_angle)
@@ -296,6 +301,17 @@ Shown shown_along(vec3 n, float pixel_angle)
         shown.light = light_seen(place, shown.sight.D, angle);
     shown.distance = distance_at(place);
     shown.frame = 0.0;
+#ifdef WITH_GLOBES
+    // They are far from the ship, and found for the eye itself.
+    vec3 to_globes = in_cube_axes(ABERRATION ? from_camera(n, view.boost.xy).n : n, world_rest_frame());
+    float globe_distance = 0.0;
+    add_globes(to_globes, angle, shown.sight.D, shown.light, globe_distance);
+    if (globe_distance > 0.0) {
+        shown.sight.n = to_globes;
+        shown.distance = globe_distance;
+        shown.frame = -1.0;
+    }
+#endif
     return shown;
 }
 

@@ -42,7 +42,19 @@
 #define STAR_REACH 96.0 // greatest radius of a star's glare, pixels: a device draws points of twice the size
 #define GLARE_LEAST 0.1 // degrees; nearer, light is the star's own spot, as is all light within a pixel
 #define GLARE_MOST 3.0 // degrees; farther, glare is left out
+#define SUN_GLARE_MOST 60.0 // degrees; farther, the Sun's glare is left out
 #define GLARE_SHOWN 5e-4 // of white: dimmer glare does not show
+
+#define MAX_GLOBES 16
+#define GLOBE_LEVELS 8 // of a kind of light, through more and more air, or towards the middle of the Sun's disc
+#define GLOBE_COLUMNS 1024 // over log2 D
+#define GLOBE_FIRST_LOG2_D -8.0
+#define GLOBE_PER_OCTAVE 64.0
+#define GLOBE_AIR_STEPS 10
+#define GLOBE_AIR_DEPTH 0.0973 // optical depth of the Earth's air at 550 nm, from the ground upwards (Bucholtz 1995)
+#define GLOBE_CLOUDY 0.0 // scatters light as a matt surface
+#define GLOBE_DUSTY 1.0 // as grains that shade each other (Lommel and Seeliger)
+#define GLOBE_SUN 2.0
 
 // One image of the plan, in the warp pass's form: texel of the atlas = face coordinate * scale + offset. Each tile has
 // one entry for each of its sub-tiles, rows along the second coordinate, in a texel buffer after the rest frames'
@@ -145,11 +157,33 @@ struct RestFrameConstants {
     RestFrameEntry entries[MAX_REST_FRAMES]; // the world's first
 };
 
+// A globe as one eye sees it. Its own axes: z to its north pole, x to its prime meridian; its unit is its equatorial radius.
+struct GlobeEntry {
+    vec4 near; // direction to its middle, the cube map's axes; w: chord of the angle from there within which it shows
+    vec4 row0, row1, row2; // rows from the cube map's axes to its own, each over its radius there; w: the eye's place
+    vec4 shape; // x: factor of its map; y: polar over equatorial radius; z: radius as an angle; w: its way to scatter
+    vec4 light; // direction to the Sun, its own axes; w: light of a white surface that faces it
+    vec4 kinds; // rows of globe_light: of its map's red, green and blue, and of its water or of all without a map; -1: none
+    vec4 map; // x: layer of globe_maps, -1: none; y: its rows of texels; z: row of light that is reflected as it came; w: of its mean
+    vec4 air; // x: scale height, 0: no air; y: height of its end; rows z: of light that the air scatters, w: of clouds
+    vec4 ring; // x: inner, y: outer radius, 0: none; z: its row; w: the Sun's radius from here as an angle
+    vec4 shade; // place of the globe that may hide the Sun from it; w: that one's radius, 0: none
+    vec4 lamps; // x: row of the light of its cities; y: their radiance, over a sunlit white surface's
+};
+
+// The globes before one view's sky, the farthest first.
+struct GlobeConstants {
+    vec4 first; // x: pre-exposure; w: 0, see above
+    vec4 sun; // direction in which the ship sees the Sun's middle, motion axes; w: its radius there, degrees
+    vec4 sunlight; // illuminance from there, as starlight in star.vert, pre-exposed
+    GlobeEntry entries[MAX_GLOBES];
+};
+
 // A star, in the scene's world at rest.
 struct StarEntry {
-    vec4 direction; // unit, towards it; w: temperature, K
+    vec4 direction; // unit, towards it; w: temperature, K; below 0: it is a globe, of number -1 - w
     vec4 light; // illuminance at rest, in the scene's white times steradians: x: over the luminance of its temperature
-                // (black_body_xyz), y: the illuminance itself
+                // (black_body_xyz), y: the illuminance itself. Of a globe: x: times its mean's light; y: its radius as an angle
 };
 
 // The stars' pass, one per frame.

@@ -22,6 +22,8 @@ static_assert(sizeof(InstanceEntry) == 48);
 static_assert(sizeof(TimeEntry) == 96);
 static_assert(sizeof(CubePush) == 128);
 static_assert(sizeof(ViewPush) == 128);
+static_assert(sizeof(GlobeEntry) == 192);
+static_assert(sizeof(GlobeConstants) == 48 + MAX_GLOBES * 192);
 static_assert(sizeof(StarEntry) == 32);
 static_assert(sizeof(StarConstants) == 48);
 static_assert(sizeof(OverlayConstants) == 176);

@@ -1,18 +1,6 @@
 // The sky's light in a direction. SKY: the SkyConstants.
 
-// The place of a unit direction in the panorama, equatorial axes: right ascension over a turn, and the angle from the north
-// pole over half a turn. Within 0.015 degrees, a twelfth of a texel; the built-in functions take twice the time without a GPU.
-vec2 place_in_panorama(vec3 n)
-{
-    vec2 side = abs(n.xy);
-    float a = min(side.x, side.y) / max(max(side.x, side.y), 1e-20), square = a * a;
-    float turn = ((-0.0074000 * square + 0.0253557) * square - 0.0521428) * square * a + 0.15915494 * a;
-    turn = side.y > side.x ? 0.25 - turn : turn;
-    turn = n.x < 0.0 ? 0.5 - turn : turn;
-    float z = abs(n.z); // Abramowitz and Stegun, 4.4.45, over pi
-    float from_pole = sqrt(max(1.0 - z, 0.0)) * (((-0.00596172 * z + 0.02363801) * z - 0.06751814) * z + 0.49997852);
-    return vec2(n.y < 0.0 ? -turn : turn, n.z < 0.0 ? 1.0 - from_pole : from_pole);
-}
+#include "panorama.glsl"
 
 // n: unit direction, the cube map's axes. angle: of a pixel there, radians.
 void sky_light(vec3 n, float angle, out vec4 coefficients[MAX_GROUPS])

@@ -22,6 +22,7 @@ layout(set = 1, binding = 2) uniform BlackBodies { vec4 black_bodies[STAR_STEPS]
 layout(location = 0) flat out vec2 centre; // pixels of the target; METERING_SAMPLES: x: the angle of a pixel, radians
 layout(location = 1) flat out vec3 light;  // of the whole star, spread over the solid angle of a pixel
 layout(location = 2) flat out vec4 glare;  // x: degrees of a pixel; y: square of the least angle; z: level of its end; w: part
+layout(location = 3) flat out float spot;  // the part of the light in its spot: neither glare nor shown as a disc
 
 // Rec. 709 linear light of a black body, relative to a luminance of 1 at 5772 K.
 vec3 black_body(float kelvin)
@@ -41,6 +42,12 @@ vec3 black_body(float kelvin)
 vec3 starlight(StarEntry star, AberratedRay sight)
 {
     float D = sight.D, growth_of_angles = ABERRATION ? growth(sight, sight.n, view.boost.xy) : 1.0;
+#ifdef WITH_GLOBES
+    if (star.direction.w < 0.0) {
+        vec3 mean = globe_colour(shift_column(D), globe(int(-1.0 - star.direction.w)).map.w, 0.0);
+        return mean * ((HEADLIGHT ? headlight(D) : 1.0) * star.light.x / (growth_of_angles * growth_of_angles));
+    }
+#endif
     vec3 radiance = black_body(DOPPLER ? D * star.direction.w : star.direction.w);
     if (DOPPLER && !HEADLIGHT)
         radiance /= headlight(D);
@@ -76,13 +83,14 @@ bool holds_together(vec2 point, int channel, float radius, float pixel)
 }
 
 // A bright star's glare; returns its radius, pixels. The same angle on every display, and as wide as it shows.
-float find_glare(vec2 point, int channel, float pixel_angle)
+// disc: its radius where it is a globe, as seen.
+float find_glare(vec2 point, int channel, float pixel_angle, float disc)
 {
     float shown = view.row2.w, pixel = degrees(pixel_angle);
     float whole = max(light.r, max(light.g, light.b)) * pixel_angle * pixel_angle; // over all directions
     if (shown == 0.0 || !(whole > 0.0))
         return STAR_RADIUS;
-    float least = max(GLARE_LEAST, pixel);
+    float least = max(max(GLARE_LEAST, pixel), degrees(disc));
     float radius = min(min(glare_end(shown / whole), GLARE_MOST), STAR_REACH * pixel);
     while (radius > max(STAR_RADIUS * pixel, least) && !holds_together(point, channel, radius, pixel))
         radius *= 0.7; // the picture has a seam there
@@ -131,6 +139,7 @@ void main()
     centre = vec2(0.0);
     light = vec3(0.0);
     glare = vec4(0.0);
+    spot = 0.0;
     float pixel_angle;
     vec2 size = view.zenith.zw, point;
     float reach = view.row2.w > 0.0 ? STAR_REACH : STAR_RADIUS;
@@ -145,7 +154,22 @@ void main()
     // A moving body hides the star where the body is drawn.
     if (SEVERAL_REST_FRAMES && covered_by_bodies(sight.n, pixel_angle) > 0.5)
         return;
+    float disc = 0.0;
+    bool is_sun = false; // whose glare the warp pass adds
+    spot = 1.0;
     light = starlight(star, sight) * (view.boost.z / (pixel_angle * pixel_angle));
+#ifdef WITH_GLOBES
+    vec3 before = in_cube_axes(n, world_rest_frame());
+    bool is_globe = star.direction.w < 0.0;
+    light *= left_by_globes(before, is_globe ? int(-1.0 - star.direction.w) : -1);
+    if (light == vec3(0.0))
+        return;
+    if (is_globe) {
+        is_sun = globe(int(-1.0 - star.direction.w)).shape.w == GLOBE_SUN;
+        disc = star.light.y / world_angle(sight, sight.n, 1.0);
+        spot = point_part(disc / pixel_angle);
+    }
+#endif
     if (METERING_SAMPLES) {
         vec2 place = vec2(mod(float(gl_VertexIndex), view.corner.x), floor(float(gl_VertexIndex) / view.corner.x)) + 0.5;
         gl_Position = vec4(place / view.corner.xy * 2.0 - 1.0, 0.0, 1.0);
@@ -154,7 +178,11 @@ void main()
             centre.x *= sqrt(part_of(ivec2(clamp(point, vec2(0.0), size - 1.0) + view.origin.xy)));
         return;
     }
-    gl_PointSize = 2.0 * find_glare(point, channel, pixel_angle);
+    float radius = is_sun ? STAR_RADIUS : find_glare(point, channel, pixel_angle, disc);
+    if (spot == 0.0 && glare.w == 0.0)
+        return;
+    gl_PointSize = 2.0 * radius;
+    spot *= 1.0 - glare.w;
     if (CHANNELS)
         light *= vec3(equal(ivec3(0, 1, 2), ivec3(channel)));
     centre = point + view.origin.xy;

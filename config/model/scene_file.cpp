@@ -2,7 +2,9 @@
 #include "goal_reader.h"
 #include "shot_reader.h"
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 
 namespace starbow {
 namespace {
@@ -93,6 +95,25 @@ StarSky read_stars(const Place& place, const std::filesystem::path& folder)
     return stars;
 }
 
+/// Days since 2000 January 1, 12 h UTC.
+double read_date(const Place& place)
+{
+    const std::string date = text(place);
+    int year, month, day, hour, minute, end = 0;
+    using namespace std::chrono;
+    if (std::sscanf(date.c_str(), "%4d-%2d-%2dT%2d:%2dZ%n", &year, &month, &day, &hour, &minute, &end) == 5 && date.size() == 17 && end == 17
+        && hour >= 0 && hour < 24 && minute >= 0 && minute < 60 && year >= 1800 && year < 2050)
+        if (const year_month_day at{std::chrono::year(year), std::chrono::month(unsigned(month)), std::chrono::day(unsigned(day))}; at.ok())
+            return (sys_days(at) - sys_days(2000y / January / 1)).count() - 0.5 + (hour + minute / 60.0) / 24;
+    complain(place, "is no date; one from 1800 to 2049 as \"2026-08-12T17:46Z\" (UTC) is right");
+}
+
+GlobeSky read_globes(const Place& place, const std::filesystem::path& folder)
+{
+    reject_unknown_members(place, {"file", "date", "origin"});
+    return {folder / text(member(place, "file")), read_date(member(place, "date")), text(member(place, "origin"))};
+}
+
 Light read_light(const Place& place, const std::vector<Body>& bodies)
 {
     reject_unknown_members(
@@ -122,7 +143,7 @@ SceneFile load_scene_file(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     reject_unknown_members(top,
-        {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "bodies", "boundary", "flight", "goals",
+        {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "globes", "ambient", "lights", "bodies", "boundary", "flight", "goals",
             "start"});
     SceneFile scene;
     scene.name = file.stem().string();
@@ -143,6 +164,13 @@ SceneFile load_scene_file(const std::filesystem::path& file)
     if (auto p = find_member(top, "lights"))
         for (const Place& at : items(*p, 0, 8, "lights"))
             scene.lights.push_back(read_light(at, scene.bodies));
+    if (auto p = find_member(top, "globes")) {
+        scene.globes = read_globes(*p, file.parent_path());
+        if (!scene.stars)
+            complain(*p, "have no stars behind them; a scene with \"stars\" is right");
+        if (!scene.bodies.empty())
+            complain(*p, "stand in a world where other things move; a scene without \"bodies\" is right");
+    }
     if (auto p = find_member(top, "boundary")) {
         reject_unknown_members(*p, {"centre", "radius"});
         scene.boundary = {vec3(member(*p, "centre"), {-1e9, 1e9}), number(member(*p, "radius"), {0, 1e9, true})};

@@ -234,7 +234,8 @@ double EyeCubes::dark_D(const ViewState& view, double pre_exposure) const
     const Shot& shot = observer_of(view).shot;
     const Effects& on = shot.effects;
     // A body that stands out against the dark needs its exact edge.
-    if (state_.all_light || !on.aberration || on.comparison == Comparison::galilean || world_.several_rest_frames())
+    if (state_.all_light || !on.aberration || on.comparison == Comparison::galilean || world_.several_rest_frames()
+        || world_.globes) // the Sun's light is in no table of the cube map's
         return 0;
     // A fiftieth of the first of 255 steps, which dither never rounds up: by sRGB's curve, which is linear there, and by
     // any gamma up to 2.3.
@@ -307,7 +308,7 @@ void EyeCubes::find_bodies(const ViewState& view, std::vector<ShipCap>& bodies) 
 
 void EyeCubes::plan(double pre_exposure, const Probe* probe)
 {
-    stars_.follow(state_.shot.position, state_.repeatable);
+    stars_.follow(eye_event_of(observers[0].rest_frames[0], 0, glm::dvec3(0)), state_.repeatable);
     bool keep = drawn_ && shown_ < state_.quality.frames_per_cube;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Trace::Span span(device_.trace, "plan");
@@ -335,6 +336,8 @@ void EyeCubes::plan(double pre_exposure, const Probe* probe)
             = std::find_if(images.begin(), images.end(), [](const PlannedImage& image) { return image.rest_frame > 0; });
         eye.stars = stars_in({images.begin(), own}, stars_.patches(), observers[eye.observer].rest_frames[0].cube_from_frame,
             std::move(eye.stars));
+        if (stars_.globes().count > 0)
+            eye.stars.push_back(stars_.globes());
     }
 }
 

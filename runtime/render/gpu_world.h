@@ -1,5 +1,6 @@
 #pragma once
 #include "config/model/scene_file.h"
+#include "gpu_globes.h"
 #include "pipelines.h"
 #include "runtime/light/greatest_light.h"
 #include "runtime/world/spectra.h"
@@ -38,6 +39,7 @@ struct GpuWorld {
     std::vector<vk::raii::DescriptorSet> materials; ///< and last the sky's, which is like a material
 
     StarField stars; ///< empty without stars
+    std::unique_ptr<GpuGlobes> globes; ///< null: none
 
     Spectra spectra;
     std::optional<Spectra> unshifted; ///< the same light as colours at D = 1; see starbow::unshifted

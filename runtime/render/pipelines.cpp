@@ -12,17 +12,21 @@
 #include "spirv/layer_frag.h"
 #include "spirv/lookup_frag.h"
 #include "spirv/measure_frag.h"
+#include "spirv/measure_globes_frag.h"
 #include "spirv/measure_one_frame_frag.h"
 #include "spirv/measure_own_eye_frag.h"
 #include "spirv/meter_frag.h"
+#include "spirv/meter_globes_frag.h"
 #include "spirv/meter_one_frame_frag.h"
 #include "spirv/meter_own_eye_frag.h"
 #include "spirv/mip_frag.h"
 #include "spirv/overlay_frag.h"
+#include "spirv/overlay_globes_frag.h"
 #include "spirv/overlay_one_frame_frag.h"
 #include "spirv/overlay_own_eye_frag.h"
 #include "spirv/pattern_frag.h"
 #include "spirv/probe_frag.h"
+#include "spirv/probe_globes_frag.h"
 #include "spirv/probe_one_frame_frag.h"
 #include "spirv/probe_own_eye_frag.h"
 #include "spirv/scaled_frag.h"
@@ -32,15 +36,18 @@
 #include "spirv/star_flat_vert.h"
 #include "spirv/star_frag.h"
 #include "spirv/star_meter_frag.h"
+#include "spirv/star_globes_vert.h"
 #include "spirv/star_one_frame_vert.h"
 #include "spirv/star_own_eye_vert.h"
 #include "spirv/star_vert.h"
 #include "spirv/vignette_frag.h"
 #include "spirv/warp_dark_frag.h"
 #include "spirv/warp_frag.h"
+#include "spirv/warp_globes_frag.h"
 #include "spirv/warp_one_frame_frag.h"
 #include "spirv/warp_own_eye_frag.h"
 #include "spirv/warp_rays_frag.h"
+#include "spirv/warp_rays_globes_frag.h"
 #include "spirv/warp_rays_one_frame_frag.h"
 #include "spirv/warp_rays_own_eye_frag.h"
 #include <algorithm>
@@ -69,27 +76,30 @@ SpecializationConstants constants(const WarpVariant& v)
     return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
         of_the_pass, std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), v.by_table,
         v.several_rest_frames, v.galilean, v.single, std::uint32_t(v.rays), v.cut, std::uint32_t(v.cube_samples),
-        v.unaligned, v.layered, v.world_alone, std::uint32_t(v.rest_frames), v.milky_way};
+        v.unaligned, v.layered, v.world_alone, std::uint32_t(v.rest_frames), v.milky_way, std::uint32_t(v.globes)};
 }
 
 /// A shader that reads the cube map, in its builds (received_light.glsl).
 struct Builds {
-    Spirv whole, own_eye, one_rest_frame;
+    Spirv whole, own_eye, one_rest_frame, globes;
 
     /// The smallest that serves the variant.
-    Spirv of(const WarpVariant& v) const { return v.reproject ? whole : v.several_rest_frames ? own_eye : one_rest_frame; }
+    Spirv of(const WarpVariant& v) const
+    {
+        return v.globes > 0 ? globes : v.reproject ? whole : v.several_rest_frames ? own_eye : one_rest_frame;
+    }
 };
-constexpr Builds measure_builds{measure_frag, measure_own_eye_frag, measure_one_frame_frag},
-    meter_builds{meter_frag, meter_own_eye_frag, meter_one_frame_frag},
-    overlay_builds{overlay_frag, overlay_own_eye_frag, overlay_one_frame_frag},
-    probe_builds{probe_frag, probe_own_eye_frag, probe_one_frame_frag},
-    star_builds{star_vert, star_own_eye_vert, star_one_frame_vert},
-    warp_builds{warp_frag, warp_own_eye_frag, warp_one_frame_frag},
-    warp_rays_builds{warp_rays_frag, warp_rays_own_eye_frag, warp_rays_one_frame_frag};
+constexpr Builds measure_builds{measure_frag, measure_own_eye_frag, measure_one_frame_frag, measure_globes_frag},
+    meter_builds{meter_frag, meter_own_eye_frag, meter_one_frame_frag, meter_globes_frag},
+    overlay_builds{overlay_frag, overlay_own_eye_frag, overlay_one_frame_frag, overlay_globes_frag},
+    probe_builds{probe_frag, probe_own_eye_frag, probe_one_frame_frag, probe_globes_frag},
+    star_builds{star_vert, star_own_eye_vert, star_one_frame_vert, star_globes_vert},
+    warp_builds{warp_frag, warp_own_eye_frag, warp_one_frame_frag, warp_globes_frag},
+    warp_rays_builds{warp_rays_frag, warp_rays_own_eye_frag, warp_rays_one_frame_frag, warp_rays_globes_frag};
 
 Spirv stars_shader(const WarpVariant& v)
 {
-    return v.map || v.reproject || v.several_rest_frames ? star_builds.of(v) : Spirv(star_flat_vert);
+    return v.map || v.reproject || v.several_rest_frames || v.globes > 0 ? star_builds.of(v) : Spirv(star_flat_vert);
 }
 
 } // namespace

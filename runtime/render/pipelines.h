@@ -94,6 +94,7 @@ struct WarpVariant {
     bool layered = false; ///< the exposure's samples count by the view's part of each pixel
     bool world_alone = false; ///< no body is seen in these pixels, of several rest frames
     bool milky_way = false; ///< of several rest frames: the sky has a panorama
+    int globes = 0; ///< of the world
     int rest_frames = 1; ///< of the world, if something that moves is in view; MAX_REST_FRAMES: more than a few
     auto operator<=>(const WarpVariant&) const = default;
 };
@@ -116,7 +117,7 @@ struct TargetKind {
 
 /// The specialization constants of a pass; constant_id is the index. On the stack, as Formats.
 struct SpecializationConstants {
-    std::array<std::uint32_t, 25> list{};
+    std::array<std::uint32_t, 26> list{};
     std::size_t count = 0;
 
     SpecializationConstants() = default;

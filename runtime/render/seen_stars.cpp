@@ -13,22 +13,28 @@ constexpr double least_change = 1e-7;
 
 SeenStars::SeenStars(Device& device, const GpuWorld& world)
     : field_(world.stars)
+    , globes_(world.globes.get())
 {
     if (!on())
         return;
     entries_ = make_mapped_buffer(
-        device, field_.stars.size() * sizeof(shared::StarEntry), vk::BufferUsageFlagBits::eStorageBuffer);
+        device, (field_.stars.size() + globes().count) * sizeof(shared::StarEntry), vk::BufferUsageFlagBits::eStorageBuffer);
     name_object(device, entries_, "seen stars: entries");
 }
 
-void SeenStars::follow(const glm::dvec3& eye, bool exactly)
+void SeenStars::follow(const EyeEvent& event, bool exactly)
 {
     if (!on())
         return;
+    // The stars' places are those from the Sun.
+    const glm::dvec3 eye = event.place + (globes_ ? globes_->from_sun(event.time) : glm::dvec3(0));
+    auto* all = static_cast<shared::StarEntry*>(entries_.mapped);
+    if (globes_)
+        globes_->as_stars(globes_->seen(event), {all + field_.stars.size(), globes().count});
     const double reach = exactly ? 0 : least_change * std::max(nearest_, field_.least_distance);
     if (eye_ && glm::distance(eye, *eye_) <= reach)
         return;
-    const std::span entries(static_cast<shared::StarEntry*>(entries_.mapped), field_.stars.size());
+    const std::span entries(all, field_.stars.size());
     eye_ = eye;
     nearest_ = stars_from(field_, eye, entries);
     patches_ = star_patches(entries, std::move(patches_));

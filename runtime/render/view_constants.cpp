@@ -30,7 +30,7 @@ WarpVariant ViewConstants::variant(const ViewState& view) const
     const Effects& on = eyes_.observer_of(view).shot.effects;
     WarpVariant variant{view.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
         eyes_.plans[view.eye].levels > 1, view.compiled.channels() == 3, beside, beside && state_.layout.stereo.turning,
-        !world_.stars.stars.empty()};
+        !world_.stars.stars.empty() || world_.globes};
     const StoredLight light = eyes_.all[view.eye].cube.light();
     variant.coefficients = world_.coefficients(light);
     variant.several_rest_frames = eyes_.all[view.eye].cube.several_rest_frames();
@@ -43,6 +43,7 @@ WarpVariant ViewConstants::variant(const ViewState& view) const
     const std::vector<RestFrameView>& read = eyes_.observer_of(view).rest_frames;
     variant.unaligned = !std::all_of(read.begin(), variant.several_rest_frames ? read.end() : read.begin() + 1,
         [](const RestFrameView& one) { return one.aligned(); });
+    variant.globes = world_.globes ? world_.globes->count() : 0;
     variant.galilean = on.comparison == Comparison::galilean;
     variant.by_table = variant.doppler || needs_table(on, light);
     return variant;

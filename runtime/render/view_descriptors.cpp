@@ -26,6 +26,10 @@ ViewDescriptors::ViewDescriptors(Device& device, const GpuWorld& world, const Fr
     const float zeros[4] = {};
     nothing_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
     name_object(device, nothing_, "views: nothing");
+    no_maps_ = make_texture_array(device, exact_format, {1, 1}, 1, std::as_bytes(std::span(zeros)));
+    name_object(device, no_maps_, "views: no maps");
+    no_globes_ = make_mapped_buffer(device, sizeof(shared::GlobeConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+    name_object(device, no_globes_, "views: no globes");
 }
 
 void ViewDescriptors::write()
@@ -43,6 +47,7 @@ void ViewDescriptors::write(ViewState& view)
         collect_label_set(view);
     if (state_.pattern == Pattern::none) {
         write_rest_frames(view);
+        write_globes(view);
         collect_warp_set(view);
     }
     if (serials_ == view.written)
@@ -100,6 +105,27 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
     image(set, 13, shares ? *shares : nothing_, nearest_);
     buffer(set, 12, view.rest_frames);
     image(set, 14, world_.milky_way(), world_.milky_way_sampler());
+    const GpuGlobes* globes = world_.globes.get();
+    const bool false_colours = eyes_.observer_of(view).shot.effects.false_colours;
+    buffer(set, 15, globes ? view.globes : no_globes_);
+    image(set, 16, globes ? globes->maps : no_maps_, globes ? globes->map_sampler : nearest_);
+    image(set, 17, globes ? globes->fine_maps : no_maps_, globes ? globes->map_sampler : nearest_);
+    image(set, 18, !globes ? nothing_ : false_colours ? globes->false_light : globes->light, nearest_);
+    image(set, 19, globes ? globes->rings : nothing_, globes ? globes->ring_sampler : nearest_);
+}
+
+void ViewDescriptors::write_globes(ViewState& view)
+{
+    if (!world_.globes)
+        return;
+    if (!*view.globes.buffer)
+        view.globes = make_mapped_buffer(device_, sizeof(shared::GlobeConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+    const RestFrameView& world = eyes_.observer_of(view).rest_frames[0];
+    const EyeEvent eye = eye_event_of(world, 0, views_.scene_units(view.cube_m + view.beside_m));
+    const GpuGlobes::Seen seen = world_.globes->seen(eye);
+    shared::GlobeConstants constants = world_.globes->constants(seen, state_.pre_exposure);
+    world_.globes->add_glare(constants, seen, world.motion_from_frame, world.E, eyes_.observer_of(view).shot.effects);
+    std::memcpy(view.globes.mapped, &constants, sizeof constants);
 }
 
 void ViewDescriptors::write_rest_frames(ViewState& view)

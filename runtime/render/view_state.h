@@ -22,6 +22,7 @@ struct ViewState {
     glm::dvec3 cube_m{0}; ///< place from which its cube map is drawn, cockpit frame, metres
     glm::dvec3 beside_m{0}; ///< the eye's place relative to cube_m
     LitPixels pixels; ///< at which something shows, for this frame
+    Buffer globes; ///< GlobeConstants; null in worlds without
     Buffer rest_frames; ///< RestFrameConstants; null where no shader reads them
     const View& geometry() const { return compiled.view; }
 };

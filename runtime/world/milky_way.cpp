@@ -3,6 +3,7 @@
 #include "config/json/whole_file.h"
 #include "config/model/scene_file.h"
 #include "gltf/parts.h"
+#include "globes.h"
 #include "painted_sky.h"
 
 namespace starbow {
@@ -10,6 +11,8 @@ namespace starbow {
 World load_world(const SceneFile& scene)
 {
     World world = load_world(scene.gltf);
+    if (scene.globes)
+        world.globes = load_globes(scene.globes->file);
     if (!scene.stars || !scene.stars->milky_way)
         return world;
     const std::filesystem::path& file = scene.stars->milky_way->panorama;

@@ -1,4 +1,5 @@
 #include "stars.h"
+#include "ephemeris.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include "config/model/angles.h"
@@ -14,7 +15,6 @@
 namespace starbow {
 namespace {
 
-constexpr double astronomical_unit_m = parsec_m * pi / 648000;
 constexpr double sun_b_v = 0.65; // for stars whose B-V is not known
 constexpr std::size_t most_stars = 4'000'000; // 128 MB on the device for each place of an eye
 

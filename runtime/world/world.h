@@ -2,10 +2,12 @@
 #include "animation.h"
 #include "config/model/body.h"
 #include "config/model/emission.h"
+#include "config/model/solar_system.h"
 #include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -147,11 +149,21 @@ struct Lamp {
     int existence = -1;
 };
 
+/// The Sun, planets and moons, with their maps.
+struct Globes {
+    SolarSystem system;
+    std::vector<Texture> maps; ///< one for each globe; empty where it has none. All of one size, but that of the globe with air
+    Texture sky; ///< above that globe: red: clouds, green: the root of its lamps' radiance
+    std::vector<glm::dvec4> parts; ///< for each globe the mean parts of its four kinds
+    double clouds = 0; ///< and of clouds
+};
+
 struct World {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<Texture> textures;
     int milky_way = -1; ///< index into `textures` of the sky's picture (MilkyWay::panorama); -1: none
+    std::shared_ptr<const Globes> globes; ///< null: none
     std::vector<Material> materials; ///< never empty: glTF's default material stands in where none is named
     std::vector<Primitive> primitives;
     std::vector<Cluster> clusters;

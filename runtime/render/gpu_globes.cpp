@@ -1,0 +1,293 @@
+#include "gpu_globes.h"
+#include "config/model/angles.h"
+#include "debug.h"
+#include "pipelines.h"
+#include "shaders/physics/physics.h"
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace starbow {
+namespace {
+
+/// A picture and all its coarser levels, each texel the mean of four.
+std::vector<std::vector<std::uint8_t>> levels_of(const Texture& map)
+{
+    std::vector<std::vector<std::uint8_t>> levels = {map.rgba};
+    for (glm::ivec2 size = map.size; size.y > 1; size /= 2) {
+        const std::vector<std::uint8_t>& from = levels.back();
+        std::vector<std::uint8_t> to(from.size() / 4);
+        const std::size_t row = 4 * std::size_t(size.x);
+        for (std::size_t y = 0; y < std::size_t(size.y) / 2; ++y)
+            for (std::size_t x = 0; x < std::size_t(size.x) / 2; ++x)
+                for (std::size_t c = 0; c < 4; ++c) {
+                    const std::size_t at = 2 * y * row + 8 * x + c;
+                    to[y * row / 2 + 4 * x + c]
+                        = std::uint8_t((from[at] + from[at + 4] + from[at + row] + from[at + row + 4] + 2) / 4);
+                }
+        levels.push_back(std::move(to));
+    }
+    return levels;
+}
+
+/// An array of maps of one size, with coarser levels.
+Image make_maps(Device& device, const std::vector<const Texture*>& maps)
+{
+    const Texture blank{.size = {2, 1}, .rgba = std::vector<std::uint8_t>(8, 0), .sampler = {}};
+    const Texture& first = maps.empty() ? blank : *maps.front();
+    const std::uint32_t levels = std::uint32_t(std::lround(std::log2(first.size.y))) + 1;
+    Image image = make_image(device,
+        {.format = vk::Format::eR8G8B8A8Unorm,
+            .extent = {std::uint32_t(first.size.x), std::uint32_t(first.size.y)},
+            .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
+            .levels = levels,
+            .layers = std::max<std::uint32_t>(std::uint32_t(maps.size()), 1),
+            .array = true});
+    using Stage = vk::PipelineStageFlagBits2;
+    using Access = vk::AccessFlagBits2;
+    for (std::uint32_t layer = 0; layer < image.layers; ++layer) {
+        std::vector<std::uint8_t> all;
+        std::vector<vk::BufferImageCopy> copies;
+        glm::uvec2 size(first.size);
+        for (const std::vector<std::uint8_t>& level : levels_of(maps.empty() ? blank : *maps[layer])) {
+            copies.emplace_back(all.size(), 0, 0,
+                vk::ImageSubresourceLayers(vk::ImageAspectFlagBits::eColor, std::uint32_t(copies.size()), layer, 1), vk::Offset3D(),
+                vk::Extent3D(size.x, size.y, 1));
+            all.insert(all.end(), level.begin(), level.end());
+            size = glm::max(size / 2u, 1u);
+        }
+        Buffer staging = make_mapped_buffer(device, all.size(), vk::BufferUsageFlagBits::eTransferSrc);
+        std::memcpy(staging.mapped, all.data(), all.size());
+        device.now([&](vk::CommandBuffer commands) {
+            if (layer == 0)
+                transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {}, vk::ImageLayout::eTransferDstOptimal,
+                    Stage::eTransfer, Access::eTransferWrite);
+            commands.copyBufferToImage(*staging.buffer, *image.image, vk::ImageLayout::eTransferDstOptimal, copies);
+            if (layer + 1 == image.layers)
+                transition(commands, image, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
+                    vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eVertexShader | Stage::eFragmentShader,
+                    Access::eShaderSampledRead);
+        });
+    }
+    return image;
+}
+
+vk::raii::Sampler make_sampler(const Device& device, vk::SamplerAddressMode around)
+{
+    return device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear, around,
+        vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, 0, false, 1, false, {}, 0,
+        VK_LOD_CLAMP_NONE});
+}
+
+/// Over this optical depth a texel of the ring's profile is white.
+constexpr double deepest_ring = 8;
+
+/// How much air still counts: 10 scale heights hold all but 5e-5 of it.
+constexpr double scale_heights = 10;
+
+} // namespace
+
+GpuGlobes::GpuGlobes(Device& device, std::shared_ptr<const Globes> globes, const GlobeSky& sky, double seconds_per_time_unit,
+    double unit_m, const glm::dmat3& world_from_equatorial)
+    : globes_(std::move(globes))
+    , origin_(world_origin(globes_->system, sky))
+    , seconds_(seconds_per_time_unit)
+    , unit_m_(unit_m)
+    , world_from_equatorial_(world_from_equatorial)
+    , rows_(globe_rows(globes_->system, globes_->parts, globes_->clouds))
+{
+    if (globes_->system.globes.size() > MAX_GLOBES)
+        throw InputError(one_line(sky.file.string()), "",
+            "has " + std::to_string(globes_->system.globes.size()) + " globes; at most " + std::to_string(MAX_GLOBES)
+                + " are right");
+    for (auto [observer, image, kept] :
+        {std::tuple(&eye(), &light, &light_texels_), std::tuple(&false_colours(), &false_light, &false_texels_)}) {
+        const std::vector<glm::vec4>& texels = *kept = globe_light(rows_, *observer);
+        *image = make_texture(device, exact_format, {GLOBE_COLUMNS, int(rows_.spectra.size())},
+            std::as_bytes(std::span(texels)), false);
+        name_object(device, *image, "globes: light");
+    }
+    upload_maps(device);
+}
+
+void GpuGlobes::upload_maps(Device& device)
+{
+    std::vector<const Texture*> plain, fine;
+    std::vector<glm::vec2> profile = {glm::vec2(0)};
+    for (std::size_t i = 0; i < globes_->system.globes.size(); ++i) {
+        const Globe& globe = globes_->system.globes[i];
+        const Texture& map = globes_->maps[i];
+        layers_.push_back(map.rgba.empty() || globe.air ? -1 : int(plain.size()));
+        if (globe.air)
+            fine = {&map, &globes_->sky};
+        else if (!map.rgba.empty())
+            plain.push_back(&map);
+        if (globe.ring) {
+            profile.clear();
+            for (const glm::dvec2& at : globe.ring->profile)
+                profile.push_back({float(at.x / deepest_ring), float(at.y)});
+        }
+    }
+    maps = make_maps(device, plain), fine_maps = make_maps(device, fine);
+    name_object(device, maps, "globes: maps"), name_object(device, fine_maps, "globes: fine maps");
+    std::vector<std::uint16_t> halves;
+    for (const glm::vec2& at : profile)
+        for (const float value : {at.x, at.y, 0.0f, 1.0f})
+            halves.push_back(glm::packHalf1x16(value));
+    rings = make_texture(device, light_format, {int(profile.size()), 1}, std::as_bytes(std::span(halves)), false);
+    name_object(device, rings, "globes: ring");
+    map_sampler = make_sampler(device, vk::SamplerAddressMode::eRepeat);
+    ring_sampler = make_sampler(device, vk::SamplerAddressMode::eClampToEdge);
+    name_object(device, map_sampler, "globes: map sampler"), name_object(device, ring_sampler, "globes: ring sampler");
+}
+
+GpuGlobes::Seen GpuGlobes::seen(const EyeEvent& eye) const
+{
+    const glm::dmat3 shorter(1, 0, 0, 0, 1, 0, 0, 0, eye.now ? eye.contraction : 1), back = glm::transpose(eye.cube_from_frame);
+    return {globes_seen(globes_->system, origin_,
+                {eye.place, eye.time, world_from_equatorial_, unit_m_, seconds_, eye.now, back * glm::dvec3(0, 0, eye.beta)}),
+        shorter * eye.cube_from_frame, back * shorter * eye.cube_from_frame};
+}
+
+shared::GlobeConstants GpuGlobes::constants(const Seen& all_seen, double pre_exposure) const
+{
+    const std::vector<SeenGlobe>& seen = all_seen.globes;
+    const glm::dmat3& cube_from_world = all_seen.cube_from_world;
+    shared::GlobeConstants all{};
+    all.first = glm::vec4(pre_exposure, 0, 0, 0);
+    const std::vector<Globe>& globes = globes_->system.globes;
+    for (shared::GlobeEntry& entry : all.entries) // those that are not seen
+        entry.near = glm::vec4(1e9, 0, 0, 0);
+    const auto row_of = [&](const std::string& kind) { return kind.empty() ? -1.0f : float(rows_.first.at(kind)); };
+    const glm::dmat3 world_from_cube = glm::inverse(cube_from_world);
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+        const SeenGlobe& one = seen[k];
+        const Globe& globe = globes[one.globe];
+        // The last entries, so that those that are not seen come first.
+        shared::GlobeEntry& entry = all.entries[globes.size() - seen.size() + k];
+        const double radius = globe.radius_m / unit_m_, polar = 1 - globe.flattening;
+        const glm::dvec3 from_eye = cube_from_world * one.from_eye;
+        const double distance = glm::length(from_eye);
+        double reach = radius * (globe.air ? 1 + scale_heights * globe.air->scale_height_m / globe.radius_m : 1);
+        if (globe.ring)
+            reach = globe.ring->outer_m / unit_m_;
+        const double angle = reach < distance ? std::asin(reach / distance) : pi;
+        entry.near = glm::vec4(from_eye / distance, angle < pi / 2 ? 2 * std::sin(angle / 2) : 4);
+        // Rows from the cube map's axes to the globe's own, scaled to a sphere of radius 1.
+        glm::dmat3 own = one.own_from_world * world_from_cube;
+        const glm::dvec3 scale = glm::dvec3(1, 1, 1 / polar) / radius;
+        for (int c = 0; c < 3; ++c)
+            own[c] *= scale;
+        const glm::dvec3 eye = own * -from_eye;
+        entry.row0 = shared::row(own, 0, eye.x), entry.row1 = shared::row(own, 1, eye.y), entry.row2 = shared::row(own, 2, eye.z);
+        entry.shape = glm::vec4(globe.map_scale, polar, radius < distance ? std::asin(radius / distance) : pi / 2, float(int(globe.scattering)));
+        const glm::dvec3 sun = one.own_from_world * one.to_sun;
+        const double far = one.sun_distance_au;
+        entry.light = glm::vec4(sun, far > 0 ? phase_dimming(globe, one.phase_deg) / (far * far) : 0);
+        entry.kinds = glm::vec4(row_of(globe.kinds[0]), row_of(globe.kinds[1]), row_of(globe.kinds[2]), row_of(globe.kinds[3]));
+        const Texture& map = globes_->maps[one.globe];
+        entry.map = glm::vec4(layers_[one.globe], map.size.y, row_of("white"), rows_.means[one.globe]);
+        if (globe.scattering == Scattering::sun)
+            entry.kinds.x = row_of("sun"), entry.light = glm::vec4(0, 0, 1, 1);
+        if (globe.air) {
+            const double height = globe.air->scale_height_m / globe.radius_m;
+            entry.air = glm::vec4(height, scale_heights * height, row_of("air"), row_of("cloud"));
+            entry.lamps = globes_->system.lamps.empty()
+                ? glm::vec4(0)
+                : glm::vec4(row_of(globes_->system.lamps.front().name), globe.air->brightest_lamps, 0, 0);
+        }
+        const double suns = far > 0 ? std::asin(std::min(1.0, globes.front().radius_m / (far * astronomical_unit_m))) : 0;
+        entry.ring = glm::vec4(0, 0, 0, suns);
+        if (globe.ring)
+            entry.ring = glm::vec4(globe.ring->inner_m / globe.radius_m, globe.ring->outer_m / globe.radius_m, row_of(globe.ring->kind), suns);
+        // The Moon and the Earth hide the Sun from each other.
+        if (globe.moon || globe.name == "Earth")
+            for (const SeenGlobe& other : seen)
+                if (other.globe != one.globe && (globe.moon ? globes[other.globe].name == "Earth" : globes[other.globe].moon))
+                    entry.shade = glm::vec4(one.own_from_world * (other.from_eye - one.from_eye) / radius,
+                        globes[other.globe].radius_m / globe.radius_m);
+    }
+    return all;
+}
+
+void GpuGlobes::as_stars(const Seen& all_seen, std::span<shared::StarEntry> entries) const
+{
+    const std::vector<SeenGlobe>& seen = all_seen.globes;
+    const std::size_t count = globes_->system.globes.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        entries[i] = {glm::vec4(0, 0, 1, -1 - float(i)), glm::vec4(0)}; // no light
+        if (i + seen.size() < count)
+            continue;
+        const SeenGlobe& one = seen[i + seen.size() - count];
+        const Globe& globe = globes_->system.globes[one.globe];
+        const double radius = globe.radius_m / unit_m_, part = std::min(radius / one.distance, 1.0), far = one.sun_distance_au;
+        const double lit = far > 0 ? phase_part(globe, one.phase_deg) / (far * far) : 1;
+        entries[i].direction = glm::vec4(glm::normalize(all_seen.contraction * one.from_eye), -1 - float(i));
+        entries[i].light = glm::vec4(lit * pi * part * part * (1 - globe.flattening), std::asin(part), 0, 0);
+    }
+}
+
+namespace {
+
+/// The part of the Sun's disc that nearer globes leave, from points spread evenly over it.
+double sun_left(const GpuGlobes::Seen& all, const std::vector<Globe>& globes, double unit_m)
+{
+    const auto sun = std::find_if(all.globes.begin(), all.globes.end(),
+        [&](const SeenGlobe& one) { return globes[one.globe].scattering == Scattering::sun; });
+    if (sun == all.globes.end())
+        return 0;
+    const glm::dvec3 way = sun->from_eye / sun->distance;
+    const glm::dvec3 side = glm::normalize(glm::cross(way, std::abs(way.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    const glm::dvec3 up = glm::cross(side, way);
+    const double radius = globes[sun->globe].radius_m / unit_m;
+    constexpr int points = 61;
+    int left = 0;
+    for (int i = 0; i < points; ++i) {
+        const double r = radius * std::sqrt((i + 0.5) / points), turn = i * 2.399963229728653; // the golden angle
+        const glm::dvec3 n = glm::normalize(sun->from_eye + (side * std::cos(turn) + up * std::sin(turn)) * r);
+        left += std::none_of(sun + 1, all.globes.end(), [&](const SeenGlobe& one) {
+            const Globe& globe = globes[one.globe];
+            const glm::dvec3 scale = unit_m / globe.radius_m * glm::dvec3(1, 1, 1 / (1 - globe.flattening));
+            const glm::dvec3 from = scale * (one.own_from_world * -one.from_eye), to = glm::normalize(scale * (one.own_from_world * n));
+            const double ahead = -glm::dot(from, to);
+            const glm::dvec3 nearest = from + to * ahead;
+            return ahead > 0 && glm::dot(nearest, nearest) < 1;
+        });
+    }
+    return double(left) / points;
+}
+
+} // namespace
+
+void GpuGlobes::add_glare(shared::GlobeConstants& constants, const Seen& all, const glm::dmat3& motion_from_world, double E, const Effects& on) const
+{
+    const std::vector<Globe>& globes = globes_->system.globes;
+    const double left = sun_left(all, globes, unit_m_);
+    if (left == 0)
+        return;
+    const SeenGlobe& sun = *std::find_if(all.globes.begin(), all.globes.end(),
+        [&](const SeenGlobe& one) { return globes[one.globe].scattering == Scattering::sun; });
+    const glm::dvec3 n = motion_from_world * glm::normalize(all.contraction * sun.from_eye);
+    const bool galilean = on.comparison == Comparison::galilean;
+    physics::AberratedRay sight{n, 1};
+    double growth = 1;
+    if (on.aberration) {
+        sight = galilean ? physics::galilean_camera_from_world(n, E, 1 / E) : physics::camera_from_world(n, E, 1 / E);
+        growth = sight.D;
+        if (galilean) {
+            const glm::dvec2 stretch = physics::galilean_stretch(sight.n, E, 1 / E);
+            growth = std::sqrt(stretch.x * stretch.y);
+        }
+    } else
+        sight.D = galilean ? physics::galilean_world_from_camera(n, E, 1 / E).D : physics::world_from_camera(n, E, 1 / E).D;
+    const double at = std::clamp(((on.doppler ? std::log2(sight.D) : 0) - GLOBE_FIRST_LOG2_D) * GLOBE_PER_OCTAVE, 0.0, GLOBE_COLUMNS - 1.001);
+    const std::vector<glm::vec4>& texels = on.false_colours ? false_texels_ : light_texels_;
+    const std::size_t texel = std::size_t(rows_.means[sun.globe]) * GLOBE_COLUMNS + std::size_t(at);
+    const glm::dvec4 mean = glm::mix(glm::dvec4(texels[texel]), glm::dvec4(texels[texel + 1]), at - std::floor(at));
+    const double part = std::min(globes[sun.globe].radius_m / unit_m_ / sun.distance, 1.0);
+    const double factor = std::exp2(mean.w) * (on.headlight ? physics::headlight(sight.D) : 1) * pi * part * part / (growth * growth) * left;
+    constants.sun = glm::vec4(sight.n, std::asin(part) / growth / degree);
+    constants.sunlight = glm::vec4(glm::dvec3(mean) * (factor * constants.first.x), 0);
+}
+
+} // namespace starbow

@@ -1,0 +1,158 @@
+#include "ephemeris.h"
+#include "config/json/reader.h"
+#include "config/model/angles.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+constexpr double ecliptic_deg = 23.43928; ///< obliquity at J2000, as Standish has it
+constexpr double days_per_century = 36525;
+
+glm::dvec3 equatorial_from_ecliptic(const glm::dvec3& p)
+{
+    const double s = std::sin(ecliptic_deg * degree), c = std::cos(ecliptic_deg * degree);
+    return {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
+}
+
+double dynamical_centuries(double days) { return (days + ahead_of_utc_s / 86400) / days_per_century; }
+
+/// Metres from the Sun.
+glm::dvec3 place_on(const OrbitElements& orbit, double centuries)
+{
+    const auto at = [&](const OrbitElements::Element& e) { return e.at_j2000 + e.per_century * centuries; };
+    const double e = at(orbit.eccentricity), perihelion = at(orbit.perihelion_deg), node = at(orbit.node_deg) * degree;
+    const double mean = std::remainder(at(orbit.mean_longitude_deg) - perihelion, 360) * degree;
+    double E = mean + e * std::sin(mean); // Kepler's equation by Newton's method; the planets' e is at most 0.21
+    for (int i = 0; i < 8; ++i)
+        E -= (E - e * std::sin(E) - mean) / (1 - e * std::cos(E));
+    const double x = at(orbit.semi_major_au) * (std::cos(E) - e), y = at(orbit.semi_major_au) * std::sqrt(1 - e * e) * std::sin(E);
+    const double w = perihelion * degree - node, inclination = at(orbit.inclination_deg) * degree;
+    const double along = x * std::cos(w) - y * std::sin(w), across = x * std::sin(w) + y * std::cos(w);
+    return equatorial_from_ecliptic({along * std::cos(node) - across * std::cos(inclination) * std::sin(node),
+               along * std::sin(node) + across * std::cos(inclination) * std::cos(node), across * std::sin(inclination)})
+        * astronomical_unit_m;
+}
+
+/// Turns of the axes around z and x.
+glm::dmat3 around_z(double a) { return glm::transpose(glm::dmat3(std::cos(a), std::sin(a), 0, -std::sin(a), std::cos(a), 0, 0, 0, 1)); }
+glm::dmat3 around_x(double a) { return glm::transpose(glm::dmat3(1, 0, 0, 0, std::cos(a), std::sin(a), 0, -std::sin(a), std::cos(a))); }
+
+/// The ecliptic axes of J2000 from those of a date: Lieske and others 1977, as in Meeus, formulas 21.6 and 21.7.
+glm::dmat3 j2000_from_date(double T)
+{
+    const double second = degree / 3600;
+    const double eta = ((47.0029 - (0.03302 - 0.00006 * T) * T) * T) * second, p = ((5029.0966 + (1.11113 - 0.000006 * T) * T) * T) * second;
+    const double Pi = (174.876384 - (0.24161358 - 0.000009831 * T) * T) * degree;
+    return glm::transpose(around_z(-(Pi + p)) * around_x(eta) * around_z(Pi));
+}
+
+/// The Moon's place from the Earth's middle, metres.
+glm::dvec3 moon_place(const SolarSystem& system, double T)
+{
+    const double longitude = 218.3164477 + 481267.88123421 * T - 0.0015786 * T * T, D = 297.8501921 + 445267.1114034 * T - 0.0018819 * T * T,
+                 M = 357.5291092 + 35999.0502909 * T - 0.0001536 * T * T, m = 134.9633964 + 477198.8675055 * T + 0.0087414 * T * T,
+                 F = 93.2720950 + 483202.0175233 * T - 0.0036539 * T * T;
+    const double flatter = 1 - 0.002516 * T - 0.0000074 * T * T; // of the Earth's orbit, in terms of the Sun's anomaly
+    double l = longitude, b = 0, r = 385000.56;
+    const auto sum = [&](const std::vector<LunarTerm>& terms, bool cosine, double& to) {
+        for (const LunarTerm& term : terms) {
+            const double angle = (term.multiples.x * D + term.multiples.y * M + term.multiples.z * m + term.multiples.w * F) * degree;
+            to += term.amplitude * (cosine ? std::cos(angle) : std::sin(angle)) * std::pow(flatter, std::abs(term.multiples.y));
+        }
+    };
+    sum(system.moon_longitude, false, l), sum(system.moon_latitude, false, b), sum(system.moon_distance, true, r);
+    l *= degree, b *= degree;
+    return equatorial_from_ecliptic(j2000_from_date(T) * glm::dvec3(std::cos(b) * std::cos(l), std::cos(b) * std::sin(l), std::sin(b)) * (r * 1000));
+}
+
+constexpr double moons_part = 1 / 82.3005691; ///< of the mass of the Earth and the Moon (DE440)
+
+glm::dvec3 place_of(const SolarSystem& system, const Globe& globe, double days)
+{
+    const double centuries = dynamical_centuries(days);
+    const auto earth = std::find_if(system.globes.begin(), system.globes.end(), [](const Globe& g) { return g.name == "Earth"; });
+    if (globe.moon)
+        return place_on(earth->orbit.value(), centuries) + (1 - moons_part) * moon_place(system, centuries);
+    if (!globe.orbit)
+        return glm::dvec3(0);
+    const glm::dvec3 place = place_on(*globe.orbit, centuries);
+    return globe.name == "Earth" ? place - moons_part * moon_place(system, centuries) : place;
+}
+
+} // namespace
+
+std::vector<glm::dvec3> globe_places_m(const SolarSystem& system, double days)
+{
+    std::vector<glm::dvec3> places;
+    for (const Globe& globe : system.globes)
+        places.push_back(place_of(system, globe, days));
+    return places;
+}
+
+glm::dmat3 globe_turn(const Globe& globe, double days)
+{
+    const double centuries = dynamical_centuries(days);
+    const double dynamical_days = centuries * days_per_century;
+    glm::dvec2 pole = globe.rotation.pole_deg + globe.rotation.pole_deg_per_century * centuries;
+    double W = std::remainder(globe.rotation.meridian_deg
+            + globe.rotation.meridian_deg_per_day * (globe.rotation.universal_time ? days : dynamical_days),
+        360);
+    for (const Rotation::Libration& libration : globe.rotation.librations) {
+        const double angle = std::remainder(libration.angle_deg + libration.deg_per_day * dynamical_days, 360) * degree;
+        pole += glm::dvec2(libration.ascension * std::sin(angle), libration.declination * std::cos(angle));
+        W += libration.meridian * std::sin(angle);
+    }
+    pole *= degree, W *= degree;
+    const glm::dvec3 z(std::cos(pole.y) * std::cos(pole.x), std::cos(pole.y) * std::sin(pole.x), std::sin(pole.y));
+    const glm::dvec3 node(-std::sin(pole.x), std::cos(pole.x), 0); // of its equator on the equator of J2000
+    const glm::dvec3 x = node * std::cos(W) + glm::cross(z, node) * std::sin(W);
+    return glm::transpose(glm::dmat3(x, glm::cross(z, x), z));
+}
+
+WorldOrigin world_origin(const SolarSystem& system, const GlobeSky& sky)
+{
+    std::vector<std::string_view> names;
+    for (const Globe& globe : system.globes)
+        names.push_back(globe.name);
+    const Globe& globe = system.globes[index_named(sky.origin, names, "globe")];
+    const double half_s = 60;
+    const glm::dvec3 change = place_of(system, globe, sky.days + half_s / 86400) - place_of(system, globe, sky.days - half_s / 86400);
+    return {sky.days, place_of(system, globe, sky.days), change / (2 * half_s)};
+}
+
+std::vector<SeenGlobe> globes_seen(const SolarSystem& system, const WorldOrigin& origin, const EyeAmongGlobes& eye)
+{
+    std::vector<SeenGlobe> all;
+    for (std::size_t i = 0; i < system.globes.size(); ++i) {
+        const Globe& globe = system.globes[i];
+        double time = eye.time;
+        glm::dvec3 from_sun_m, from_eye;
+        // The retarded time, a fixed point: a planet moves by at most 2e-4 of light's way.
+        for (int round = 0; round < 6; ++round) {
+            const double seconds = time * eye.seconds;
+            from_sun_m = place_of(system, globe, origin.days + seconds / 86400);
+            from_eye = eye.world_from_equatorial * ((from_sun_m - origin.at(seconds)) / eye.unit_m) - eye.place;
+            const double next = eye.time + (eye.now ? glm::dot(eye.way, from_eye) : -glm::length(from_eye));
+            if (next == time)
+                break;
+            time = next;
+        }
+        SeenGlobe seen{i, from_eye, glm::length(from_eye)};
+        if (seen.distance * eye.unit_m <= globe.radius_m * (1 - globe.flattening))
+            continue;
+        seen.own_from_world = globe_turn(globe, origin.days + time * eye.seconds / 86400) * glm::transpose(eye.world_from_equatorial);
+        seen.to_sun = glm::dvec3(0);
+        if (const double far_m = glm::length(from_sun_m); far_m > 0) {
+            seen.to_sun = eye.world_from_equatorial * (-from_sun_m / far_m);
+            seen.sun_distance_au = far_m / astronomical_unit_m;
+            seen.phase_deg = std::acos(std::clamp(glm::dot(seen.to_sun, -from_eye / seen.distance), -1.0, 1.0)) / degree;
+        }
+        all.push_back(seen);
+    }
+    std::sort(all.begin(), all.end(), [](const SeenGlobe& a, const SeenGlobe& b) { return a.distance > b.distance; });
+    return all;
+}
+
+} // namespace starbow

@@ -1,0 +1,275 @@
+// Globes: the Sun, planets and moons, spheroids whose light each output pixel finds by itself along its own ray. They lie before
+// the cube map's sky. Needs received_light.glsl's constants; docs/physics.md has the formulas and their sources.
+#include "panorama.glsl"
+
+layout(constant_id = 25) const int GLOBES = 0; // of the world
+
+layout(set = 0, binding = 15) uniform Globes { GlobeConstants globes; };
+layout(set = 0, binding = 16) uniform sampler2DArray globe_maps; // parts of up to three kinds of ground
+layout(set = 0, binding = 17) uniform sampler2DArray fine_globe_maps; // of a globe with air: its ground and water; its clouds and its lamps
+layout(set = 0, binding = 18) uniform sampler2D globe_light; // a row for each kind of light at each level, over log2 D:
+                                                             // Rec. 709 over a scale, and the scale's binary logarithm
+layout(set = 0, binding = 19) uniform sampler2D ring_profile; // optical depth and brightness, from the inner edge outwards
+
+// The place of a Doppler factor in globe_light.
+struct ShiftColumn {
+    int at;
+    float part, beyond; // between two columns; the loss beyond the table, where every tail falls as 1 / D^2
+};
+ShiftColumn shift_column(float D)
+{
+    float unclamped = (log2(DOPPLER ? D : 1.0) - GLOBE_FIRST_LOG2_D) * GLOBE_PER_OCTAVE;
+    float at = clamp(unclamped, 0.0, float(GLOBE_COLUMNS) - 1.001);
+    float beyond = exp2(min(0.0, (at - unclamped) / GLOBE_PER_OCTAVE));
+    return ShiftColumn(int(at), fract(at), beyond * beyond);
+}
+// The colour of a kind's light. first: its row at level 0; level: below GLOBE_LEVELS - 1.
+vec3 globe_colour(ShiftColumn column, float first, float level)
+{
+    int row = int(first) + int(level);
+    vec4 low = mix(texelFetch(globe_light, ivec2(column.at, row), 0), texelFetch(globe_light, ivec2(column.at + 1, row), 0), column.part);
+    vec4 high = mix(texelFetch(globe_light, ivec2(column.at, row + 1), 0), texelFetch(globe_light, ivec2(column.at + 1, row + 1), 0), column.part);
+    vec4 here = mix(low, high, fract(level));
+    return here.rgb * (exp2(here.w) * column.beyond);
+}
+// The level of light whose way leads through so much air, in vertical columns from the ground: mass = (2^level - 1) / 2.
+float air_level(float mass) { return min(log2(1.0 + 2.0 * mass), float(GLOBE_LEVELS) - 1.001); }
+
+// The air along a ray from a height to space over the vertical column from the ground (Chapman's function, after Schueler, "An
+// approximation to the Chapman grazing-incidence function", 2012, within 2 %). r: from the middle, radii; x: 1 / scale height; mu:
+// cosine of the ray's angle from the zenith.
+float air_above(float r, float x, float mu)
+{
+    float c = sqrt(1.5707963 * x * r), here = exp((1.0 - r) * x), up = here * c / ((c - 1.0) * abs(mu) + 1.0);
+    if (mu >= 0.0)
+        return up;
+    float lowest = r * sqrt(1.0 - mu * mu);
+    return 2.0 * sqrt(1.5707963 * x * lowest) * exp(min((1.0 - lowest) * x, 0.0)) - up;
+}
+
+// An element of the list, by constant indices where a driver in software would read it pixel by pixel.
+GlobeEntry globe(int i) { return globes.entries[i + int(globes.first.w)]; }
+
+// A ray to a globe, in its own axes scaled by its radii, in which it is a sphere of radius 1.
+struct GlobeRay {
+    vec3 from, way; // unit way
+    float ahead, square, pixel; // the way to the nearest point to the middle, its distance's square, a pixel's width there
+};
+GlobeRay globe_ray(GlobeEntry g, vec3 n, float angle)
+{
+    GlobeRay ray;
+    ray.from = vec3(g.row0.w, g.row1.w, g.row2.w);
+    ray.way = vec3(dot(g.row0.xyz, n), dot(g.row1.xyz, n), dot(g.row2.xyz, n));
+    ray.way *= inversesqrt(dot(ray.way, ray.way));
+    ray.ahead = -dot(ray.from, ray.way);
+    vec3 nearest = ray.from + ray.way * ray.ahead;
+    ray.square = dot(nearest, nearest);
+    ray.pixel = max(angle * ray.ahead, 1e-12);
+    return ray;
+}
+float covered(GlobeRay ray) { return ray.ahead > 0.0 ? clamp(0.5 + (1.0 - sqrt(ray.square)) / ray.pixel, 0.0, 1.0) : 0.0; }
+
+// The part of a globe's light that is shown as a star's. radius: its radius in the picture, pixels.
+float point_part(float radius) { return 1.0 - smoothstep(0.8, 1.6, radius); }
+
+// A ring of thin matter around the equator.
+struct Ring {
+    float depth, bright; // optical depth, along its normal; brightness
+};
+Ring ring_at(GlobeEntry g, float radius, float pixel)
+{
+    if (!(radius > g.ring.x && radius < g.ring.y))
+        return Ring(0.0, 0.0);
+    float across = g.ring.y - g.ring.x, texels = float(textureSize(ring_profile, 0).x);
+    float level = log2(max(pixel / across * texels, 1.0));
+    vec2 found = textureLod(ring_profile, vec2((radius - g.ring.x) / across, 0.5), level).rg;
+    return Ring(found.r * 8.0, found.g);
+}
+// The ring's opacity and its light on a ray.
+float ring_hit(GlobeEntry g, GlobeRay ray, out float t, out float radius)
+{
+    t = -ray.from.z / (abs(ray.way.z) < 1e-9 ? 1e-9 : ray.way.z);
+    vec3 at = ray.from + ray.way * t;
+    radius = length(at.xy);
+    return t > 0.0 ? abs(ray.way.z) : 0.0;
+}
+
+// The part of the Sun's light that another globe leaves. at: a place; sun: the unit way to it; both in a globe's own axes, radii.
+float left_by_other(GlobeEntry g, vec3 at, vec3 sun)
+{
+    if (g.shade.w == 0.0)
+        return 1.0;
+    vec3 to = g.shade.xyz - at;
+    float distance = length(to), own = g.shade.w / distance, suns = g.ring.w;
+    if (dot(to, sun) < 0.0)
+        return 1.0;
+    float apart = length(to / distance - sun);
+    float in_part = clamp((suns + own - apart) / (2.0 * min(suns, own)), 0.0, 1.0);
+    float size = min(own / suns, 1.0);
+    return 1.0 - in_part * in_part * (3.0 - 2.0 * in_part) * size * size;
+}
+
+// Light, before the headlight effect. light: behind the globe on entry, with it on return. distance: as Shown's. n: unit direction in
+// the world, the cube map's axes; angle: of a pixel there; D: of the world's light.
+void add_globe(GlobeEntry g, vec3 n, float angle, ShiftColumn column, inout vec3 light, inout float distance)
+{
+    GlobeRay ray = globe_ray(g, n, angle);
+    float disc = 1.0 - point_part(g.shape.z / angle);
+    float cover = covered(ray) * disc;
+    vec3 own = vec3(1.0, 1.0, g.shape.y); // from the scaled axes to those of one unit
+    vec3 sun_scaled = normalize(g.light.xyz / own);
+    float half_chord = sqrt(max(1.0 - ray.square, 0.0)), t = ray.ahead - half_chord;
+
+    float ring_depth = 0.0, ring_t = 0.0;
+    vec3 ring_light = vec3(0.0);
+    if (g.ring.y > 0.0) {
+        float radius, mu = ring_hit(g, ray, ring_t, radius);
+        Ring ring = ring_at(g, radius, ray.pixel / max(mu, 0.05));
+        if (mu > 0.0 && ring.depth > 0.0) {
+            vec3 at = ray.from + ray.way * ring_t;
+            float mu_sun = abs(sun_scaled.z);
+            bool same_side = (ray.from.z > 0.0) == (sun_scaled.z > 0.0);
+            // Light scattered once in a plane layer (Chandrasekhar, "Radiative transfer", 1960).
+            float scattered = same_side
+                ? mu_sun / (mu + mu_sun) * (1.0 - exp(-ring.depth * (1.0 / mu + 1.0 / mu_sun)))
+                : (abs(mu - mu_sun) < 1e-3 ? ring.depth / mu * exp(-ring.depth / mu)
+                                           : mu_sun / (mu - mu_sun) * (exp(-ring.depth / mu) - exp(-ring.depth / mu_sun)));
+            float along = -dot(at, sun_scaled); // in the globe's shadow?
+            vec3 side = at + sun_scaled * along;
+            float unshaded = along > 0.0 ? clamp(0.5 + (length(side) - 1.0) / max(2.0 * g.ring.w * along, ray.pixel), 0.0, 1.0) : 1.0;
+            ring_light = globe_colour(column, g.ring.z, 0.0) * (ring.bright * scattered * unshaded * g.light.w);
+            ring_depth = ring.depth / mu;
+        }
+    }
+    bool ring_before = ring_depth > 0.0 && (cover <= 0.0 || ring_t < t);
+    float through_ring = exp(-ring_depth);
+    if (ring_depth > 0.0 && !ring_before)
+        light = light * mix(1.0, through_ring, disc) + ring_light * disc;
+
+    // Air: light scattered once on the way, and the air between the eye and the ground.
+    float air = 0.0;
+    vec3 scattered = vec3(0.0);
+    if (g.air.x > 0.0) {
+        float top = 1.0 + g.air.y, x = 1.0 / g.air.x;
+        float inside = top * top - ray.square;
+        if (inside > 0.0 && ray.ahead + sqrt(inside) > 0.0) {
+            float begin = max(ray.ahead - sqrt(inside), 0.0);
+            float end = ray.square < 1.0 && ray.ahead > 0.0 ? t : ray.ahead + sqrt(inside);
+            float step_ = (end - begin) / float(GLOBE_AIR_STEPS), cosine = dot(ray.way, sun_scaled);
+            for (int i = 0; i < GLOBE_AIR_STEPS; ++i) {
+                vec3 at = ray.from + ray.way * (begin + (float(i) + 0.5) * step_);
+                float r = length(at), mu = dot(at, sun_scaled) / r, part = exp((1.0 - r) * x) * step_ * x;
+                if (mu > 0.0 || r * r * (1.0 - mu * mu) > 1.0)
+                    scattered += part * globe_colour(column, g.air.z, air_level(air + 0.5 * part + air_above(r, x, mu)));
+                air += part;
+            }
+            // Rayleigh's phase function over 4, for a sunlit white surface sends a part of 1 / pi.
+            scattered *= 0.1875 * (1.0 + cosine * cosine) * g.light.w * disc;
+        }
+    }
+    light *= exp(-GLOBE_AIR_DEPTH * air * disc);
+
+    if (cover > 0.0) {
+        vec3 at = ray.from + ray.way * t;
+        at = half_chord > 0.0 ? at : at * inversesqrt(dot(at, at));
+        vec3 normal = normalize(at / own), way = normalize(ray.way * own);
+        float mu = max(-dot(normal, way), 0.0), mu_sun = max(dot(normal, g.light.xyz), 0.0);
+        float lit = g.light.w * left_by_other(g, at * own, g.light.xyz);
+        if (g.ring.y > 0.0 && at.z * sun_scaled.z < 0.0) { // its ring's shadow
+            vec3 there = at - sun_scaled * (at.z / sun_scaled.z);
+            lit *= exp(-ring_at(g, length(there.xy), ray.pixel).depth / abs(sun_scaled.z));
+        }
+        vec3 shown;
+        vec2 place = place_in_panorama(normal) + vec2(0.5, 0.0);
+        float texels = g.map.y / 3.14159265 * ray.pixel / max(ray.ahead, 1e-9) * t / max(sqrt(mu), 0.3);
+        float level = log2(max(texels, 1e-9));
+        if (g.shape.w == GLOBE_SUN) {
+            shown = globe_colour(column, g.kinds.x, mu * (float(GLOBE_LEVELS) - 1.001));
+        } else if (g.air.x > 0.0) {
+            vec4 ground = textureLod(fine_globe_maps, vec3(place, 0.0), level);
+            vec2 sky = textureLod(fine_globe_maps, vec3(place, 1.0), level).rg;
+            float way_down = mu_sun > 0.0 ? air_above(1.0, 1.0 / g.air.x, mu_sun) : 0.0;
+            float through = air_level(air + way_down), clear = 1.0 - sky.r;
+            float water = ground.a;
+            ground.rgb *= g.shape.x;
+            shown = globe_colour(column, g.kinds.x, through) * (ground.r * clear) + globe_colour(column, g.kinds.y, through) * (ground.g * clear)
+                + globe_colour(column, g.kinds.z, through) * (ground.b * clear) + globe_colour(column, g.kinds.w, through) * (water * clear)
+                + globe_colour(column, g.air.w, through) * sky.r;
+            lit *= smoothstep(-g.ring.w, g.ring.w, dot(normal, g.light.xyz)); // the Sun rises
+            shown *= mu_sun * lit;
+            // The Sun's glint on waves whose slopes are spread by a wind of 7 m/s (Cox and Munk 1954).
+            vec3 between = normalize(g.light.xyz - way);
+            float upright = max(dot(between, normal), 1e-3), square = upright * upright, spread = 0.003 + 0.00512 * 7.0;
+            float slopes = exp((1.0 - 1.0 / square) / spread) / (3.14159265 * spread);
+            float bounce = 1.0 - max(dot(between, g.light.xyz), 0.0), fresnel = 0.0204 + 0.9796 * bounce * bounce * bounce * bounce * bounce;
+            // Waves hide each other from low eyes and a low Sun (Smith 1967).
+            float seen = 2.0 / (mu + sqrt(mu * mu + spread * (1.0 - mu * mu))), reached = 2.0 * mu_sun / (mu_sun + sqrt(mu_sun * mu_sun + spread * (1.0 - mu_sun * mu_sun)));
+            float glint = 0.25 * 3.14159265 * slopes * fresnel * seen * reached / (square * square);
+            shown += globe_colour(column, g.map.z, through) * (glint * water * clear * lit);
+            // The lamps of cities are seen through the air above them alone.
+            shown += globe_colour(column, g.lamps.x, 0.0) * (g.lamps.y * sky.g * sky.g * clear * exp(-GLOBE_AIR_DEPTH * air));
+        } else {
+            vec3 ground = g.map.x < 0.0 ? vec3(0.0) : textureLod(globe_maps, vec3(place, g.map.x), level).rgb * g.shape.x;
+            shown = vec3(0.0);
+            if (g.kinds.x >= 0.0)
+                shown += globe_colour(column, g.kinds.x, 0.0) * ground.r;
+            if (g.kinds.y >= 0.0)
+                shown += globe_colour(column, g.kinds.y, 0.0) * ground.g;
+            if (g.kinds.z >= 0.0)
+                shown += globe_colour(column, g.kinds.z, 0.0) * ground.b;
+            if (g.map.x < 0.0)
+                shown = globe_colour(column, g.kinds.w, 0.0);
+            shown *= lit * (g.shape.w == GLOBE_DUSTY ? 2.0 * mu_sun / max(mu + mu_sun, 1e-6) : 1.5 * mu_sun);
+        }
+        light = mix(light, shown, cover);
+        if (cover > 0.5)
+            distance = t / length(vec3(dot(g.row0.xyz, n), dot(g.row1.xyz, n), dot(g.row2.xyz, n)));
+    }
+    light += scattered;
+    if (ring_before)
+        light = light * mix(1.0, through_ring, disc) + ring_light * disc;
+}
+
+// The light of a direction with all globes before it; they are sorted, the farthest first. Without the headlight effect.
+// light: the sky's, as light_seen has it.
+void add_globes(vec3 n, float angle, float D, inout vec3 light, inout float distance)
+{
+    int hits = 0;
+    for (int i = 0; i < GLOBES; ++i) {
+        vec4 where = globes.entries[i].near;
+        vec3 off = n - where.xyz;
+        float reach = where.w + 2.0 * angle;
+        hits |= int(dot(off, off) < reach * reach) << i;
+    }
+    if (hits == 0)
+        return;
+    float gain = HEADLIGHT ? headlight(D) : 1.0;
+    gain *= globes.first.x;
+    ShiftColumn column = shift_column(D);
+    light /= max(gain, 1e-37);
+    while (hits != 0) {
+        int i = findLSB(hits);
+        hits &= hits - 1;
+        add_globe(globe(i), n, angle, column, light, distance);
+    }
+    light *= gain;
+}
+
+// The part of a star's light that globes leave, or that of globe number `own`.
+float left_by_globes(vec3 n, int own)
+{
+    float left = 1.0;
+    for (int i = own + 1; i < GLOBES; ++i) {
+        GlobeEntry g = globe(i);
+        vec3 off = n - g.near.xyz;
+        if (dot(off, off) >= g.near.w * g.near.w)
+            continue;
+        GlobeRay ray = globe_ray(g, n, 0.0);
+        left *= 1.0 - covered(ray);
+        if (g.ring.y > 0.0) {
+            float t, radius, mu = ring_hit(g, ray, t, radius);
+            left *= mu > 0.0 ? exp(-ring_at(g, radius, 0.0).depth / max(mu, 1e-3)) : 1.0;
+        }
+    }
+    return left;
+}
