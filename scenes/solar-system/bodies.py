@@ -32,6 +32,34 @@ Neptune 30.06992276 0.00859048 1.77004347 -55.12002969 44.96476227 131.78422574
         0.00026291 0.00005105 0.00035372 218.45945325 -0.32241464 -0.00508664
 """.split()
 
+# Printed by corrections.py: polynomial in T; then multiple of Jupiter's and of Saturn's mean longitude, sine, cosine.
+CORRECTIONS = [
+    ("Jupiter", "longitude_deg", [-0.0018, -0.0575, -0.0231],  # worst 0.14291, then 0.01117
+      [[2, -2, 0.0556, -0.0018],
+       [1, -2, 0.0363, -0.0065],
+       [2, -3, 0.0144, -0.0197],
+       [1, -1, -0.022, 0.0005],
+       [3, -3, 0.0052, -0.0016],
+       [1, 0, 0.0016, -0.0036]]),
+    ("Jupiter", "distance_fraction", [-5e-06, 7.3e-05, 5.2e-05],  # worst 0.00084, then 0.00016
+      [[2, -2, -1.9e-05, -0.00054],
+       [2, -3, -0.00015, -0.000111],
+       [1, -1, 1e-06, 0.000124],
+       [3, -3, -1.7e-05, -5.9e-05]]),
+    ("Saturn", "longitude_deg", [0.0231, 0.1592, 0.0467],  # worst 0.18231, then 0.01372
+      [[1, -2, -0.1069, 0.0322],
+       [2, -4, -0.078, -0.0314],
+       [0, 1, -0.052, -0.0561],
+       [2, -2, -0.0092, -0.0003],
+       [3, -5, -0.0004, -0.0001],
+       [4, -5, 0.0003, 0.0]]),
+    ("Saturn", "distance_fraction", [0.000361, 0.000122, 8.2e-05],  # worst 0.00188, then 0.00031
+      [[1, -1, 9.6e-05, 0.000862],
+       [1, -2, 0.000128, 0.000526],
+       [2, -4, -0.000217, 0.000632],
+       [0, 1, -0.000457, 0.000425]]),
+]
+
 # name: equatorial radius, polar radius (km), GM (km^3/s^2), geometric albedo V
 SIZES = {
     "Sun": (695700, 695700, 132712440041.939, None),
@@ -95,6 +123,9 @@ def main(moonposition, out):
         v = [float(x) for x in ELEMENTS[k + 1:k + 13]]
         elements[ELEMENTS[k]] = {n: [v[j], v[j + 6]] for j, n in enumerate(names)}
         k += 13
+    corrections = {}
+    for name, what, polynomial, terms in CORRECTIONS:
+        corrections.setdefault(name, {})[what] = {"polynomial": polynomial, "terms": terms}
     rotation = {n: dict(zip(("pole_ra_deg", "pole_dec_deg", "W_deg"), map(list, v))) for n, v in ROTATION.items()}
     rotation["Neptune"]["terms"] = {
         "angles": {"N": {"deg": 357.85, "deg_per_century": 52.316}},
@@ -118,7 +149,13 @@ def main(moonposition, out):
             "frame": "heliocentric, mean ecliptic and equinox of J2000",
             "value": "[at J2000, rate per century]",
             "obliquity_deg": 23.43928, "au_km": 149597870.7,
-            "bodies": elements},
+            "bodies": elements,
+            "corrections": {
+                "source": "fitted by corrections.py to plan94 of ERFA (Simon et al. 1994, A&A 282, 663), 1895 to 2055",
+                "rule": "Not Standish's; may be left out. Turn the planet about the ecliptic pole by longitude_deg and "
+                        "multiply its distance by 1 + distance_fraction. Each is a polynomial in T (T held at -1.05 and "
+                        "0.55 beyond them) plus terms [a, b, sine, cosine] of the angle a L_Jupiter + b L_Saturn.",
+                "bodies": corrections}},
         "moon": {
             "source": "J. Meeus, Astronomical Algorithms, 2nd edition (1998), chapter 47, after Chapront's ELP-2000/82; "
                       "numbers by way of the npm package astronomia 4.2.0 (MIT)",

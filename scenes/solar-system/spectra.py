@@ -250,11 +250,11 @@ def main(folder, out):
     add("vegetation", BASE, np.mean([smooth(*v, BASE) for v in veg], axis=0),
         "mean of green grass, deciduous and conifer leaves, Johns Hopkins University (ASTER spectral library; "
         "Baldridge et al. 2009, RSE 113, 711)", [round(float(first)), 2500])
-    soils = [jhu(f"{folder}/soils/txt/{n}.txt") for n in ("89P1763c", "89P1772c", "89P1805c", "87P1087c")]
+    soils = [jhu(f"{folder}/soils/txt/{n}.txt") for n in ("89P1763c", "89P1805c", "82P2695c")]
     first = max(v[0][0] for v in soils)
     add("soil", BASE, np.mean([smooth(*v, BASE) for v in soils], axis=0),
-        "mean of four light soils (light yellowish brown clay 89P1763 and loamy sand 89P1772, dark yellowish brown "
-        "silty clay 89P1805, reddish brown fine sandy loam 87P1087), Johns Hopkins University (ASTER spectral "
+        "mean of three light soils (light yellowish brown clay 89P1763, dark yellowish brown silty clay 89P1805, very "
+        "pale brown to brownish yellow silt loam 82P2695), Johns Hopkins University (ASTER spectral "
         "library; Baldridge et al. 2009, RSE 113, 711)", [round(float(first)), 2500])
     add("snow", *both(*SNOW), "Khuller et al. 2021, JGR Planets 126, e2021JE006910: clean snow of 350 micrometre "
         "grains, computed from ice's measured optical constants (Warren and Brandt 2008)", [300, 2500])
@@ -301,7 +301,7 @@ def main(folder, out):
         "kinds": kinds,
         "lights": {"city-lights": {
             "source": "an estimate of a high-pressure sodium lamp's spectrum, not a measured table: self-reversed sodium D "
-                      "lines, sodium lines at 498, 515, 568, 616, 818 and 1138 nm, potassium-free continuum",
+                      "lines, sodium lines at 498, 515, 568, 616, 818 and 1138 nm, on a weak continuum",
             "measured_nm": [], "relative_power": [[float(x), float(y)] for x, y in zip(*SODIUM)]}},
         "sun_limb_darkening": {
             "source": "Neckel and Labs 1994, Solar Physics 153, 91, table 1. The printed A2 at 365.875 nm, 0.17482, breaks "
