@@ -198,6 +198,22 @@ def main(moonposition, out):
                     "right ascension pole_ra + 90 degrees. Longitude grows eastward (right-handed about the pole "
                     "given) for the maps here.",
             "bodies": rotation},
+        "moons": {
+            "source": "Radii: IAU WGCCRE 2015. Orbits: circles fitted here; Jupiter's to npm astronomy-engine 2.1.19 (theory "
+                      "L1.2), 1900 to 2049, Titan's to pyephem 4.1.4, 2000 to 2019. Geometric albedo V: rounded from Allen's "
+                      "Astrophysical Quantities; Titan: Karkoschka 1998.",
+            "rule": "The moon stands in its planet's equator (the pole of `rotation`) at theta degrees eastward from the "
+                    "node at right ascension pole_ra + 90 degrees: theta = theta_deg[0] + theta_deg[1] d. It turns its "
+                    "longitude 0 to the planet. worst_deg is what the circle leaves out: the orbit's eccentricity and "
+                    "tilt.",
+            "bodies": {n: {"parent": p, "radius_km": r, "distance_km": a, "theta_deg": th, "geometric_albedo_v": v,
+                           "worst_deg": e}
+                       for n, p, r, a, th, v, e in (
+                           ("Io", "Jupiter", 1821.49, 421769, [19.9458, 203.48895686], 0.63, 0.5),
+                           ("Europa", "Jupiter", 1560.8, 671088, [214.5066, 101.37472403], 0.67, 1.2),
+                           ("Ganymede", "Jupiter", 2631.2, 1070432, [221.7875, 50.31760771], 0.43, 0.4),
+                           ("Callisto", "Jupiter", 2410.3, 1882740, [80.9708, 21.57107272], 0.17, 0.9),
+                           ("Titan", "Saturn", 2575.0, 1221870, [8.8, 22.57697855], 0.22, 5))}},
         "rings": {
             "source": "French et al. 2017, Icarus 290, 14 (edges rounded)",
             "Saturn": {"D_inner_km": 66900, "C_inner_km": 74490, "B_inner_km": 91975, "B_outer_km": 117570,
