@@ -21,15 +21,16 @@ function place(axis, v) {
     const node = [Math.cos(a), Math.sin(a), 0], w = axis.spin * Math.PI / 180, e = cross(n, node);
     const x = node.map((c, i) => c * Math.cos(w) + e[i] * Math.sin(w)), y = cross(n, x);
     const r = Math.hypot(...v);
-    return [round(Math.asin(dot(n, v) / r) * 180 / Math.PI, 4), round(Math.atan2(dot(y, v), dot(x, v)) * 180 / Math.PI, 4)];
+    return [round(Math.asin(dot(n, v) / r) * 180 / Math.PI, 4),
+            round(Math.atan2(dot(y, v), dot(x, v)) * 180 / Math.PI, 4)];
 }
 const out = {
     made_by: 'scenes/solar-system/witness.mjs with npm astronomy-engine 2.1.19 (MIT)',
     axes: 'Geometric positions at one instant, without light time or aberration. heliocentric_ecliptic_au: x y z, mean '
         + 'ecliptic and equinox of J2000. moon_geocentric_ecliptic_km: the same axes, from the centre of the Earth. '
         + 'Places are [planetocentric latitude, eastward longitude], degrees; without light time. sub_solar_earth is of the '
-        + 'apparent Sun (with light time, aberration, nutation) and Greenwich apparent sidereal time. moon_libration is [latitude, longitude] of the Earth over '
-        + 'the Moon, after Meeus, chapter 53. sub_earth_* use the library\'s IAU axes; Jupiter in system III. ',
+        + 'apparent Sun (with light time, aberration, nutation) and Greenwich apparent sidereal time. moon_libration is '
+        + '[latitude, longitude] of the Earth over the Moon, after Meeus, chapter 53. sub_earth_* use the library\'s IAU axes; Jupiter in system III.',
     dates: [] };
 for (const text of dates) {
     const t = A.MakeTime(new Date(text)), earth = A.HelioVector('Earth', t), moon = A.GeoMoon(t);
@@ -47,4 +48,5 @@ for (const text of dates) {
     row.sub_earth_sun = place(A.RotationAxis('Sun', t), vec(earth));
     out.dates.push(row);
 }
-writeFileSync(process.argv[3], JSON.stringify(out, null, 1).replace(/\[\s+([^\[\]{}]*?)\s+\]/g, (m, s) => '[' + s.replace(/\s+/g, ' ') + ']') + '\n');
+const flat = (m, s) => '[' + s.replace(/\s+/g, ' ') + ']';
+writeFileSync(process.argv[3], JSON.stringify(out, null, 1).replace(/\[\s+([^\[\]{}]*?)\s+\]/g, flat) + '\n');
