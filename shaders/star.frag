@@ -11,7 +11,6 @@ layout(constant_id = 9) const bool HALVES = false; // the picture has 16 bits a 
 layout(location = 0) flat in vec2 centre;
 layout(location = 1) flat in vec3 light;
 layout(location = 2) flat in vec4 glare;
-layout(location = 3) flat in float spot;
 layout(location = 0) out vec4 shown;
 
 void main()
@@ -19,8 +18,8 @@ void main()
     vec2 off = gl_FragCoord.xy - centre;
     float square = dot(off, off), inside = max(1.0 - square / (STAR_RADIUS * STAR_RADIUS), 0.0);
     inside *= inside;
-    float part = inside * inside / STAR_SPOT * spot;
-    if (glare.w > 0.0) {
+    float part = inside * inside / STAR_SPOT * glare.w;
+    if (glare.y > 0.0) {
         float pixel = radians(glare.x);
         part += max(glare_at(square * glare.x * glare.x + glare.y) - glare.z, 0.0) * pixel * pixel;
     }

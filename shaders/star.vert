@@ -21,8 +21,8 @@ layout(set = 1, binding = 2) uniform BlackBodies { vec4 black_bodies[STAR_STEPS]
 
 layout(location = 0) flat out vec2 centre; // pixels of the target; METERING_SAMPLES: x: the angle of a pixel, radians
 layout(location = 1) flat out vec3 light;  // of the whole star, spread over the solid angle of a pixel
-layout(location = 2) flat out vec4 glare;  // x: degrees of a pixel; y: square of the least angle; z: level of its end; w: part
-layout(location = 3) flat out float spot;  // the part of the light in its spot: neither glare nor shown as a disc
+layout(location = 2) flat out vec4 glare;  // x: degrees of a pixel; y: square of the least angle, 0: none; z: level of its end;
+                                           // w: the part of the light in the spot: neither glare nor shown as a disc
 
 // Rec. 709 linear light of a black body, relative to a luminance of 1 at 5772 K.
 vec3 black_body(float kelvin)
@@ -97,7 +97,7 @@ float find_glare(vec2 point, int channel, float pixel_angle, float disc)
     if (radius <= max(STAR_RADIUS * pixel, least))
         return STAR_RADIUS;
     float level = glare_at(radius * radius + least * least);
-    glare = vec4(pixel, least * least, level, glare_within(radius, least, level));
+    glare = vec4(pixel, least * least, level, glare.w * (1.0 - glare_within(radius, least, level)));
     return radius / pixel;
 }
 
@@ -139,7 +139,6 @@ void main()
     centre = vec2(0.0);
     light = vec3(0.0);
     glare = vec4(0.0);
-    spot = 0.0;
     float pixel_angle;
     vec2 size = view.zenith.zw, point;
     float reach = view.row2.w > 0.0 ? STAR_REACH : STAR_RADIUS;
@@ -156,7 +155,7 @@ void main()
         return;
     float disc = 0.0;
     bool is_sun = false; // whose glare the warp pass adds
-    spot = 1.0;
+    glare.w = 1.0;
     light = starlight(star, sight) * (view.boost.z / (pixel_angle * pixel_angle));
 #ifdef WITH_GLOBES
     vec3 before = in_cube_axes(n, world_rest_frame());
@@ -167,7 +166,7 @@ void main()
     if (is_globe) {
         is_sun = globe(int(-1.0 - star.direction.w)).shape.w == GLOBE_SUN;
         disc = star.light.y / world_angle(sight, sight.n, 1.0);
-        spot = point_part(disc / pixel_angle);
+        glare.w = point_part(disc / pixel_angle);
     }
 #endif
     if (METERING_SAMPLES) {
@@ -179,10 +178,9 @@ void main()
         return;
     }
     float radius = is_sun ? STAR_RADIUS : find_glare(point, channel, pixel_angle, disc);
-    if (spot == 0.0 && glare.w == 0.0)
+    if (glare.w == 0.0 && glare.y == 0.0)
         return;
     gl_PointSize = 2.0 * radius;
-    spot *= 1.0 - glare.w;
     if (CHANNELS)
         light *= vec3(equal(ivec3(0, 1, 2), ivec3(channel)));
     centre = point + view.origin.xy;

@@ -166,8 +166,6 @@ SceneFile load_scene_file(const std::filesystem::path& file)
             scene.lights.push_back(read_light(at, scene.bodies));
     if (auto p = find_member(top, "globes")) {
         scene.globes = read_globes(*p, file.parent_path());
-        if (!scene.stars)
-            complain(*p, "have no stars behind them; a scene with \"stars\" is right");
         if (!scene.bodies.empty())
             complain(*p, "stand in a world where other things move; a scene without \"bodies\" is right");
     }

@@ -71,7 +71,7 @@ struct SceneFile {
     double light_speed_m_s = 299792458; ///< the real one, or a slow one as in Gamow's tales
     Sky sky;
     std::optional<StarSky> stars;
-    std::optional<GlobeSky> globes; ///< the Sun, planets and moons; only beside stars, where nothing moves
+    std::optional<GlobeSky> globes; ///< the Sun, planets and moons; only where nothing else moves
     glm::dvec3 ambient{0}; ///< Rec. 709 linear, a white surface's light without any lamp
     std::vector<Light> lights;
     std::vector<Body> bodies;

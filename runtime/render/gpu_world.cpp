@@ -211,7 +211,7 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
     put_stars(gpu, stars);
     if (world.globes)
         gpu.globes = std::make_unique<GpuGlobes>(device, world.globes, scene.globes.value(), scene.seconds_per_time_unit(),
-            scene.unit_m, world_from_equatorial(scene.stars.value().ahead_deg));
+            scene.unit_m, world_from_equatorial(scene.stars ? scene.stars->ahead_deg : glm::dvec2(0)));
     world.vertices = {}, world.indices = {};
     gpu.world = std::move(world);
     put_spectra(device, gpu, level.value_or(needed_level(gpu.world, scene).level));

@@ -31,7 +31,7 @@ void ViewMeter::record(vk::CommandBuffer commands)
         constants.zenith.z = float(step.x), constants.zenith.w = float(step.y);
         const vk::Pipeline pipeline = pipelines_.meter(constants_.variant_metered(view, state_.shot.effects));
         passes_.draw_warp(commands, view, pipeline, constants, cell.corner, cell.size);
-        if (stars_.on())
+        if (stars_.on() && star_count_ > 0)
             meter_stars(commands, view, meter_->star_cell(i));
     }
     device_.end_rendering(commands);

@@ -443,7 +443,7 @@ TEST(Picture, ALargeTextureKeepsItsRowsAndMips)
             const double edge = 50 / std::tan(glm::radians(30.0)) / 2; // of the square, in pixels from the middle
             const int row = int(50 - edge + (band + 0.5) * 2 * edge / bands);
             EXPECT_TRUE(near_colour(numbers.light(row * 100 + 50), dvec3(light), 0.002))
-                << "band " << band << ", " << filter;
+                << "band " << band << ", " << filter << ": " << numbers.light(row * 100 + 50).y << " for " << light;
         }
     }
 }

@@ -89,7 +89,7 @@ int check(const CheckOptions& options)
 void print_globes(const SceneFile& scene, const Globes& globes)
 {
     const WorldOrigin origin = world_origin(globes.system, scene.globes.value());
-    const glm::dmat3 turn = world_from_equatorial(scene.stars.value().ahead_deg);
+    const glm::dmat3 turn = world_from_equatorial(scene.stars ? scene.stars->ahead_deg : glm::dvec2(0));
     EyeAmongGlobes eye{glm::dvec3(0), 0, turn, scene.unit_m, scene.seconds_per_time_unit()};
     const std::vector<glm::dvec3> places = globe_places_m(globes.system, origin.days);
     std::printf("globes at %s's date from %s: place (x, y, z) at that time and radius, scene units; as %s sees it: light's way in "

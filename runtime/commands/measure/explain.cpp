@@ -98,6 +98,9 @@ void PartList::add_light()
         "the scene names no catalogue", [](Made& m) { m.stars.clear(), m.scene.stars.reset(); });
     add("the Milky Way", context.world.world.milky_way >= 0, "a panorama behind the stars", "the scene names none",
         [](Made& m) { m.world.milky_way = -1; });
+    const int globes = context.world.globes ? context.world.globes->count() : 0;
+    add("globes", globes > 0, count(std::size_t(globes), "globe", "globes") + " before the sky, each pixel by itself",
+        "the scene has no Sun, planets and moons", [](Made& m) { m.world.globes.reset(), m.scene.globes.reset(); });
     add("lamps", !scene.lights.empty(), count(scene.lights.size(), "light", "lights") + " in the scene",
         "the scene has none", [](Made& m) { m.scene.lights.clear(); });
 }
