@@ -43,6 +43,8 @@
 #define GLARE_LEAST 0.1 // degrees; nearer, light is the star's own spot, as is all light within a pixel
 #define GLARE_MOST 3.0 // degrees; farther, glare is left out
 #define GLARE_SHOWN 5e-4 // of white: dimmer glare does not show
+#define RANGE_KNOTS 192 // of the curve that shows everything at once, one for each stop of luminance; see range_curve.h
+#define RANGE_FIRST (-128.0) // log2 of the luminance at its first knot: of the least normal float, about
 
 // One image of the plan, in the warp pass's form: texel of the atlas = face coordinate * scale + offset. Each tile has
 // one entry for each of its sub-tiles, rows along the second coordinate, in a texel buffer after the rest frames'
@@ -143,6 +145,11 @@ struct RestFrameConstants {
     vec4 first; // w: 0, see above
     SkyConstants sky;
     RestFrameEntry entries[MAX_REST_FRAMES]; // the world's first
+};
+
+// The curve of luminance that shows everything at once.
+struct RangeConstants {
+    vec4 knots[RANGE_KNOTS]; // x: log2 of the shown luminance; y: its change to the next knot
 };
 
 // A star, in the scene's world at rest.

@@ -24,6 +24,7 @@ static_assert(sizeof(CubePush) == 128);
 static_assert(sizeof(ViewPush) == 128);
 static_assert(sizeof(StarEntry) == 32);
 static_assert(sizeof(StarConstants) == 48);
+static_assert(sizeof(RangeConstants) == 16 * RANGE_KNOTS);
 static_assert(sizeof(OverlayConstants) == 176);
 static_assert(sizeof(FinishPush) == 112);
 static_assert(sizeof(BloomPush) == 48);

@@ -7,6 +7,8 @@
 #include "view.glsl"
 #include "received_light.glsl"
 #include "part.glsl"
+#include "tone.glsl"
+#include "range.glsl"
 // One star of the sky in one viewport: its direction in the ship, its pixel, and its light. Stars are points: each goes
 // through the forward transform and has no size that could be magnified. A star has one instance, or three where colours
 // have directions of their own, one for each colour. It has as many again where a display shows a direction at more than
@@ -21,7 +23,8 @@ layout(set = 1, binding = 2) uniform BlackBodies { vec4 black_bodies[STAR_STEPS]
 
 layout(location = 0) flat out vec2 centre; // pixels of the target; METERING_SAMPLES: x: the angle of a pixel, radians
 layout(location = 1) flat out vec3 light;  // of the whole star, spread over the solid angle of a pixel
-layout(location = 2) flat out vec4 glare;  // x: degrees of a pixel; y: square of the least angle; z: level of its end; w: part
+layout(location = 2) flat out vec4 glare;  // x: degrees of a pixel; y: square of the least angle; z: level of its end; w: part.
+                                           // RANGE, without glare: y: luminance before the curve
 
 // Rec. 709 linear light of a black body, relative to a luminance of 1 at 5772 K.
 vec3 black_body(float kelvin)
@@ -155,8 +158,13 @@ void main()
         return;
     }
     gl_PointSize = 2.0 * find_glare(point, channel, pixel_angle);
+    float factor = RANGE ? range_factor(luminance_of(light) / STAR_SPOT) : 1.0; // by its spot's middle luminance
     if (CHANNELS)
         light *= vec3(equal(ivec3(0, 1, 2), ivec3(channel)));
+    if (RANGE) {
+        glare.y = max(luminance_of(light), 0.0);
+        light *= factor;
+    }
     centre = point + view.origin.xy;
     gl_Position = vec4((point + STAR_REACH) / (size + 2.0 * STAR_REACH) * 2.0 - 1.0, 0.0, 1.0);
 }

@@ -42,7 +42,7 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
         = f;
     [[maybe_unused]] const auto& [no_roll, level_horizon, turn_steps_deg, vignette] = f.comfort;
     [[maybe_unused]] const auto& [elevation_deg, clear_deg, soft_deg, darkness] = *vignette;
-    [[maybe_unused]] const auto& [automatic, min_ev, max_ev, bloom, calm] = e;
+    [[maybe_unused]] const auto& [exposure_mode, automatic, min_ev, max_ev, bloom, calm] = e;
     [[maybe_unused]] const auto& [ship, flight_mode, flight_lever, coasting, lever_waits, lever_rest, frozen, slowness,
         homeward, thrust_inhibited, rate, thrust, turn_rad_s, turn_lead_rad_s, step_wait, vignette_part, homing,
         flight_look_rad, effects, exposure_ev, flight_hud, ticks, left_ns]

@@ -17,8 +17,8 @@ Inset::Inset(Device& device, const Pipelines& pipelines, int width, double fov_d
     const Layout layout = one_view(Planar{.fov_y_deg = fov_deg}, {width, int(width * aspect)});
     view.compiled = compile_output(store, layout, 0, layout.outputs[0].size).front();
     view.output = std::numeric_limits<std::size_t>::max();
-    const std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 2},
-        {vk::DescriptorType::eUniformTexelBuffer, 2}, {vk::DescriptorType::eCombinedImageSampler, 12}};
+    const std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 3},
+        {vk::DescriptorType::eUniformTexelBuffer, 2}, {vk::DescriptorType::eCombinedImageSampler, 13}};
     pool = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
     name_object(device, pool, "small picture: descriptor pool");
     view.warp_set = std::move(device.device.allocateDescriptorSets({*pool, *pipelines.layouts.warp_set}).front());

@@ -125,7 +125,7 @@ shared::ViewPush ViewConstants::star_push(const ViewState& view, std::optional<d
         = glm::inverse(own.rest_frames[0].motion_from_cockpit * view.compiled.matrix.value_or(glm::dmat3(1)));
     constants.row0 = shared::row(back, 0, constants.row0.w);
     constants.row1 = shared::row(back, 1, constants.row1.w);
-    constants.row2 = shared::row(back, 2, exposure ? GLARE_SHOWN : 0);
+    constants.row2 = shared::row(back, 2, exposure && !state_.range ? GLARE_SHOWN : 0);
     return constants;
 }
 

@@ -24,12 +24,16 @@ ViewDescriptors::ViewDescriptors(Device& device, const GpuWorld& world, const Fr
         vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge});
     name_object(device, finest_, "views: finest");
     const float zeros[4] = {};
+    range_ = make_mapped_buffer(device, sizeof(shared::RangeConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+    name_object(device, range_, "views: range");
     nothing_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
     name_object(device, nothing_, "views: nothing");
 }
 
 void ViewDescriptors::write()
 {
+    if (state_.range)
+        write_range();
     for (ViewState& view : views_.all)
         write(view);
     if (views_.inset && state_.pattern == Pattern::none)
@@ -100,6 +104,18 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
     image(set, 13, shares ? *shares : nothing_, nearest_);
     buffer(set, 12, view.rest_frames);
     image(set, 14, world_.milky_way(), world_.milky_way_sampler());
+    image(set, 15, nothing_, nearest_); // unused, and yet a driver reads it
+    image(set, 16, nothing_, nearest_);
+    buffer(set, 17, range_);
+}
+
+void ViewDescriptors::write_range()
+{
+    shared::RangeConstants all{};
+    const std::array<double, RANGE_KNOTS>& shown = state_.range->shown;
+    for (std::size_t k = 0; k < shown.size(); ++k)
+        all.knots[k] = glm::vec4(shown[k] + state_.shot.exposure_ev, k + 1 < shown.size() ? shown[k + 1] - shown[k] : 0, 0, 0);
+    std::memcpy(range_.mapped, &all, sizeof all);
 }
 
 void ViewDescriptors::write_rest_frames(ViewState& view)

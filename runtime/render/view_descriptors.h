@@ -20,6 +20,7 @@ private:
     void write(ViewState& view);
     /// Writes the constants of the rest frames in view, and of the sky.
     void write_rest_frames(ViewState& view);
+    void write_range(); ///< the curve that shows everything at once
     void collect_label_set(const ViewState& view);
     void collect_warp_set(const ViewState& view);
     void image(
@@ -33,10 +34,11 @@ private:
     const EyeCubes& eyes_;
     const StarPass& stars_;
     vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr, finest_ = nullptr; ///< finest_ reads level 0 alone
+    Buffer range_; ///< RangeConstants
     Image nothing_; ///< for views without an image
     // The content of one view's sets, collected anew for each view and frame.
     std::array<vk::DescriptorImageInfo, 16> image_infos_;
-    std::array<vk::DescriptorBufferInfo, 2> buffer_infos_;
+    std::array<vk::DescriptorBufferInfo, 3> buffer_infos_;
     std::array<vk::BufferView, 2> texel_views_;
     std::size_t images_used_ = 0, buffers_used_ = 0;
     std::vector<vk::WriteDescriptorSet> writes_;

@@ -23,7 +23,7 @@ namespace starbow {
 namespace {
 
 struct RenderOptions {
-    std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames,
+    std::string layout, shot, out, size, pattern = "none", exposure = "shot", mode = "eye", spectra = "needed", replay, frames,
                                          language = "en", information = "laboratory", tour, movie, points, overlay = "off",
                                          why = "none", quality;
     long frames_per_s = 30;
@@ -85,6 +85,13 @@ int render(const RenderOptions& options)
         const Exposing rules;
         shot.exposure_ev = std::clamp(renderer.metered(shot).value_or(shot.exposure_ev), rules.min_ev, rules.max_ev);
     }
+    const double eyes_ev = shot.exposure_ev;
+    std::optional<RangeCurve> curve;
+    if (options.mode == "range") {
+        curve = renderer.ranged(shot);
+        renderer.frame().range(curve);
+        shot.exposure_ev = 0; // of an eye's exposure, the curve has what it needs
+    }
     std::optional<Panel> panel;
     const StillMeasurement measurement = measure_still(
         renderer, context.world, shot, parse_points(options.points, layout), options.overlay, options.why, words);
@@ -99,7 +106,9 @@ int render(const RenderOptions& options)
     for (const std::string& line : measurement.lines)
         std::printf("%s\n", line.c_str());
     if (options.exposure == "auto")
-        std::printf("exposure %.2f EV\n", shot.exposure_ev);
+        std::printf("exposure %.2f EV\n", eyes_ev);
+    if (curve)
+        std::printf("brightness compressed: %.1f stops shown in %.1f\n", curve->stops(), curve->shown_stops());
     for (const Output& output : layout.outputs)
         std::printf("%s/%s.png%s\n", options.out.c_str(), output.name.c_str(), options.exr ? " and .exr" : "");
     return context.device.complaints.empty() ? 0 : 1;
@@ -126,6 +135,11 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
             "--exposure", options->exposure, "The shot's own exposure (shot), or one metered from the picture (auto)")
         ->check(CLI::IsMember({"shot", "auto"}))
         ->capture_default_str();
+    CLI::Option* mode = command
+                            ->add_option("--exposure-mode", options->mode,
+                                "As an eye sees it (eye), or by one curve that shows everything at once (range)")
+                            ->check(CLI::IsMember({"eye", "range"}))
+                            ->capture_default_str();
     CLI::Option* bloom
         = command->add_option("--bloom", options->bloom, "The share of the light that glows around bright things, 0 to 1")
               ->check(CLI::Range(0.0, 1.0))
@@ -178,7 +192,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     CLI::Option* reference = command->add_flag("--reference", options->reference,
         "Draw by rays, in double precision and with whole spectra, without a device: slow, the reference for the other "
         "pictures");
-    for (CLI::Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, overlay, why})
+    for (CLI::Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, overlay, why, mode})
         reference->excludes(other);
     command->add_option("--samples", options->samples, "With --reference: rays of each pixel")
         ->check(whole_number(1, 4096))
