@@ -1,6 +1,7 @@
 #include "range_curve.h"
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace starbow {
 namespace {
@@ -81,8 +82,7 @@ double RangeCurve::at(double log2_luminance) const
     return std::lerp(shown[k], shown[k + 1], place - double(k));
 }
 
-std::optional<RangeCurve> range_curve(
-    std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars, double ev)
+std::vector<double> range_goal(std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars, double ev)
 {
     Histogram surfaces{}, histogram{};
     const bool any = add(view, 1, surfaces) > 0;
@@ -113,18 +113,37 @@ std::optional<RangeCurve> range_curve(
     }
     const std::array<double, cells> slope = slopes(weights, first, last);
 
-    RangeCurve curve{.low = low + RANGE_FIRST, .high = high + RANGE_FIRST};
-    double used = 0;
-    for (const double one : slope)
-        used += one;
+    // Few digits, for records.
+    const auto rounded = [](double x) { return std::round(x * 1000) / 1000; };
     const double end = last + 1 + RANGE_FIRST; // of the cells in the range
-    const double shown_end = std::clamp(end + ev, range_bottom + used, range_top);
-    curve.shown[std::size_t(last + 1)] = shown_end;
-    for (int k = last; k >= 0; --k)
-        curve.shown[std::size_t(k)] = curve.shown[std::size_t(k + 1)] - (k < first ? slope_beyond : slope[std::size_t(k)]);
-    for (int k = last + 1; k < cells; ++k)
-        curve.shown[std::size_t(k + 1)] = curve.shown[std::size_t(k)] + slope_beyond;
+    double used = 0;
+    std::vector<double> goal{rounded(low + RANGE_FIRST), rounded(high + RANGE_FIRST), double(first), 0};
+    for (int k = first; k <= last; ++k) {
+        goal.push_back(std::max(std::floor(slope[std::size_t(k)] * 1000) / 1000, 0.001));
+        used += goal.back();
+    }
+    goal[3] = rounded(std::min(std::max(end + ev, range_bottom + used), range_top));
+    return goal;
+}
+
+RangeCurve curve_of(std::span<const double> goal)
+{
+    constexpr std::size_t before = 4; // the slopes
+    RangeCurve curve{.low = goal[0], .high = goal[1]};
+    const std::size_t first = std::size_t(goal[2]), end = first + goal.size() - before;
+    curve.shown[end] = goal[3];
+    for (std::size_t k = end; k-- > 0;)
+        curve.shown[k] = curve.shown[k + 1] - (k < first ? slope_beyond : goal[before + k - first]);
+    for (std::size_t k = end; k + 1 < curve.shown.size(); ++k)
+        curve.shown[k + 1] = curve.shown[k] + slope_beyond;
     return curve;
+}
+
+std::optional<RangeCurve> range_curve(
+    std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars, double ev)
+{
+    const std::vector<double> goal = range_goal(view, stars, ev);
+    return goal.empty() ? std::nullopt : std::optional(curve_of(goal));
 }
 
 /// A curve that moves towards another, by one part of the way at every luminance: so it stays in order, and no steeper than
@@ -153,6 +172,25 @@ RangeFollower advance(RangeFollower now, const RangeCurve& wanted, double dt_s)
     now.followed = moved(*now.followed, wanted, dt_s);
     now.shown = moved(*now.shown, *now.followed, dt_s);
     return now;
+}
+
+bool wants_goal(const RangeMode& mode, double dt_s)
+{
+    return !mode.wanted || mode.follows_at_once || mode.since_goal_s + dt_s >= range_goal_every_s;
+}
+
+RangeMode advance(RangeMode mode, std::span<const double> goal, double dt_s, bool locked)
+{
+    mode.since_goal_s += dt_s;
+    if (!goal.empty()) {
+        mode.wanted = curve_of(goal);
+        mode.since_goal_s = 0;
+        if (std::exchange(mode.follows_at_once, false))
+            mode.follower = {};
+    }
+    if (mode.wanted && (!locked || !mode.follower.shown))
+        mode.follower = advance(std::move(mode.follower), *mode.wanted, dt_s);
+    return mode;
 }
 
 } // namespace starbow

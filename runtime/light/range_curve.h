@@ -2,6 +2,7 @@
 #include "exposure.h"
 #include "shaders/shared_structs.h"
 #include <array>
+#include <vector>
 
 namespace starbow {
 
@@ -26,8 +27,17 @@ struct RangeCurve {
 /// of white, is 13 of 255 by sRGB's curve: dim, and yet above the black of a projector of 1000:1, which has 0.001 of white.
 constexpr double range_top = -0.3959, range_bottom = -8;
 
-/// The curve for a view, from its samples; nullopt for a view without light. ev: the exposure of an eye, EV. A view whose
-/// stops all fit into the range is shown as with that exposure, or as near to it as the range allows.
+/// What makes a view's curve, in few numbers, for records: RangeCurve's low and high, the index of the first knot in the
+/// range, the shown luminance at the last one, and the slopes between them. From the view's samples; empty for a view
+/// without light. ev: the exposure of an eye, EV. A view whose stops all fit into the range is shown as with that exposure,
+/// or as near to it as the range allows.
+std::vector<double> range_goal(
+    std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars, double ev);
+
+/// The curve of such numbers.
+RangeCurve curve_of(std::span<const double> goal);
+
+/// The curve for a view; nullopt for a view without light.
 std::optional<RangeCurve> range_curve(
     std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars, double ev);
 
@@ -48,5 +58,21 @@ struct RangeFollower {
 
 /// The follower dt_s seconds later. The first curve is taken at once.
 RangeFollower advance(RangeFollower now, const RangeCurve& wanted, double dt_s);
+
+/// Seconds between two goals: a curve that settles slowly needs no more.
+constexpr double range_goal_every_s = 0.25;
+
+/// The state of a flight that a curve shows.
+struct RangeMode {
+    RangeFollower follower;
+    std::optional<RangeCurve> wanted;
+    double since_goal_s = 0;
+    bool follows_at_once = false; ///< the next goal is taken at once, as the view is another one
+};
+
+/// True if a goal is due in the frame that is dt_s later.
+bool wants_goal(const RangeMode& mode, double dt_s);
+/// The state dt_s seconds later. goal: the numbers of range_goal, or empty. locked: the shown curve stays.
+RangeMode advance(RangeMode mode, std::span<const double> goal, double dt_s, bool locked);
 
 } // namespace starbow

@@ -98,6 +98,8 @@ int render(const RenderOptions& options)
     if (options.hud) {
         Readings shown = readings(ship_at(shot), context.world.scene, shot.effects);
         shown.exposure_ev = shot.exposure_ev;
+        if (curve)
+            shown.range = Readings::Range{curve->stops(), curve->shown_stops()};
         show_on(information_named(options.information), shown.world_s, shown); // the shot is the start
         panel = Typesetter().draw(shown, words, renderer.frame().views().hud_width());
     }
