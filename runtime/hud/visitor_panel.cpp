@@ -186,12 +186,14 @@ std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings
     // A line below the clocks: the guides' numbers, and that brightness is compressed.
     const bool numbered = readings.information == Information::guide, guides = numbered || readings.range;
     if (guides) {
-        std::string numbers = numbered ? guides_numbers(typesetter, readings, words) : "";
-        if (readings.range && numbered)
-            numbers = words("hud.gamma") + " " + shown_number(readings.gamma, words) + "   "
-                + range_sentence(*readings.range, words);
-        else if (readings.range)
-            numbers = range_sentence(*readings.range, words);
+        std::string numbers
+            = readings.range ? range_sentence(*readings.range, words) : guides_numbers(typesetter, readings, words);
+        if (readings.range && numbered) {
+            const std::string with_gamma
+                = words("hud.gamma") + " " + shown_number(readings.gamma, words) + "   " + numbers;
+            if (width_of(typesetter, with_gamma, least_lettering) <= right_edge - left_of_lines)
+                numbers = with_gamma;
+        }
         lines.push_back({numbers, left_of_lines, first_line + below_first,
             fitting(typesetter, numbers, right_edge - left_of_lines, 0.23)});
     }

@@ -29,7 +29,7 @@ TEST(Command, EveryKindComesBackFromItsWords)
         {{"beside", "at-rest"}, {CommandKind::beside, false, 0, "at-rest"}},
         {{"information", "guide"}, {CommandKind::information, false, 0, "guide"}},
         {{"exposure", "-1.5"}, {CommandKind::exposure, false, -1.5}},
-        {{"slow-motion", "on"}, {CommandKind::slow_motion, true, 0, ""}},
+        {{"range", "on"}, {CommandKind::range, true, 0, ""}}, {{"slow-motion", "on"}, {CommandKind::slow_motion, true, 0, ""}},
         {{"one-button", "on"}, {CommandKind::one_button, true, 0, ""}},
         {{"left-handed", "off"}, {CommandKind::left_handed, false, 0, ""}},
         {{"comparison", "galilean"}, {CommandKind::comparison, false, 0, "galilean"}},

@@ -53,7 +53,7 @@ TEST(PresenceTest, EveryControlAloneIsASign)
         controls_with(Steering{.menu = true}), controls_with(Steering{.slow_motion = true}),
         controls_with(WindowSwitches{.information = true}), controls_with(Looking{.look_rad = {0.02, 0}}),
         controls_with(Looking{.look_ahead = true}), controls_with(Looking{.exposure = -1}),
-        controls_with(Looking{.lock_exposure = true}), controls_with(EffectSwitches{.aberration = true}),
+        controls_with(Looking{.lock_exposure = true}), controls_with(Looking{.range = true}), controls_with(EffectSwitches{.aberration = true}),
         controls_with(EffectSwitches{.doppler = true}), controls_with(EffectSwitches{.headlight = true}),
         controls_with(EffectSwitches{.false_colours = true}), controls_with(EffectSwitches{.comparison = true}),
         controls_with(LabSwitches{.overlay = true}), controls_with(LabSwitches{.mark = true}),

@@ -170,7 +170,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     add_language(*command, options->language);
     CLI::Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
-    for (CLI::Option* other : {shot, exr, pattern, points, overlay, why})
+    for (CLI::Option* other : {shot, exr, pattern, points, overlay, why, mode}) // a record has its own mode
         replay->excludes(other);
     CLI::Option* frames
         = command->add_option("--frames", options->frames, "With --replay: the frames from A to B, counted from 0, as A:B")
@@ -189,7 +189,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         ->capture_default_str()
         ->needs(movie);
     tour->needs(movie);
-    for (CLI::Option* other : {shot, out, exr, pattern, replay, points, overlay, why})
+    for (CLI::Option* other : {shot, out, exr, pattern, replay, points, overlay, why, mode})
         tour->excludes(other);
     CLI::Option* reference = command->add_flag("--reference", options->reference,
         "Draw by rays, in double precision and with whole spectra, without a device: slow, the reference for the other "
@@ -202,6 +202,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         ->needs(reference);
     command->footer(
         "Examples:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr\n"
+        "  starbow render --layout dome --shot starbow --out out/range --exposure-mode range --hud\n"
         "  starbow render --shot gamma100 --out out/right --reference --samples 64\n"
         "  starbow render --replay flight.jsonl --out out/flight --frames 0:599\n"
         "  starbow render --replay flight.jsonl --movie out/flight.mp4 --hud\n"
