@@ -22,12 +22,18 @@ constexpr double even_share = 0.1;
 /// The stars' part of all weight: they fill too little of a view to count, and are looked at.
 constexpr double stars_share = 0.1;
 
+constexpr int fine_per_stop = 16;
 using Histogram = std::array<double, cells>; ///< by stops, [k, k + 1) from RANGE_FIRST on
 
-/// Adds the samples, in sum `whole`. Each is shared out between the two nearest stops' middles, so that no sample leaps.
-double add(std::span<const LuminanceSample> samples, double whole, Histogram& histogram)
+struct Histograms {
+    Histogram stops{}; ///< each sample is shared out between the two nearest stops' middles, so that none leaps
+    std::array<double, cells * fine_per_stop> fine{}; ///< of parts of a stop
+};
+
+/// Adds the samples, in sum `whole`. Returns the number of those with light.
+double add(std::span<const LuminanceSample> samples, double whole, Histograms& histograms)
 {
-    Histogram own{};
+    Histograms own;
     double all = 0, count = 0;
     for (const LuminanceSample& sample : samples) {
         const double log = std::log2(double(sample.luminance));
@@ -35,24 +41,27 @@ double add(std::span<const LuminanceSample> samples, double whole, Histogram& hi
             continue;
         const double at = std::clamp(log - RANGE_FIRST - 0.5, 0.0, cells - 1.0);
         const std::size_t cell = std::min(std::size_t(at), std::size_t(cells - 2));
-        own[cell] += sample.solid_angle_sr * (cell + 1 - at);
-        own[cell + 1] += sample.solid_angle_sr * (at - double(cell));
+        own.stops[cell] += sample.solid_angle_sr * (double(cell) + 1 - at);
+        own.stops[cell + 1] += sample.solid_angle_sr * (at - double(cell));
+        own.fine[std::min(std::size_t((log - RANGE_FIRST) * fine_per_stop), own.fine.size() - 1)] += sample.solid_angle_sr;
         all += sample.solid_angle_sr, ++count;
     }
-    if (all > 0)
-        for (std::size_t k = 0; k < own.size(); ++k)
-            histogram[k] += own[k] * whole / all;
+    for (std::size_t k = 0; all > 0 && k < own.stops.size(); ++k)
+        histograms.stops[k] += own.stops[k] * whole / all;
+    for (std::size_t k = 0; all > 0 && k < own.fine.size(); ++k)
+        histograms.fine[k] += own.fine[k] * whole / all;
     return count;
 }
 
 /// The luminance, in stops from RANGE_FIRST, below which a part of the whole lies.
-double level(const Histogram& histogram, double whole, double part)
+double level(const Histograms& histograms, double whole, double part)
 {
     double below = 0;
-    for (std::size_t k = 0; k < histogram.size(); ++k) {
-        if (histogram[k] > 0 && below + histogram[k] >= part * whole)
-            return double(k) + std::clamp((part * whole - below) / histogram[k], 0.0, 1.0);
-        below += histogram[k];
+    for (std::size_t k = 0; k < histograms.fine.size(); ++k) {
+        const double own = histograms.fine[k];
+        if (own > 0 && below + own >= part * whole)
+            return (double(k) + std::clamp((part * whole - below) / own, 0.0, 1.0)) / fine_per_stop;
+        below += own;
     }
     return cells;
 }
@@ -84,17 +93,17 @@ double RangeCurve::at(double log2_luminance) const
 
 std::vector<double> range_goal(std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars, double ev)
 {
-    Histogram surfaces{}, histogram{};
-    const bool any = add(view, 1, surfaces) > 0;
-    histogram = surfaces;
-    const double count = add(stars, 0, histogram);
+    Histograms histograms;
+    const Histogram& histogram = histograms.stops;
+    const bool any = add(view, 1, histograms) > 0;
+    const double count = add(stars, 0, histograms);
     const double share = any ? stars_share * count / (count + few_stars) : 1;
-    add(stars, count > 0 ? share : 0, histogram);
+    add(stars, share, histograms);
     const double whole = (any ? 1 : 0) + (count > 0 ? share : 0);
     if (whole == 0)
         return {};
-    const double low = level(histogram, whole, below_low), high = level(histogram, whole, 1 - above_high),
-                 top = level(histogram, whole, 1 - above_top);
+    const double low = level(histograms, whole, below_low), high = level(histograms, whole, 1 - above_high),
+                 top = level(histograms, whole, 1 - above_top);
     const int first = std::min(int(low), cells - 1), last = std::clamp(int(std::ceil(top)) - 1, first, cells - 1);
 
     // Smoothed over the neighbours, so that the slope has no steps that show in a smooth sky.

@@ -93,7 +93,7 @@ TEST(RangeCurve, AViewThatFitsIsShownAsAnEyeSeesIt)
     for (double stops = -4; stops <= 2; stops += 0.25)
         EXPECT_NEAR(curve.at(stops), stops - 3, 0.01) << stops;
     EXPECT_NEAR(curve.stops(), curve.shown_stops(), 0.01);
-    // As near to it as the range allows.
+    // As near to it as the range allows: its ends may lie within a stop's cell.
     EXPECT_NEAR(range_curve(view, {}, 9)->at(2), range_top, 0.01);
     EXPECT_NEAR(range_curve(view, {}, -9)->at(-4), range_bottom, 0.01);
 }
@@ -104,7 +104,7 @@ TEST(RangeCurve, EmptyStopsTakeHardlyAnyRange)
     view.insert(view.end(), lamps.begin(), lamps.end());
     const RangeCurve curve = *range_curve(view, {}, 0);
     // 65 stops, of which 6 have light: these six get nearly all.
-    EXPECT_GT(curve.at(-57) - curve.at(-60) + curve.at(5) - curve.at(2), 0.6 * (range_top - range_bottom));
+    EXPECT_GT(curve.at(-57) - curve.at(-60) + curve.at(5) - curve.at(2), 0.55 * (range_top - range_bottom));
     EXPECT_LT(curve.at(1) - curve.at(-56), 0.25 * (range_top - range_bottom));
 }
 
