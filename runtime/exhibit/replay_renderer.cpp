@@ -34,8 +34,7 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
     if (had_curve != range_mode_.follower.shown.has_value())
         calm_ev_ = {};
     if (exposing_.calm && (exposure_.ev || !exposing_.automatic))
-        calm_ev_
-            = calmed_ev(calm_ev_, wanted_ev(flight.exposure_ev), 1e-9 * double(entry.dt_ns));
+        calm_ev_ = calmed_ev(calm_ev_, wanted_ev(flight.exposure_ev), 1e-9 * double(entry.dt_ns));
     controls.save = false;
     Layout layout = layout_;
     if (alignment_.apply(controls, layout)) {

@@ -297,8 +297,7 @@ const std::optional<RangeCurve>& curve_of(const Session& session) { return sessi
 /// The visitor's change of the exposure, EV.
 static double visitors_ev(const Session& session)
 {
-    return session.guide ? session.guide->brighter_ev()
-                         : session.flight.exposure_ev - session.programme.start.exposure_ev;
+    return session.guide ? session.guide->brighter_ev() : session.flight.exposure_ev - session.programme.start.exposure_ev;
 }
 
 /// The exposure without a docent's change, EV.

@@ -29,7 +29,8 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
     [[maybe_unused]] const auto& [lever, throttle_rate, push, turn, stop, home, undo, reset, next_mode, freeze, menu, taken,
         slow_motion]
         = static_cast<const Steering&>(c);
-    [[maybe_unused]] const auto& [look_rad, look_ahead, head, exposure, lock_exposure, range] = static_cast<const Looking&>(c);
+    [[maybe_unused]] const auto& [look_rad, look_ahead, head, exposure, lock_exposure, range]
+        = static_cast<const Looking&>(c);
     [[maybe_unused]] const auto& [aberration, doppler, headlight, false_colours, comparison]
         = static_cast<const EffectSwitches&>(c);
     [[maybe_unused]] const auto& [overlay, mark, log, why, plot] = static_cast<const LabSwitches&>(c);
@@ -60,11 +61,11 @@ constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", 
     {"next_mode", &Controls::next_mode}, {"freeze", &Controls::freeze}, {"menu", &Controls::menu},
     {"taken", &Controls::taken}, {"slow_motion", &Controls::slow_motion}, {"aberration", &Controls::aberration},
     {"doppler", &Controls::doppler}, {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours},
-    {"comparison", &Controls::comparison}, {"lock_exposure", &Controls::lock_exposure}, {"range", &Controls::range}, {"overlay", &Controls::overlay},
-    {"mark", &Controls::mark}, {"log", &Controls::log}, {"why", &Controls::why}, {"plot", &Controls::plot},
-    {"hud", &Controls::hud}, {"information", &Controls::information}, {"beside", &Controls::beside},
-    {"full_screen", &Controls::full_screen}, {"quit", &Controls::quit}, {"pattern", &Controls::pattern},
-    {"save", &Controls::save}};
+    {"comparison", &Controls::comparison}, {"lock_exposure", &Controls::lock_exposure}, {"range", &Controls::range},
+    {"overlay", &Controls::overlay}, {"mark", &Controls::mark}, {"log", &Controls::log}, {"why", &Controls::why},
+    {"plot", &Controls::plot}, {"hud", &Controls::hud}, {"information", &Controls::information},
+    {"beside", &Controls::beside}, {"full_screen", &Controls::full_screen}, {"quit", &Controls::quit},
+    {"pattern", &Controls::pattern}, {"save", &Controls::save}};
 
 /// == would accept 0 for -0, which must come back as -0.
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }

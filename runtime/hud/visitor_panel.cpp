@@ -189,8 +189,7 @@ std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings
         std::string numbers
             = readings.range ? range_sentence(*readings.range, words) : guides_numbers(typesetter, readings, words);
         if (readings.range && numbered) {
-            const std::string with_gamma
-                = words("hud.gamma") + " " + shown_number(readings.gamma, words) + "   " + numbers;
+            const std::string with_gamma = words("hud.gamma") + " " + shown_number(readings.gamma, words) + "   " + numbers;
             if (width_of(typesetter, with_gamma, least_lettering) <= right_edge - left_of_lines)
                 numbers = with_gamma;
         }

@@ -14,11 +14,13 @@ constexpr double below_low = 0.002, above_high = 0.001;
 constexpr double above_top = 0.005;
 /// Slope above the range's top and below its bottom.
 constexpr double slope_beyond = 0.125;
-/// Each stop's share of the range rises with its part of the view to this power. At 1 a small bright disc would be flat, at 0
-/// a large dark field.
+/// Each stop's share of the range rises with its part of the view to this power. At 1 a small bright disc would be flat, at
+/// 0 a large dark field.
 constexpr double share_power = 0.5;
 /// The part of the range that all stops from the view's lowest to its highest share alike, so that order stays strict.
 constexpr double even_share = 0.1;
+/// Stops of the shown range, at least, however dark an eye's exposure is.
+constexpr double least_range = 5;
 /// The stars' part of all weight: they fill too little of a view to count, and are looked at.
 constexpr double stars_share = 0.1;
 
@@ -66,11 +68,11 @@ double level(const Histograms& histograms, double whole, double part)
     return cells;
 }
 
-/// Shares the range out among the cells from `first` to `last`: slopes of at most 1, in the weights' proportion below.
-std::array<double, cells> slopes(const Histogram& weights, int first, int last)
+/// Shares a range of so many stops out among the cells from `first` to `last`: slopes of at most 1, in the weights'
+/// proportion below.
+std::array<double, cells> slopes(const Histogram& weights, int first, int last, double range)
 {
     std::array<double, cells> slope{};
-    const double range = range_top - range_bottom;
     double least = 0, most = 1e9; // the factor of the weights
     for (int step = 0; step < 100; ++step) {
         const double factor = 0.5 * (least + most);
@@ -120,18 +122,15 @@ std::vector<double> range_goal(std::span<const LuminanceSample> view, std::span<
         double& weight = weights[std::size_t(k)];
         weight = even_share / (last - first + 1) + (1 - even_share) * weight / sum;
     }
-    const std::array<double, cells> slope = slopes(weights, first, last);
+    // An eye's exposure may show the view's top darker than the range allows, as a tour's author wanted it.
+    const double shown_end = std::clamp(last + 1 + RANGE_FIRST + ev, range_bottom + least_range, range_top);
+    const std::array<double, cells> slope = slopes(weights, first, last, shown_end - range_bottom);
 
     // Few digits, for records.
     const auto rounded = [](double x) { return std::round(x * 1000) / 1000; };
-    const double end = last + 1 + RANGE_FIRST; // of the cells in the range
-    double used = 0;
-    std::vector<double> goal{rounded(low + RANGE_FIRST), rounded(high + RANGE_FIRST), double(first), 0};
-    for (int k = first; k <= last; ++k) {
+    std::vector<double> goal{rounded(low + RANGE_FIRST), rounded(high + RANGE_FIRST), double(first), rounded(shown_end)};
+    for (int k = first; k <= last; ++k)
         goal.push_back(std::max(std::floor(slope[std::size_t(k)] * 1000) / 1000, 0.001));
-        used += goal.back();
-    }
-    goal[3] = rounded(std::min(std::max(end + ev, range_bottom + used), range_top));
     return goal;
 }
 

@@ -29,10 +29,9 @@ constexpr double range_top = -0.3959, range_bottom = -8;
 
 /// What makes a view's curve, in few numbers, for records: RangeCurve's low and high, the index of the first knot in the
 /// range, the shown luminance at the last one, and the slopes between them. From the view's samples; empty for a view
-/// without light. ev: the exposure of an eye, EV. A view whose stops all fit into the range is shown as with that exposure,
-/// or as near to it as the range allows.
-std::vector<double> range_goal(
-    std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars, double ev);
+/// without light. ev: the exposure of an eye, EV. The top of the view is no brighter than with that exposure, and a view
+/// whose stops all fit below it is shown as with that exposure.
+std::vector<double> range_goal(std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars, double ev);
 
 /// The curve of such numbers.
 RangeCurve curve_of(std::span<const double> goal);

@@ -63,8 +63,8 @@ public:
     /// part: of the vignette that is seen, 0 to 1. At 0 the pass takes no time. It darkens the world alone: instruments and
     /// the head-up display stay as they are, and so does the exposure's measure.
     void vignette(const Vignette& vignette, double part) { state_.vignette = vignette, state_.vignette_part = part; }
-    /// The curve by which everything shows at once, from the next frame on, and by which the shot's EV moves the shown light;
-    /// none: the shot's exposure.
+    /// The curve by which everything shows at once, from the next frame on, and by which the shot's EV moves the shown
+    /// light; none: the shot's exposure.
     void range(const std::optional<RangeCurve>& curve) { state_.range = curve; }
     void meter(bool on) { state_.meters = on; }
     /// Lays placards over all views, beside the head-up display, from the next frame on. They must last until it is drawn.

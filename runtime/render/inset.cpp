@@ -8,9 +8,9 @@ namespace starbow {
 Inset::Inset(Device& device, const Pipelines& pipelines, int width, double fov_deg)
     : fov_deg(fov_deg)
     , picture(make_image(device,
-        {vk::Format::eR8G8B8A8Srgb, {std::uint32_t(width), std::uint32_t(int(width * aspect))},
-            vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled
-                | vk::ImageUsageFlagBits::eTransferSrc}))
+          {vk::Format::eR8G8B8A8Srgb, {std::uint32_t(width), std::uint32_t(int(width * aspect))},
+              vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled
+                  | vk::ImageUsageFlagBits::eTransferSrc}))
 {
     name_object(device, picture, "small picture");
     MapStore store(std::filesystem::path{}); // a flat view has a matrix

@@ -68,7 +68,8 @@ void StarPass::bind(vk::CommandBuffer commands, std::size_t observer) const
 void StarPass::fit(vk::Extent2D extent, bool exact)
 {
     format_ = summing_format(device_, world_.stars.stars.size(), exact_ || exact);
-    if (*picture_.view && picture_.format == format_ && picture_.extent.width >= extent.width && picture_.extent.height >= extent.height)
+    if (*picture_.view && picture_.format == format_ && picture_.extent.width >= extent.width
+        && picture_.extent.height >= extent.height)
         return;
     extent.width = std::max(extent.width, picture_.extent.width);
     extent.height = std::max(extent.height, picture_.extent.height);

@@ -114,7 +114,8 @@ void ViewDescriptors::write_range()
     shared::RangeConstants all{};
     const std::array<double, RANGE_KNOTS>& shown = state_.range->shown;
     for (std::size_t k = 0; k < shown.size(); ++k)
-        all.knots[k] = glm::vec4(shown[k] + state_.shot.exposure_ev, k + 1 < shown.size() ? shown[k + 1] - shown[k] : 0, 0, 0);
+        all.knots[k]
+            = glm::vec4(shown[k] + state_.shot.exposure_ev, k + 1 < shown.size() ? shown[k + 1] - shown[k] : 0, 0, 0);
     std::memcpy(range_.mapped, &all, sizeof all);
 }
 

@@ -73,8 +73,8 @@ RecordEntry some_entry(std::mt19937_64& random)
              &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode, &Controls::freeze, &Controls::menu,
              &Controls::taken, &Controls::slow_motion, &Controls::aberration, &Controls::doppler, &Controls::headlight,
              &Controls::hud, &Controls::false_colours, &Controls::comparison, &Controls::full_screen, &Controls::quit,
-             &Controls::pattern, &Controls::save, &Controls::lock_exposure, &Controls::range, &Controls::overlay, &Controls::mark,
-             &Controls::log, &Controls::why, &Controls::plot, &Controls::information, &Controls::beside})
+             &Controls::pattern, &Controls::save, &Controls::lock_exposure, &Controls::range, &Controls::overlay,
+             &Controls::mark, &Controls::log, &Controls::why, &Controls::plot, &Controls::information, &Controls::beside})
         c.*flag = random() % 200 == 0;
     c.choose = random() % 20 == 0 ? int(random() % 3) - 1 : 0;
     c.turn_by = random() % 20 == 0 ? int(random() % 21) - 10 : 0;
@@ -84,8 +84,8 @@ RecordEntry some_entry(std::mt19937_64& random)
 std::vector<std::uint64_t> bits(const RecordEntry& e)
 {
     const Controls& c = e.controls;
-    std::vector<std::uint64_t> all{
-        std::uint64_t(e.dt_ns), std::uint64_t(e.skipped_ns), e.shown, e.ranged, e.range_goal.size(), c.lever.has_value(), e.exposure_ev.has_value()};
+    std::vector<std::uint64_t> all{std::uint64_t(e.dt_ns), std::uint64_t(e.skipped_ns), e.shown, e.ranged,
+        e.range_goal.size(), c.lever.has_value(), e.exposure_ev.has_value()};
     for (double v : {c.lever.value_or(0), c.throttle_rate, c.push.x, c.push.y, c.push.z, c.turn.x, c.turn.y, c.turn.z,
              c.look_rad.x, c.look_rad.y, c.head.moved_m.x, c.head.moved_m.y, c.head.moved_m.z, c.head.turned.w,
              c.head.turned.x, c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0)})

@@ -163,8 +163,8 @@ TEST(Presenter, ASecondPressWithinAFrameGoesOnFromTheFirst)
         return after(then, hands, {key}).value();
     };
     using enum CommandKind;
-    for (const auto& [key, kind] :
-        {std::pair{'H', hold}, {'B', fade}, {'P', pause}, {'E', headlight}, {'F', false_colours}, {'S', slow_motion}, {'U', range}})
+    for (const auto& [key, kind] : {std::pair{'H', hold}, {'B', fade}, {'P', pause}, {'E', headlight}, {'F', false_colours},
+             {'S', slow_motion}, {'U', range}})
         EXPECT_EQ(twice(key), on(kind, false));
     for (const auto& [key, kind] : {std::pair{'A', aberration}, {'D', doppler}}) // they are on
         EXPECT_EQ(twice(key), on(kind));

@@ -23,9 +23,9 @@ namespace starbow {
 namespace {
 
 struct RenderOptions {
-    std::string layout, shot, out, size, pattern = "none", exposure = "shot", mode = "eye", spectra = "needed", replay, frames,
-                                         language = "en", information = "laboratory", tour, movie, points, overlay = "off",
-                                         why = "none", quality;
+    std::string layout, shot, out, size, pattern = "none", exposure = "shot", mode = "eye", spectra = "needed", replay,
+                                         frames, language = "en", information = "laboratory", tour, movie, points,
+                                         overlay = "off", why = "none", quality;
     long frames_per_s = 30;
     long every = 1, samples = 16;
     double bloom = 0;
