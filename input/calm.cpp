@@ -7,8 +7,8 @@ namespace starbow {
 namespace {
 
 /// A second press undoes the first.
-constexpr bool Controls::*toggles[]
-    = {&Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::false_colours, &Controls::hud};
+constexpr bool Controls::*toggles[] = {&Controls::aberration, &Controls::doppler, &Controls::headlight,
+    &Controls::false_colours, &Controls::range, &Controls::hud};
 /// A second press adds nothing while the first one waits.
 constexpr bool Controls::*presses[] = {&Controls::comparison, &Controls::stop, &Controls::home, &Controls::undo,
     &Controls::reset, &Controls::look_ahead, &Controls::overlay, &Controls::why};

@@ -22,6 +22,7 @@ enum class CommandKind : std::uint8_t {
     shot,
     speed_limit, ///< number: greatest gamma
     exposure, ///< number: EV, added to whatever is shown
+    range, ///< on: everything visible at once; off: one exposure
     aberration,
     doppler,
     headlight,

@@ -42,6 +42,7 @@ struct Looking {
     Head head;
     double exposure = 0; ///< change to brighter or darker
     bool lock_exposure = false; ///< locks or unlocks the automatic exposure
+    bool range = false; ///< shows everything at once by a curve, or with one exposure again
 };
 
 struct EffectSwitches {

@@ -60,6 +60,9 @@ ExhibitState after(ExhibitState state, const Command& command)
     case CommandKind::exposure:
         state.exposure_ev = command.number;
         break;
+    case CommandKind::range:
+        state.range = command.on;
+        break;
     case CommandKind::language:
         state.language = command.text;
         break;

@@ -20,6 +20,7 @@ struct ExhibitState {
     double gamma = 1;
     double max_gamma = 1; ///< at full throttle
     double exposure_ev = 0; ///< a docent's change
+    bool range = false; ///< everything is visible at once
     std::string caption; ///< a docent's; empty: none
 };
 

@@ -35,6 +35,7 @@ const char* keyboard_help()
            "4               for guides: infrared and ultraviolet in false colours, on and off\n"
            "5               to compare: velocities that simply add, no light delay, and back to what is seen\n"
            "+, -            brighter, darker; L holds the automatic exposure, or lets it go\n"
+           "V               everything visible at once, with brightness compressed, on and off\n"
            "O               instruments: crosshair, grid, ring of D = 1, distance, time of emission, off\n"
            "X, K            mark what is at the crosshair (the first thing, the second); write a line of the log\n"
            "G               plots of the log against theory: D, length, clock, off\n"
@@ -135,6 +136,7 @@ void Keyboard::finish(Controls& controls, bool left_handed)
     controls.doppler = pressed(GLFW_KEY_2);
     controls.headlight = pressed(GLFW_KEY_3);
     controls.lock_exposure = pressed(GLFW_KEY_L);
+    controls.range = pressed(GLFW_KEY_V);
     controls.false_colours = pressed(GLFW_KEY_4);
     controls.comparison = pressed(GLFW_KEY_5);
     controls.overlay = pressed(GLFW_KEY_O);

@@ -62,9 +62,9 @@ constexpr std::pair<ButtonRole, bool Controls::*> switches[] = {{ButtonRole::sto
     {ButtonRole::slow_motion, &Controls::slow_motion}, {ButtonRole::look_ahead, &Controls::look_ahead},
     {ButtonRole::aberration, &Controls::aberration}, {ButtonRole::doppler, &Controls::doppler},
     {ButtonRole::headlight, &Controls::headlight}, {ButtonRole::false_colours, &Controls::false_colours},
-    {ButtonRole::comparison, &Controls::comparison}, {ButtonRole::hud, &Controls::hud},
-    {ButtonRole::overlay, &Controls::overlay}, {ButtonRole::mark, &Controls::mark}, {ButtonRole::log, &Controls::log},
-    {ButtonRole::why, &Controls::why}, {ButtonRole::information, &Controls::information},
+    {ButtonRole::comparison, &Controls::comparison}, {ButtonRole::range, &Controls::range},
+    {ButtonRole::hud, &Controls::hud}, {ButtonRole::overlay, &Controls::overlay}, {ButtonRole::mark, &Controls::mark},
+    {ButtonRole::log, &Controls::log}, {ButtonRole::why, &Controls::why}, {ButtonRole::information, &Controls::information},
     {ButtonRole::beside, &Controls::beside}, {ButtonRole::plot, &Controls::plot}};
 /// The rate of a button while it is held.
 struct Held {

@@ -10,9 +10,9 @@ namespace {
 bool any_switch(const Controls& c)
 {
     const bool switched[]{c.pressed, c.stop, c.home, c.undo, c.reset, c.next_mode, c.freeze, c.menu, c.slow_motion,
-        c.look_ahead, c.lock_exposure, c.aberration, c.doppler, c.headlight, c.false_colours, c.comparison, c.overlay,
-        c.mark, c.log, c.why, c.plot, c.hud, c.information, c.beside, c.full_screen, c.pattern, c.save, c.choose != 0,
-        c.turn_by != 0};
+        c.look_ahead, c.lock_exposure, c.range, c.aberration, c.doppler, c.headlight, c.false_colours, c.comparison,
+        c.overlay, c.mark, c.log, c.why, c.plot, c.hud, c.information, c.beside, c.full_screen, c.pattern, c.save,
+        c.choose != 0, c.turn_by != 0};
     return std::ranges::find(switched, true) != std::end(switched);
 }
 

@@ -7,6 +7,7 @@
 // Shows a viewport's exposed light with its glow; without a glow, warp.frag shows it by itself.
 
 layout(constant_id = 0) const bool DITHERED = true;
+layout(constant_id = 1) const bool RANGE = false; // the light went through the curve that shows everything at once
 
 layout(set = 0, binding = 0) uniform sampler2D picture; // alpha 0: shows nothing
 layout(set = 0, binding = 1) uniform sampler2D glow;    // half as large
@@ -18,6 +19,7 @@ void main()
     vec2 pixel = gl_FragCoord.xy - push.part.zw;
     vec4 light = texelFetch(picture, ivec2(pixel), 0);
     vec3 around = textureLod(glow, pixel * push.step.xy, 0.0).rgb;
-    vec3 screen = light.a > 0.0 ? tone_map(mix(light.rgb, around, push.part.x)) : vec3(0.0);
+    vec3 all = mix(light.rgb, around, push.part.x);
+    vec3 screen = light.a > 0.0 ? (RANGE ? tone_map_in_order(all) : tone_map(all)) : vec3(0.0);
     shown = vec4(DITHERED ? dithered_srgb(screen, ivec2(gl_FragCoord.xy)) : screen, 1.0);
 }

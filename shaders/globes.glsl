@@ -2,7 +2,7 @@
 // the cube map's sky. Needs received_light.glsl's constants; docs/physics.md has the formulas and their sources.
 #include "panorama.glsl"
 
-layout(constant_id = 25) const int GLOBES = 0; // of the world
+layout(constant_id = 26) const int GLOBES = 0; // of the world
 
 layout(set = 0, binding = 15) uniform Globes { GlobeConstants globes; };
 layout(set = 0, binding = 16) uniform sampler2DArray globe_maps; // parts of up to three kinds of ground

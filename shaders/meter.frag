@@ -11,6 +11,7 @@
 // Samples the view's luminance for the exposure: one pixel represents zenith.z x zenith.w pixels of the viewport. Where
 // colours have directions of their own, green's is used.
 
+layout(constant_id = 25) const bool RANGE = false;
 layout(location = 0) out vec2 metered; // luminance of the scene-linear light at EV 0; solid angle, 0: nothing is shown
 
 void main()
@@ -22,7 +23,7 @@ void main()
     vec3 light = shown.light;
     if (MAP && pixel_angle == 0.0)
         return;
-    if (WITH_SUN_GLARE)
+    if (WITH_SUN_GLARE && !RANGE)
         light += sun_glare(shown.n);
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
     metered = vec2(clamp(dot(light, luminance) * view.boost.z, 0.0, 1e38), pixel_angle * pixel_angle * coarser * coarser);

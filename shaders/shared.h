@@ -2,9 +2,10 @@
 // shaders/shared_structs.h, which asserts the sizes. All members are 16-byte aligned, so that std140, std430 and C++
 // agree.
 //
-// A number that decides a branch must not have a constant place in a uniform buffer: there, llvmpipe (Mesa 22.3) takes it for
-// a constant, compiles the shader again whenever the buffer is bound, if that makes it much shorter, and keeps every copy. Such
-// a number is therefore in an array, and the array's index has an addend that is 0, and that only the buffer tells.
+// A number that decides a branch must not have a constant place in a uniform buffer: there, llvmpipe (Mesa 22.3) takes it
+// for a constant, compiles the shader again whenever the buffer is bound, if that makes it much shorter, and keeps every
+// copy. Such a number is therefore in an array, and the array's index has an addend that is 0, and that only the buffer
+// tells.
 
 // The fixed division's tiles (see tiles.h); every tile has an entry, drawn or not.
 #define TILE_FRONT 0
@@ -35,15 +36,17 @@
 #define MOST_OWN_ROWS 4096 // of all together
 #define STAR_COLDEST 512.0 // K: colder black bodies are practically dark (1e-9 of the Sun's surface at 550 K)
 #define STAR_STEPS_PER_OCTAVE 64
-#define STAR_STEPS 769 // 12 octaves: to 2 million K; beyond, a black body's visible light grows linearly with its temperature
+#define STAR_STEPS                                                                                                          \
+    769 // 12 octaves: to 2 million K; beyond, a black body's visible light grows linearly with its temperature
 #define STAR_RADIUS 2.0 // radius of a star's spot, pixels
-#define STAR_SPOT                                                                                                           \
-    (3.14159265 * STAR_RADIUS * STAR_RADIUS / 5.0) // the integral of (1 - r^2 / R^2)^4, pixels
+#define STAR_SPOT (3.14159265 * STAR_RADIUS * STAR_RADIUS / 5.0) // the integral of (1 - r^2 / R^2)^4, pixels
 #define STAR_REACH 96.0 // greatest radius of a star's glare, pixels: a device draws points of twice the size
 #define GLARE_LEAST 0.1 // degrees; nearer, light is the star's own spot, as is all light within a pixel
 #define GLARE_MOST 3.0 // degrees; farther, glare is left out
 #define SUN_GLARE_MOST 60.0 // degrees; farther, the Sun's glare is left out
 #define GLARE_SHOWN 5e-4 // of white: dimmer glare does not show
+#define RANGE_KNOTS 192 // of the curve that shows everything at once, one for each stop of luminance; see range_curve.h
+#define RANGE_FIRST (-128.0) // log2 of the luminance at its first knot: of the least normal float, about
 
 #define MAX_GLOBES 16
 #define GLOBE_LEVELS 8 // of a kind of light, through more and more air, or towards the middle of the Sun's disc
@@ -80,7 +83,8 @@ struct LightEntry {
 struct SkyConstants {
     vec4 up; // the world's, in the cube map's axes
     vec4 zenith[MAX_GROUPS], horizon[MAX_GROUPS], nadir[MAX_GROUPS];
-    vec4 equatorial0, equatorial1, equatorial2; // rows of the turn from the cube map's axes to those of the Milky Way's panorama
+    vec4 equatorial0, equatorial1,
+        equatorial2; // rows of the turn from the cube map's axes to those of the Milky Way's panorama
     vec4 red[MAX_GROUPS], green[MAX_GROUPS], blue[MAX_GROUPS]; // of the panorama's colours
 };
 
@@ -177,6 +181,11 @@ struct GlobeConstants {
     vec4 sun; // direction in which the ship sees the Sun's middle, motion axes; w: its radius there, degrees
     vec4 sunlight; // illuminance from there, as starlight in star.vert, pre-exposed
     GlobeEntry entries[MAX_GLOBES];
+};
+
+// The curve of luminance that shows everything at once.
+struct RangeConstants {
+    vec4 knots[RANGE_KNOTS]; // x: log2 of the shown luminance; y: its change to the next knot
 };
 
 // A star, in the scene's world at rest.

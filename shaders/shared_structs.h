@@ -26,6 +26,7 @@ static_assert(sizeof(GlobeEntry) == 192);
 static_assert(sizeof(GlobeConstants) == 48 + MAX_GLOBES * 192);
 static_assert(sizeof(StarEntry) == 32);
 static_assert(sizeof(StarConstants) == 48);
+static_assert(sizeof(RangeConstants) == 16 * RANGE_KNOTS);
 static_assert(sizeof(OverlayConstants) == 176);
 static_assert(sizeof(FinishPush) == 112);
 static_assert(sizeof(BloomPush) == 48);

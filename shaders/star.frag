@@ -6,6 +6,7 @@
 // A star's spot: round, and the same at any speed. It is so wide that the sum over its pixels does not depend on its
 // centre's place between pixels, within 0.5 %: no star twinkles as it drifts. What the glare around it holds, it lacks.
 
+layout(constant_id = 25) const bool RANGE = false; // w: luminance before the curve that shows everything at once
 layout(constant_id = 9) const bool HALVES = false; // the picture has 16 bits a number
 
 layout(location = 0) flat in vec2 centre;
@@ -19,11 +20,13 @@ void main()
     float square = dot(off, off), inside = max(1.0 - square / (STAR_RADIUS * STAR_RADIUS), 0.0);
     inside *= inside;
     float part = inside * inside / STAR_SPOT * glare.w;
-    if (glare.y > 0.0) {
+    if (!RANGE && glare.y > 0.0) {
         float pixel = radians(glare.x);
         part += max(glare_at(square * glare.x * glare.x + glare.y) - glare.z, 0.0) * pixel * pixel;
     }
-    shown = vec4(light * part, 1.0);
+    shown = vec4(light * part, RANGE ? glare.y * part : 1.0);
     if (HALVES) // must stay finite where bright stars meet; that light is white
         shown.rgb = clamp(shown.rgb, vec3(-16000.0), vec3(16000.0));
+    if (HALVES && RANGE)
+        shown.a = 16000.0 * part; // luminances before the curve have too many stops for 16 bits
 }

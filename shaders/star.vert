@@ -7,6 +7,8 @@
 #include "view.glsl"
 #include "received_light.glsl"
 #include "part.glsl"
+#include "tone.glsl"
+#include "range.glsl"
 // One star of the sky in one viewport: its direction in the ship, its pixel, and its light. Stars are points: each goes
 // through the forward transform and has no size that could be magnified. A star has one instance, or three where colours
 // have directions of their own, one for each colour. It has as many again where a display shows a direction at more than
@@ -23,6 +25,7 @@ layout(location = 0) flat out vec2 centre; // pixels of the target; METERING_SAM
 layout(location = 1) flat out vec3 light;  // of the whole star, spread over the solid angle of a pixel
 layout(location = 2) flat out vec4 glare;  // x: degrees of a pixel; y: square of the least angle, 0: none; z: level of its end;
                                            // w: the part of the light in the spot: neither glare nor shown as a disc
+                                           // RANGE, without glare: y: luminance before the curve
 
 // Rec. 709 linear light of a black body, relative to a luminance of 1 at 5772 K.
 vec3 black_body(float kelvin)
@@ -181,8 +184,13 @@ void main()
     if (glare.w == 0.0 && glare.y == 0.0)
         return;
     gl_PointSize = 2.0 * radius;
+    float factor = RANGE ? range_factor(luminance_of(light) / STAR_SPOT) : 1.0; // by its spot's middle luminance
     if (CHANNELS)
         light *= vec3(equal(ivec3(0, 1, 2), ivec3(channel)));
+    if (RANGE) {
+        glare.y = max(luminance_of(light), 0.0);
+        light *= factor;
+    }
     centre = point + view.origin.xy;
     gl_Position = vec4((point + STAR_REACH) / (size + 2.0 * STAR_REACH) * 2.0 - 1.0, 0.0, 1.0);
 }

@@ -34,3 +34,22 @@ FN rvec3 tone_map(rvec3 light)
     real most = max(colour.x, max(colour.y, colour.z));
     return max(colour, rvec3(0.0)) * (shown / max(most, real(1e-30)));
 }
+
+FN real luminance_of(rvec3 light) { return dot(light, rvec3(0.2126, 0.7152, 0.0722)); } // Rec. 709
+
+// The same where the order of luminances must stay. The curve above shows a colour by its brightest channel, so that a
+// bright red is darker than a grey of its luminance. Here the shown luminance follows from the luminance alone, as a grey's
+// does. The colour that the shoulder makes is darkened to it, or mixed with white up to it. Below the knee the light is
+// unchanged.
+FN rvec3 tone_map_in_order(rvec3 light)
+{
+    const real knee = real(0.76);
+    real luminance = luminance_of(light);
+    real above = max(luminance - knee, real(0.0));
+    real wanted = min(luminance, knee) + (real(1.0) - knee) * above / (above + real(1.0) - knee);
+    rvec3 colour = tone_map(light);
+    real got = luminance_of(colour);
+    real white = max(wanted - got, real(0.0)) / max(real(1.0) - got, real(1e-6));
+    colour = colour * min(wanted / max(got, real(1e-30)), real(1.0));
+    return colour + (rvec3(1.0) - colour) * white;
+}

@@ -8,11 +8,14 @@
 #include "tone.glsl"
 #include "sun_glare.glsl"
 #include "dither.glsl"
+#include "range.glsl"
 
 layout(constant_id = 9) const bool LINEAR = false;  // light for the glow, before the tone curve; alpha 0: shows nothing
 layout(constant_id = 10) const bool DITHERED = true; // the target has 8 bits
 
 layout(location = 0) out vec4 shown;
+
+vec4 starlight_at(vec2 pixel) { return texelFetch(stars_picture, ivec2(pixel + view.corner.xy), 0); }
 
 // Exposed. shows: false where the map shows nothing; there the light is 0.
 vec3 light_along(vec2 pixel, int channel, out bool shows)
@@ -28,13 +31,13 @@ vec3 light_along(vec2 pixel, int channel, out bool shows)
     vec3 light = light_at(pixel, channel, pixel_angle);
 #endif
     shows = !MAP || pixel_angle > 0.0;
-    if (WITH_SUN_GLARE && shows) {
+    if (WITH_SUN_GLARE && !RANGE && shows) {
         float same_angle;
         light += sun_glare(look(view.row0, view.row1, view.row2, pixel, channel, same_angle));
     }
     light *= view.boost.z;
-    if (STARS && shows)
-        light += texelFetch(stars_picture, ivec2(pixel + view.corner.xy), 0).rgb;
+    if (STARS && shows && !RANGE)
+        light += starlight_at(pixel).rgb;
     return light;
 }
 
@@ -50,6 +53,18 @@ void main()
 #endif
     // Infinite D^3 is clamped to a number: the greatest light is already white.
     light = clamp(light, vec3(0.0), vec3(1e30));
+    if (RANGE) {
+        float whole = luminance_of(light);
+        light *= range_factor(whole);
+        if (STARS && shows) {
+            // Each star went through the curve as a whole: its spot keeps its shape. A crowd of them is no brighter than the
+            // curve shows its light.
+            vec4 stars = starlight_at(pixel);
+            whole += stars.a;
+            light += max(stars.rgb, vec3(0.0));
+            light *= min(whole * range_factor(whole) / max(luminance_of(light), 1e-30), 1.0);
+        }
+    }
     if (LINEAR) {
         shown = vec4(min(light, vec3(60000.0)), shows ? 1.0 : 0.0); // fp16's greatest, nearly
         return;
@@ -60,7 +75,7 @@ void main()
     for (int turn = 0; turn < (light == vec3(0.0) ? 0 : 1); ++turn)
 #endif
     {
-        vec3 screen = tone_map(light);
+        vec3 screen = RANGE ? tone_map_in_order(light) : tone_map(light);
         shown = vec4(DITHERED ? dithered_srgb(screen, ivec2(gl_FragCoord.xy)) : screen, 1.0);
     }
 }

@@ -79,8 +79,10 @@ Comfort read_comfort(const Place& place)
 
 Exposing read_exposing(const Place& place)
 {
-    reject_unknown_members(place, {"automatic", "min_ev", "max_ev", "bloom"});
+    reject_unknown_members(place, {"mode", "automatic", "min_ev", "max_ev", "bloom"});
     Exposing exposure;
+    if (const auto p = find_member(place, "mode"))
+        exposure.mode = chosen(*p, exposure_modes);
     take(place, "automatic", exposure.automatic);
     take(place, "min_ev", exposure.min_ev, {-60, 60});
     take(place, "max_ev", exposure.max_ev, {-60, 60});

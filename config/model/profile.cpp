@@ -20,10 +20,11 @@ const std::vector<std::pair<std::string_view, ButtonRole>> button_roles{{"none",
     {"freeze", ButtonRole::freeze}, {"menu", ButtonRole::menu}, {"slow-motion", ButtonRole::slow_motion},
     {"look-ahead", ButtonRole::look_ahead}, {"aberration", ButtonRole::aberration}, {"doppler", ButtonRole::doppler},
     {"headlight", ButtonRole::headlight}, {"false-colours", ButtonRole::false_colours},
-    {"comparison", ButtonRole::comparison}, {"hud", ButtonRole::hud}, {"information", ButtonRole::information},
-    {"beside", ButtonRole::beside}, {"plot", ButtonRole::plot}, {"overlay", ButtonRole::overlay}, {"mark", ButtonRole::mark},
-    {"log", ButtonRole::log}, {"why", ButtonRole::why}, {"faster", ButtonRole::faster}, {"slower", ButtonRole::slower},
-    {"brighter", ButtonRole::brighter}, {"darker", ButtonRole::darker}};
+    {"comparison", ButtonRole::comparison}, {"range", ButtonRole::range}, {"hud", ButtonRole::hud},
+    {"information", ButtonRole::information}, {"beside", ButtonRole::beside}, {"plot", ButtonRole::plot},
+    {"overlay", ButtonRole::overlay}, {"mark", ButtonRole::mark}, {"log", ButtonRole::log}, {"why", ButtonRole::why},
+    {"faster", ButtonRole::faster}, {"slower", ButtonRole::slower}, {"brighter", ButtonRole::brighter},
+    {"darker", ButtonRole::darker}};
 
 /// Four hexadecimal digits, as lsusb and `starbow devices` print them.
 int hex_id(const Place& place)

@@ -39,6 +39,7 @@ enum class ButtonRole {
     headlight,
     false_colours,
     comparison,
+    range,
     hud,
     information,
     beside,

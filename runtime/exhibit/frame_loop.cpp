@@ -68,7 +68,7 @@ bool FrameLoop::fly_frame()
     const LimitedWait working = fresh_ ? LimitedWait("the end of the first frame's work", loading_limit_s)
                                        : LimitedWait("the end of one frame's work");
     // One frame is in flight at a time, for the least delay between a control and its picture.
-    const std::optional<double> metered = await_device();
+    Metered metered = await_device();
 
     // Follow files and monitors, and acquire the windows' images. This waits for the screens.
     apply_file_changes();
@@ -207,7 +207,7 @@ void FrameLoop::stand_by()
     session_.service.waits("Waits for the window system, which holds all pictures.");
 }
 
-std::optional<double> FrameLoop::await_device()
+Metered FrameLoop::await_device()
 {
     const Trace::Span span(device_.trace, "wait");
     if (session_.options.paced)
@@ -222,7 +222,7 @@ std::optional<double> FrameLoop::await_device()
     if (const auto ms = timer_.ms(); ms && session_.governor)
         if (session_.governor->drawn(seconds(Clock::now() - session_.began), prepared_ms_ + *ms))
             frame_->adopt(quality_of(session_, device_));
-    return frame_->metered();
+    return {frame_->metered(), frame_->surface_samples(), frame_->star_samples()};
 }
 
 void FrameLoop::publish_view()
@@ -315,7 +315,8 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
             fit(i);
     watch_sizes(targets);
     frame_->move_head(controls.head);
-    frame_->meter(session_.options.exposure.automatic);
+    frame_->meter(session_.options.exposure.automatic || session_.range);
+    frame_->range(curve_of(session_));
     frame_->bloom(session_.options.exposure.bloom);
     frame_->fade(glm::smoothstep(0.0, 1.0, session_.black));
     const bool by_hand = visitor_flies(session_); // a tour's own motion may roll

@@ -45,8 +45,8 @@ private:
     void forget_drawn() { at_rest_.reset(), rested_ = false, placards_.forget(); }
     void fit(std::size_t output);
     void watch_sizes(const std::vector<Target>& targets);
-    /// Waits for the frame's turn and for the device. Returns the exposure for the frame before, if it was metered.
-    std::optional<double> await_device();
+    /// Waits for the frame's turn and for the device. Returns the luminance of the frame before, if it was metered.
+    Metered await_device();
     /// Hands the small copy of the previous frame to the guide's window and to the remote, as each has requested it.
     void publish_view();
     /// Has a changed layout loaded beside, and applies one that is ready. If any file is wrong, nothing changes: the old

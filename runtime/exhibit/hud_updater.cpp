@@ -100,6 +100,8 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
     if (shown.caption && !shown.caption->flying)
         shown.lever.reset();
     shown.exposure_ev = exposure_ev, shown.exposure_locked = session.exposure.locked;
+    if (const std::optional<RangeCurve>& curve = curve_of(session))
+        shown.range = Readings::Range{curve->stops(), curve->shown_stops()};
     shown.notice = notice_of(session);
     return shown;
 }

@@ -47,6 +47,7 @@ MenuPage switches_of(const Session& session)
         .items = {switch_of(words, "menu.aberration", CommandKind::aberration, on.aberration),
             switch_of(words, "menu.doppler", CommandKind::doppler, on.doppler),
             switch_of(words, "menu.headlight", CommandKind::headlight, on.headlight),
+            switch_of(words, "menu.range", CommandKind::range, session.range),
             next_of(words, "menu.beside", std::string("beside.") + name_of(session.beside), CommandKind::beside,
                 name_of(after(session.beside))),
             next_of(words, "menu.information", "remote.display." + std::string(name_of(session.information)),

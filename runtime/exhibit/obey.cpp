@@ -71,6 +71,9 @@ void obey(Session& session, const Command& command, Controls& controls)
     case CommandKind::exposure:
         session.directions.exposure_ev = command.number;
         break;
+    case CommandKind::range:
+        session.range = command.on;
+        break;
     case CommandKind::aberration:
     case CommandKind::doppler:
     case CommandKind::headlight:
@@ -156,6 +159,7 @@ void begin_programme(Session& session, Programme programme, bool visitors)
     session.tutorial = tutorial_at(session.flight);
     session.goals = {};
     session.lab.forget();
+    session.range_mode.follows_at_once = true;
 }
 
 void forget_visitor(Session& session)
@@ -169,6 +173,8 @@ void forget_visitor(Session& session)
     session.scan = {};
     forget_language(session.options.state);
     session.exposure = {};
+    session.range = session.options.exposure.mode == ExposureMode::range;
+    session.range_mode = {};
 }
 
 void forget_directions(Session& session)

@@ -3,7 +3,7 @@
 #include "input/calm.h"
 #include "runtime/flight/flight.h"
 #include "runtime/flight/record.h"
-#include "runtime/light/exposure.h"
+#include "runtime/light/range_curve.h"
 #include "runtime/render/offscreen.h"
 
 namespace starbow {
@@ -22,7 +22,12 @@ public:
     /// Each output as RGBA8, rows from the top.
     std::vector<std::vector<std::uint8_t>> picture(const Flight& flight, const std::string& scene, const Panel* hud);
 
+    /// The curve of the next picture; none: the exposure alone shows it.
+    const std::optional<RangeCurve>& curve() const { return range_mode_.follower.shown; }
+
 private:
+    double wanted_ev(double flights_ev) const; ///< flights_ev: the visitor's
+
     OffscreenRenderer& renderer_;
     Layout layout_;
     AlignmentMode alignment_;
@@ -30,6 +35,7 @@ private:
     double start_ev_;
     Comfort comfort_;
     Exposure exposure_;
+    RangeMode range_mode_;
     SlowTurns calm_ev_; ///< the shown EV of a calm exhibit
 };
 

@@ -109,6 +109,7 @@ void describe(const Session& session, ExhibitState& out)
     out.speed = std::tanh(rapidity), out.gamma = std::cosh(rapidity);
     out.max_gamma = session.rules.max_gamma;
     out.exposure_ev = session.directions.exposure_ev;
+    out.range = session.range;
     out.caption = session.directions.caption;
 }
 
@@ -147,7 +148,7 @@ std::uint64_t digest(const Session& session)
 {
     std::string text = session.programme.scene.string() + '\n' + session.programme.tour_name + '\n'
         + session.words("hud.speed") + '\n' + std::to_string(int(session.alignment.pattern()))
-        + std::to_string(session.tutorial.lesson) + std::to_string(session.exposure.locked)
+        + std::to_string(session.tutorial.lesson) + std::to_string(session.exposure.locked) + std::to_string(session.range)
         + std::to_string(session.history.empty()) + std::to_string(session.lab.shows_anything())
         + std::to_string(session.menu.open) + std::to_string(int(session.information)) + std::to_string(int(session.beside))
         + std::to_string(session.goals.current) + std::to_string(session.one_button) + std::to_string(session.left_handed);
@@ -196,6 +197,7 @@ Session::Session(const ExhibitOptions& given)
     , guide(guide_of(programme, rules, !given.visiting))
     , shown_record(programme.record.empty() ? nullptr : std::make_unique<ShownRecord>(programme.record))
     , flight(flight_at(programme.start, rules))
+    , range(given.exposure.mode == ExposureMode::range)
     , tutorial(tutorial_at(flight))
     , record_replay(record_replay_of(given, rules))
     , hid(given.profiles, write_log)
@@ -290,15 +292,45 @@ std::string notice_of(const Session& session)
     return session.skew.frames() > 0 ? describe(session.skew) : "";
 }
 
-double ev_of(const Session& session)
+const std::optional<RangeCurve>& curve_of(const Session& session) { return session.range_mode.follower.shown; }
+
+/// The visitor's change of the exposure, EV.
+static double visitors_ev(const Session& session)
+{
+    return session.guide ? session.guide->brighter_ev() : session.flight.exposure_ev - session.programme.start.exposure_ev;
+}
+
+/// The exposure without a docent's change, EV.
+static double undirected_ev(const Session& session)
 {
     const Exposing& rules = session.options.exposure;
-    if (session.calm_ev.value)
-        return *session.calm_ev.value;
-    const double shown = session.guide
+    return session.guide
         ? session.guide->shown_ev(session.exposure, rules)
         : shown_ev(session.exposure, rules, session.flight.exposure_ev, session.programme.start.exposure_ev);
-    return shown + session.directions.exposure_ev;
+}
+
+double ev_of(const Session& session)
+{
+    if (session.calm_ev.value)
+        return *session.calm_ev.value;
+    return (curve_of(session) ? visitors_ev(session) : undirected_ev(session)) + session.directions.exposure_ev;
+}
+
+/// Steps the curve that shows everything at once. The record's entry holds what it follows.
+static void follow_range(Session& session, RecordEntry& entry, const Metered& metered, double dt_s)
+{
+    session.range ^= entry.controls.range;
+    if (session.record_replay.replays())
+        session.range = entry.ranged;
+    entry.ranged = session.range;
+    if (!session.range) {
+        session.range_mode = {};
+        return;
+    }
+    const bool locked = session.exposure.locked;
+    if (!session.record_replay.replays() && (!locked || !session.range_mode.wanted) && wants_goal(session.range_mode, dt_s))
+        entry.range_goal = range_goal(metered.surfaces, metered.stars, undirected_ev(session) - visitors_ev(session));
+    session.range_mode = advance(std::move(session.range_mode), entry.range_goal, dt_s, locked);
 }
 
 bool is_over(const Session& session)
@@ -388,7 +420,10 @@ void keep_calm(Session& session, double dt_s)
 {
     session.calm_black = followed(session.calm_black, session.black, dt_s, black_per_s, 0);
     session.black = *session.calm_black.value;
-    const SlowTurns before = std::exchange(session.calm_ev, {});
+    SlowTurns before = std::exchange(session.calm_ev, {});
+    const bool ranged = curve_of(session).has_value();
+    if (std::exchange(session.calm_range, ranged) != ranged)
+        before = {}; // a leap, as each switch is
     // A tour shows its own exposures; the first view of a world is exposed at once.
     if ((session.exposure.ev || !session.options.exposure.automatic) && visitor_flies(session))
         session.calm_ev = calmed_ev(before, ev_of(session), dt_s);
@@ -401,7 +436,7 @@ void seek_goals(Session& session, const SceneFile& scene, std::int64_t dt_ns)
             scene.seconds_per_time_unit(), dt_ns);
 }
 
-void step(Session& session, RecordEntry& entry, const std::optional<double>& metered, double seconds_per_time_unit)
+void step(Session& session, RecordEntry& entry, const Metered& metered, double seconds_per_time_unit)
 {
     const Exposing& exposing = session.options.exposure;
     const Shot& start = session.programme.start;
@@ -420,8 +455,9 @@ void step(Session& session, RecordEntry& entry, const std::optional<double>& met
     if (session.record_replay.replays())
         session.exposure = adapted_to(session.exposure, entry.exposure_ev, exposing, start.exposure_ev);
     else
-        session.exposure = adapted(session.exposure, metered, dt_s, exposing, start.exposure_ev);
+        session.exposure = adapted(session.exposure, metered.ev, dt_s, exposing, start.exposure_ev);
     entry.exposure_ev = session.exposure.ev;
+    follow_range(session, entry, metered, dt_s);
     session.record_replay.keep(entry, session.flight);
     session.tutorial = advance(session.tutorial, controls, session.flight, dt_s);
     if (toured && session.guide->over() && in_hand(session.visit))

@@ -22,6 +22,7 @@
 #include "runtime/flight/tutorial.h"
 #include "runtime/flight/visit.h"
 #include "runtime/light/exposure.h"
+#include "runtime/light/range_curve.h"
 #include "runtime/operation/diary.h"
 #include "runtime/operation/governor.h"
 #include "runtime/operation/guide.h"
@@ -86,8 +87,11 @@ struct Session {
     Flight flight;
     History history{};
     Exposure exposure{};
+    bool range; ///< a curve shows everything at once
+    RangeMode range_mode{};
     CalmHands calm_hands{}; ///< of a calm exhibit, as the next two
     SlowTurns calm_ev{}, calm_black{};
+    bool calm_range = false; ///< calm_ev is that of a curve
     double black = 0; ///< the part of black over the picture
     Tutorial tutorial;
     RecordReplay record_replay;
@@ -162,7 +166,9 @@ Quality quality_of(const Session& session, const Device& device);
 /// Leaves a level of the governor's ladder for which the device has no memory, and logs that with the reason. Returns false
 /// without a governor, and where no level is left.
 bool take_coarser_level(Session& session, std::size_t level, const std::string& reason);
-/// The exposure of the next picture, EV.
+/// The curve by which the next picture shows everything at once; none: the exposure alone does.
+const std::optional<RangeCurve>& curve_of(const Session& session);
+/// The exposure of the next picture, EV. With a curve: the change by the visitor and the docent.
 double ev_of(const Session& session);
 /// True while a test pattern, which only a builder calls up, shows the drawn PINs.
 bool shows_pins(const Session& session);
@@ -182,8 +188,13 @@ bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelin
 /// Follows the visitor's way through the world's goals, where the display is for visitors or guides.
 void seek_goals(Session& session, const SceneFile& scene, std::int64_t dt_ns);
 
-/// Steps flight, exposure, record and tutorial by the entry, whose commands are carried out already. metered: the exposure
-/// for the frame before, EV.
-void step(Session& session, RecordEntry& entry, const std::optional<double>& metered, double seconds_per_time_unit);
+/// The luminance of the frame before.
+struct Metered {
+    std::optional<double> ev; ///< the exposure for it
+    std::span<const LuminanceSample> surfaces, stars;
+};
+
+/// Steps flight, exposure, record and tutorial by the entry, whose commands are carried out already.
+void step(Session& session, RecordEntry& entry, const Metered& metered, double seconds_per_time_unit);
 
 } // namespace starbow

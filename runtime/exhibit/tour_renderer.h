@@ -17,15 +17,22 @@ public:
     {
     }
 
+    /// From now on a curve shows everything at once, as the exhibit does with frames of frame_s seconds.
+    void range(double frame_s) { range_frame_s_ = frame_s; }
+
     /// Each output as RGBA8, rows from the top.
     std::vector<std::vector<std::uint8_t>> picture(const Touring& touring);
 
 private:
+    void follow_range(Shot& shot);
+
     OffscreenRenderer& renderer_;
     const Show& show_;
     const SceneFile& scene_;
     const Words& words_;
     Typesetter typesetter_;
+    double range_frame_s_ = 0; ///< 0: the exposure alone shows it
+    RangeMode range_mode_;
 };
 
 } // namespace starbow

@@ -2,6 +2,7 @@
 #include "config/model/comfort_reader.h"
 #include "config/model/exposing_reader.h"
 #include "config/model/shot_reader.h"
+#include "shaders/shared_structs.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -28,7 +29,8 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
     [[maybe_unused]] const auto& [lever, throttle_rate, push, turn, stop, home, undo, reset, next_mode, freeze, menu, taken,
         slow_motion]
         = static_cast<const Steering&>(c);
-    [[maybe_unused]] const auto& [look_rad, look_ahead, head, exposure, lock_exposure] = static_cast<const Looking&>(c);
+    [[maybe_unused]] const auto& [look_rad, look_ahead, head, exposure, lock_exposure, range]
+        = static_cast<const Looking&>(c);
     [[maybe_unused]] const auto& [aberration, doppler, headlight, false_colours, comparison]
         = static_cast<const EffectSwitches&>(c);
     [[maybe_unused]] const auto& [overlay, mark, log, why, plot] = static_cast<const LabSwitches&>(c);
@@ -42,7 +44,7 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
         = f;
     [[maybe_unused]] const auto& [no_roll, level_horizon, turn_steps_deg, vignette] = f.comfort;
     [[maybe_unused]] const auto& [elevation_deg, clear_deg, soft_deg, darkness] = *vignette;
-    [[maybe_unused]] const auto& [automatic, min_ev, max_ev, bloom, calm] = e;
+    [[maybe_unused]] const auto& [exposure_mode, automatic, min_ev, max_ev, bloom, calm] = e;
     [[maybe_unused]] const auto& [ship, flight_mode, flight_lever, coasting, lever_waits, lever_rest, frozen, slowness,
         homeward, thrust_inhibited, rate, thrust, turn_rad_s, turn_lead_rad_s, step_wait, vignette_part, homing,
         flight_look_rad, effects, exposure_ev, flight_hud, ticks, left_ns]
@@ -59,11 +61,11 @@ constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", 
     {"next_mode", &Controls::next_mode}, {"freeze", &Controls::freeze}, {"menu", &Controls::menu},
     {"taken", &Controls::taken}, {"slow_motion", &Controls::slow_motion}, {"aberration", &Controls::aberration},
     {"doppler", &Controls::doppler}, {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours},
-    {"comparison", &Controls::comparison}, {"lock_exposure", &Controls::lock_exposure}, {"overlay", &Controls::overlay},
-    {"mark", &Controls::mark}, {"log", &Controls::log}, {"why", &Controls::why}, {"plot", &Controls::plot},
-    {"hud", &Controls::hud}, {"information", &Controls::information}, {"beside", &Controls::beside},
-    {"full_screen", &Controls::full_screen}, {"quit", &Controls::quit}, {"pattern", &Controls::pattern},
-    {"save", &Controls::save}};
+    {"comparison", &Controls::comparison}, {"lock_exposure", &Controls::lock_exposure}, {"range", &Controls::range},
+    {"overlay", &Controls::overlay}, {"mark", &Controls::mark}, {"log", &Controls::log}, {"why", &Controls::why},
+    {"plot", &Controls::plot}, {"hud", &Controls::hud}, {"information", &Controls::information},
+    {"beside", &Controls::beside}, {"full_screen", &Controls::full_screen}, {"quit", &Controls::quit},
+    {"pattern", &Controls::pattern}, {"save", &Controls::save}};
 
 /// == would accept 0 for -0, which must come back as -0.
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
@@ -209,10 +211,22 @@ Command read_command(const Place& place)
     }
 }
 
+/// range_curve.h says what the numbers are.
+std::vector<double> read_range_goal(const Place& place)
+{
+    constexpr std::size_t before = 4, cells = RANGE_KNOTS - 1;
+    const std::vector<Place> all = items(place, before + 1, before + cells, "numbers");
+    std::vector<double> goal{number(all[0], {-1e3, 1e3}), number(all[1], {-1e3, 1e3}),
+        double(integer(all[2], 0, int(cells + before - all.size()))), number(all[3], {-1e3, 1e3})};
+    for (std::size_t i = before; i < all.size(); ++i)
+        goal.push_back(number(all[i], {0, 1, true}));
+    return goal;
+}
+
 RecordEntry read_entry(const Place& top)
 {
     std::vector<std::string_view> known{"dt_ns", "skipped_ns", "unseen", "lever", "faster", "push", "turn", "look_rad",
-        "head_m", "head_turned", "exposure", "exposure_ev", "choose", "turn_by", "commands"};
+        "head_m", "head_turned", "exposure", "exposure_ev", "ranged", "range_goal", "choose", "turn_by", "commands"};
     for (const auto& [name, flag] : switches)
         known.emplace_back(name);
     reject_unknown_members(top, known);
@@ -222,6 +236,9 @@ RecordEntry read_entry(const Place& top)
         entry.skipped_ns = whole(*p, most_ns);
     if (auto p = find_member(top, "exposure_ev"))
         entry.exposure_ev = number(*p, {-1e3, 1e3});
+    take(top, "ranged", entry.ranged);
+    if (auto p = find_member(top, "range_goal"))
+        entry.range_goal = read_range_goal(*p);
     bool unseen = false;
     take(top, "unseen", unseen);
     entry.shown = !unseen;
@@ -311,6 +328,8 @@ std::string text_of(const RecordHeader& header)
         json["flying"].erase("comfort");
     json["exposure"] = {{"automatic", header.exposing.automatic}, {"min_ev", header.exposing.min_ev},
         {"max_ev", header.exposing.max_ev}, {"bloom", header.exposing.bloom}};
+    if (header.exposing.mode != ExposureMode::eye)
+        json["exposure"]["mode"] = name_of(header.exposing.mode);
     if (header.exposing.calm)
         json["calm"] = true;
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -328,6 +347,10 @@ std::string text_of(const RecordEntry& entry)
         json["unseen"] = true;
     if (entry.exposure_ev)
         json["exposure_ev"] = *entry.exposure_ev;
+    if (entry.ranged)
+        json["ranged"] = true;
+    if (!entry.range_goal.empty())
+        json["range_goal"] = entry.range_goal;
     if (controls.lever)
         json["lever"] = *controls.lever;
     put(json, "faster", controls.throttle_rate, usual.throttle_rate);

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace starbow {
 
@@ -33,6 +34,9 @@ struct RecordEntry {
     bool shown = true; ///< false: the visitor saw no picture of the frame, because no window was visible
     std::optional<double> exposure_ev; ///< the automatic exposure's adapted EV, because a replay does not repeat the
                                        ///< metering
+    bool ranged = false; ///< a curve shows everything at once
+    std::vector<double> range_goal; ///< the curve that it follows from this frame on, as range_curve.h has it; empty: the
+                                    ///< same as before
     Controls controls; ///< time_ns: the sum of all dt_ns and skipped_ns so far
 };
 

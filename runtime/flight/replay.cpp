@@ -11,10 +11,11 @@ namespace {
 /// Far longer than any written line. A longer line belongs to no record and is not read to its end.
 constexpr std::size_t longest_line = 1 << 16;
 
-/// True for a command that tells who steers: a record holds what that hand did.
-bool changes_hands_alone(const Command& command)
+/// True for a command whose effect the record's frames hold: what the hand did that steers, and the curve of brightness.
+bool kept_in_frames(const Command& command)
 {
-    return command.kind == CommandKind::one_button || command.kind == CommandKind::left_handed;
+    return command.kind == CommandKind::one_button || command.kind == CommandKind::left_handed
+        || command.kind == CommandKind::range;
 }
 
 } // namespace
@@ -115,7 +116,7 @@ std::string Replay::verdict() const
 const Command* exhibits_command(const RecordEntry& entry)
 {
     const std::vector<Command>& commands = entry.controls.commands;
-    const auto at = std::ranges::find_if_not(commands, changes_hands_alone);
+    const auto at = std::ranges::find_if_not(commands, kept_in_frames);
     return at == commands.end() ? nullptr : &*at;
 }
 

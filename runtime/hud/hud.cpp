@@ -121,6 +121,13 @@ void show_on(Information information, double start_s, Readings& readings)
         readings.world_s -= start_s;
 }
 
+std::string range_sentence(const Readings::Range& range, const Words& words)
+{
+    const std::string stops = text("%.0f", range.stops), shown = text("%.0f", range.shown);
+    return stops == shown ? words("hud.range_whole", {{"stops", stops}})
+                          : words("hud.range", {{"stops", stops}, {"shown", shown}});
+}
+
 std::string light_name(const Effects& on, const Words& words)
 {
     if (on.comparison != Comparison::none)
@@ -151,8 +158,12 @@ std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r, c
     fields.push_back({words("hud.flight"), words("flight." + std::string(r.frozen ? "frozen" : name_of(r.mode)))});
     const double ev = std::round(10 * r.exposure_ev) / 10;
     const std::string sign = ev < 0 ? "−" : ev > 0 ? "+" : "";
-    fields.push_back({words("hud.exposure"),
-        words(r.exposure_locked ? "hud.ev_locked" : "hud.ev", {{"ev", sign + shown_number(std::abs(ev), 1, words)}})});
+    std::string exposure
+        = words(r.exposure_locked ? "hud.ev_locked" : "hud.ev", {{"ev", sign + shown_number(std::abs(ev), 1, words)}});
+    if (r.range)
+        exposure = words("hud.ev_range",
+            {{"stops", text("%.0f", r.range->stops)}, {"shown", text("%.0f", r.range->shown)}, {"ev", exposure}});
+    fields.push_back({words("hud.exposure"), exposure});
     if (r.frames_per_s > 0)
         fields.push_back({words("hud.rate"), text("%.0f", r.frames_per_s)});
     fields.push_back({words("hud.light"), light_name(r.effects, words)});
@@ -300,7 +311,10 @@ Panel Typesetter::draw(const Readings& readings, const Words& words, int width) 
             fields = {{shown_percent(readings.beta_deficit, words), words("say.of_light")}};
         else if (readings.caption->flying)
             fields = hud_fields(readings, words);
-        write_caption(panel, *this, *readings.caption, fields);
+        Caption caption = *readings.caption;
+        if (readings.range && caption.aside.empty())
+            caption.aside = range_sentence(*readings.range, words);
+        write_caption(panel, *this, caption, fields);
         return panel;
     }
 

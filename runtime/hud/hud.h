@@ -50,6 +50,11 @@ struct Readings {
     bool frozen = false; ///< the world stands still
     double exposure_ev = 0;
     bool exposure_locked = false; ///< the visitor has locked it
+    /// Stops of the view's luminance and of the shown one, where a curve shows everything at once.
+    struct Range {
+        double stops, shown;
+    };
+    std::optional<Range> range{};
     std::optional<double> lever{}; ///< the throttle's place, 0 to 1
     std::string prompt{}; ///< the tutorial's prompt, or empty
     /// A caption; it replaces the figures, but for the first of them where the visitor flies.
@@ -61,6 +66,9 @@ Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effec
 /// Chooses the display of information. On those for visitors and guides both clocks begin at 0; start_s: the world's time at
 /// the flight's start.
 void show_on(Information information, double start_s, Readings& readings);
+
+/// The sentence that brightness is compressed, and by how much.
+std::string range_sentence(const Readings::Range& range, const Words& words);
 
 /// The name of the shown light, in a few words.
 std::string light_name(const Effects& effects, const Words& words);

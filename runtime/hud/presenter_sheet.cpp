@@ -162,6 +162,7 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
     deed(down, "↓", "presenter.darker", brighter(-exposure_step_ev)).state = exposure_text(state.exposure_ev, words);
     deed(up, "↑", "presenter.brighter", brighter(exposure_step_ev)).state = exposure_text(state.exposure_ev, words);
 
+    toggle('U', "remote.range", Order::range, state.range);
     list('G', "remote.speed_limit", PresenterList::limits).state = limit_text(state.max_gamma, words);
     PresenterKey& language = list('L', "remote.language", PresenterList::languages);
     for (const auto& [name, text] : state.languages)

@@ -183,13 +183,20 @@ std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings
         lines.push_back({text, clocks[i].text_x, first_line, fitting(typesetter, text, room, 0.22)});
     }
 
-    const bool guides = readings.information == Information::guide;
+    // A line below the clocks: the guides' numbers, and that brightness is compressed.
+    const bool numbered = readings.information == Information::guide, guides = numbered || readings.range;
     if (guides) {
-        const std::string numbers = guides_numbers(typesetter, readings, words);
+        std::string numbers
+            = readings.range ? range_sentence(*readings.range, words) : guides_numbers(typesetter, readings, words);
+        if (readings.range && numbered) {
+            const std::string with_gamma = words("hud.gamma") + " " + shown_number(readings.gamma, words) + "   " + numbers;
+            if (width_of(typesetter, with_gamma, least_lettering) <= right_edge - left_of_lines)
+                numbers = with_gamma;
+        }
         lines.push_back({numbers, left_of_lines, first_line + below_first,
             fitting(typesetter, numbers, right_edge - left_of_lines, 0.23)});
     }
-    const std::string off = guides ? switched_off(readings.effects, words) : "";
+    const std::string off = numbered ? switched_off(readings.effects, words) : "";
     const std::string text = !readings.notice.empty() ? readings.notice
         : !readings.prompt.empty()                    ? readings.prompt
         : !off.empty()                                ? off

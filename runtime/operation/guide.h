@@ -41,6 +41,7 @@ public:
 
     /// The EV: the tour's, or the adapted one where the visitor flies; it fades from one to the other.
     double shown_ev(const Exposure& adapted, const Exposing& rules) const;
+    double brighter_ev() const { return touring_.brighter_ev; } ///< the visitor's part of it
 
     /// The caption; nullopt after the tour's end, while the visitor flies.
     std::optional<Caption> caption(const Words& words, const InputCapabilities& capabilities) const;

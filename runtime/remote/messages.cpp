@@ -166,8 +166,8 @@ std::string status_text(const Snapshot& now, bool engineer)
         {"slow-motion", now.slow_motion}, {"one-button", now.one_button}, {"left-handed", now.left_handed},
         {"information", name_of(now.information)}, {"comparison", comparison_names[std::size_t(now.effects.comparison)]},
         {"speed", finite(now.speed)}, {"gamma", finite(now.gamma)}, {"max-gamma", finite(now.max_gamma)},
-        {"exposure", finite(now.exposure_ev)}, {"fade", now.fade}, {"hold", now.hold}, {"visit", now.visit},
-        {"caption", now.caption}, {"frames-per-s", std::round(finite(now.frames_per_s) * 10) / 10},
+        {"exposure", finite(now.exposure_ev)}, {"range", now.range}, {"fade", now.fade}, {"hold", now.hold},
+        {"visit", now.visit}, {"caption", now.caption}, {"frames-per-s", std::round(finite(now.frames_per_s) * 10) / 10},
         {"frame-ms", std::round(finite(now.frame_ms) * 10) / 10}, {"uptime-s", std::floor(finite(now.uptime_s))}};
     if (engineer) {
         status["layout"] = now.layout;

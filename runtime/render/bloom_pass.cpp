@@ -99,13 +99,13 @@ void BloomPass::step(vk::CommandBuffer commands, std::size_t from, std::size_t t
     device_.end_rendering(commands);
 }
 
-void BloomPass::show(vk::CommandBuffer commands, glm::ivec2 corner, double part, vk::Format target) const
+void BloomPass::show(vk::CommandBuffer commands, glm::ivec2 corner, double part, bool range, vk::Format target) const
 {
     shared::BloomPush push{};
     push.step = glm::vec4(1.0f / size_.x, 1.0f / size_.y, 0, 0);
     push.part = glm::vec4(part, 0, corner);
     set_area(commands, corner, size_);
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.bloomed(target));
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.bloomed(range, target));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *sets_.front(), {});
     commands.pushConstants<shared::BloomPush>(
         *pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, push);

@@ -18,7 +18,8 @@ public:
     /// Spreads the light over the copies. Call it outside any rendering.
     void spread(vk::CommandBuffer commands) const;
     /// Draws the light, `part` of it spread, inside the rendering of a target, with its top left pixel at `corner`.
-    void show(vk::CommandBuffer commands, glm::ivec2 corner, double part, vk::Format target) const;
+    /// range: the light went through the curve that shows everything at once.
+    void show(vk::CommandBuffer commands, glm::ivec2 corner, double part, bool range, vk::Format target) const;
 
     vk::DeviceSize memory() const;
 

@@ -39,7 +39,8 @@ void FrameRenderer::draw(
 void FrameRenderer::update(const Shot& shot, const Panel* hud)
 {
     state_.shot = shot;
-    state_.all_light = counts_all_light_ || measurement_.overlay_on(); // whose lines follow surfaces in the dark too
+    state_.all_light = counts_all_light_ || measurement_.overlay_on() || state_.range; // an overlay's lines follow surfaces
+                                                                                       // in the dark too
     const double most_E = eyes_.observe();
     if (views_.inset)
         eyes_.observe_inset(*views_.inset);
@@ -147,8 +148,8 @@ double FrameRenderer::pre_exposure(const Shot& shot, double most_E, StoredLight 
     const bool unshifted = light == StoredLight::unshifted;
     const double brightest
         = unshifted ? std::max(world_.brightest * world_.unshifted->gain, world_.unshifted->most) : world_.brightest;
-    const double factor
-        = starbow::pre_exposure(brightest, shot.exposure_ev, (gains ? most_E * most_E * most_E : 1) * leaves);
+    const double factor = starbow::pre_exposure(
+        brightest, state_.range ? -60 : shot.exposure_ev, (gains ? most_E * most_E * most_E : 1) * leaves);
     // A glow's coefficient may represent light of any strength, so it is limited by its size alone.
     const bool by_size = !unshifted && world_.spectra.most > 0;
     return by_size ? std::min(factor, starbow::pre_exposure(world_.spectra.most, -1000, 1)) : factor;

@@ -63,6 +63,9 @@ public:
     /// part: of the vignette that is seen, 0 to 1. At 0 the pass takes no time. It darkens the world alone: instruments and
     /// the head-up display stay as they are, and so does the exposure's measure.
     void vignette(const Vignette& vignette, double part) { state_.vignette = vignette, state_.vignette_part = part; }
+    /// The curve by which everything shows at once, from the next frame on, and by which the shot's EV moves the shown
+    /// light; none: the shot's exposure.
+    void range(const std::optional<RangeCurve>& curve) { state_.range = curve; }
     void meter(bool on) { state_.meters = on; }
     /// Lays placards over all views, beside the head-up display, from the next frame on. They must last until it is drawn.
     void place(std::span<const Placard> placards) { passes_.place(placards); }
@@ -78,6 +81,9 @@ public:
     /// The exposure for the last frame, EV; nothing where it was dark or not metered. The device must have finished that
     /// frame.
     std::optional<double> metered() const { return meter_.metered(); }
+    /// The samples that it follows from; empty where nothing was metered.
+    std::span<const LuminanceSample> surface_samples() const { return meter_.surfaces(); }
+    std::span<const LuminanceSample> star_samples() const { return meter_.stars(); }
     std::vector<Probed> probed() const { return measurement_.probed(); }
     const MeasuringObserver& head(std::size_t probe = 0) const { return measurement_.head(probe); }
     const MeasuringObserver& observer(std::size_t probe = 0) const { return measurement_.observer(probe); }

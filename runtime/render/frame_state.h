@@ -3,7 +3,10 @@
 #include "config/model/layout.h"
 #include "config/model/quality.h"
 #include "config/model/shot.h"
+#include "runtime/light/range_curve.h"
 #include <array>
+#include <cmath>
+#include <optional>
 
 namespace starbow {
 
@@ -25,10 +28,14 @@ struct FrameState {
     Vignette vignette;
     double vignette_part = 0; ///< that is seen, 0 to 1
     bool meters = false; ///< luminance is sampled beside the picture
+    /// The curve by which everything shows at once; none: the shot's exposure. With a curve, the shot's EV moves the shown
+    /// light.
+    std::optional<RangeCurve> range;
     Shot shot; ///< the instant that is drawn
     bool all_light = false; ///< light counts however dim; otherwise none is drawn that no screen shows
     double pre_exposure = 1; ///< every radiance in the cube map is stored times this
 
+    double exposure_of(const Shot& shown) const { return range ? 1 : std::exp2(shown.exposure_ev); } ///< of light, as drawn
     bool reprojects() const { return layout.stereo.method == StereoMethod::reprojected; }
 };
 

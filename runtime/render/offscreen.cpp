@@ -67,7 +67,8 @@ std::vector<std::vector<std::uint8_t>> OffscreenRenderer::picture(const Shot& sh
     return pictures;
 }
 
-std::optional<double> OffscreenRenderer::metered(const Shot& shot)
+/// Draws the shot's luminance samples alone, and reads them while they last.
+template <class Read> auto OffscreenRenderer::sampled(const Shot& shot, const Read& read)
 {
     frame_.meter(true);
     frame_.count_all_light(true);
@@ -76,10 +77,23 @@ std::optional<double> OffscreenRenderer::metered(const Shot& shot)
         frame_.draw_cubes(commands);
         frame_.draw_meter(commands);
     });
-    const std::optional<double> ev = frame_.metered();
+    const auto result = read();
     frame_.meter(false);
     frame_.count_all_light(false);
-    return ev;
+    return result;
+}
+
+std::optional<double> OffscreenRenderer::metered(const Shot& shot)
+{
+    return sampled(shot, [&] { return frame_.metered(); });
+}
+
+std::optional<RangeCurve> OffscreenRenderer::ranged(const Shot& shot)
+{
+    Shot unexposed = shot; // light counts whatever the exposure
+    unexposed.exposure_ev = -60;
+    return sampled(
+        unexposed, [&] { return range_curve(frame_.surface_samples(), frame_.star_samples(), shot.exposure_ev); });
 }
 
 std::vector<Probed> OffscreenRenderer::probed(const Shot& shot)

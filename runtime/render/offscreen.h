@@ -22,6 +22,10 @@ public:
     /// The exposure for the shot in all outputs together, EV; nothing where all is dark.
     std::optional<double> metered(const Shot& shot);
 
+    /// The curve by which everything in all outputs shows at once; nothing where all is dark. It begins from the shot's
+    /// exposure as an eye's.
+    std::optional<RangeCurve> ranged(const Shot& shot);
+
     /// The light along the directions of frame().measure()'s probes, for this shot.
     std::vector<Probed> probed(const Shot& shot);
 
@@ -30,6 +34,7 @@ public:
     Target target(std::size_t output) const;
 
 private:
+    template <class Read> auto sampled(const Shot& shot, const Read& read);
     void read_numbers(std::size_t output, std::size_t layer, const MeasureTarget& target, Channels& channels);
 
     Device& device_;

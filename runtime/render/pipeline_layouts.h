@@ -14,7 +14,7 @@ struct PipelineLayouts {
         = nullptr; ///< 0 direction map, 1 atlas, 2 tiles, 3 rows of the response, 4 depth atlas, 5 picture of the stars, 6
                    ///< inverse of the direction map, 7 to 9 further atlases, 10 rows for emission basis spectra, 11
                    ///< coverage, 12 rest frames, 13 parts of layers, 14 the sky's panorama, 15 globes, 16 and 17 their maps,
-                   ///< 18 their light, 19 the ring's profile
+                   ///< 18 their light, 19 the ring's profile, 20 the curve that shows everything at once
     vk::raii::DescriptorSetLayout star_set = nullptr; ///< 0 constants, 1 stars, 2 black bodies
     vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel, label or cube
     vk::raii::DescriptorSetLayout finish_set = nullptr; ///< 0 left, 1 right picture, 2 weights, 3 black level, 4 table

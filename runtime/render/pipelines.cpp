@@ -76,7 +76,7 @@ SpecializationConstants constants(const WarpVariant& v)
     return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
         of_the_pass, std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), v.by_table,
         v.several_rest_frames, v.galilean, v.single, std::uint32_t(v.rays), v.cut, std::uint32_t(v.cube_samples),
-        v.unaligned, v.layered, v.world_alone, std::uint32_t(v.rest_frames), v.milky_way, std::uint32_t(v.globes)};
+        v.unaligned, v.layered, v.world_alone, std::uint32_t(v.rest_frames), v.milky_way, v.range, std::uint32_t(v.globes)};
 }
 
 /// A shader that reads the cube map, in its builds (received_light.glsl).
@@ -232,7 +232,7 @@ vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
 vk::Pipeline Pipelines::dark(const WarpVariant& v, vk::Format target)
 {
     WarpVariant own{};
-    own.map = v.map, own.stars = true;
+    own.map = v.map, own.stars = true, own.range = v.range;
     SpecializationConstants all = constants(own);
     all[10] = target != light_format;
     return find_or_make({.name = "dark pipeline",
@@ -333,14 +333,14 @@ vk::Pipeline Pipelines::bloom(bool up)
         .blend = up});
 }
 
-vk::Pipeline Pipelines::bloomed(vk::Format target)
+vk::Pipeline Pipelines::bloomed(bool range, vk::Format target)
 {
     return find_or_make({.name = "bloomed pipeline",
         .vertex = screen_vert,
         .fragment = bloomed_frag,
         .layout = *layouts.picture_layout,
         .target = {{target}},
-        .constants = {target != light_format}});
+        .constants = {target != light_format, range}});
 }
 
 vk::Pipeline Pipelines::hud(bool map, vk::Format target, bool scale, bool light)

@@ -96,6 +96,7 @@ struct WarpVariant {
     bool milky_way = false; ///< of several rest frames: the sky has a panorama
     int globes = 0; ///< of the world
     int rest_frames = 1; ///< of the world, if something that moves is in view; MAX_REST_FRAMES: more than a few
+    bool range = false; ///< through the curve that shows everything at once
     auto operator<=>(const WarpVariant&) const = default;
 };
 
@@ -117,7 +118,7 @@ struct TargetKind {
 
 /// The specialization constants of a pass; constant_id is the index. On the stack, as Formats.
 struct SpecializationConstants {
-    std::array<std::uint32_t, 26> list{};
+    std::array<std::uint32_t, 27> list{};
     std::size_t count = 0;
 
     SpecializationConstants() = default;
@@ -156,7 +157,8 @@ public:
     vk::Pipeline meter(const WarpVariant& variant);
     vk::Pipeline star_meter(const WarpVariant& variant);
     vk::Pipeline bloom(bool up);
-    vk::Pipeline bloomed(vk::Format target);
+    /// range: the light went through the curve that shows everything at once.
+    vk::Pipeline bloomed(bool range, vk::Format target);
     /// scale: with the colours of a scale beside its letters.
     vk::Pipeline hud(bool map, vk::Format target, bool scale = false, bool light = false);
     vk::Pipeline lookup(vk::Format target);

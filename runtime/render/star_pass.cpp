@@ -28,6 +28,7 @@ StarPass::StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& w
     , pipelines_(pipelines)
     , world_(world)
     , seen_(seen)
+    , exact_(exact)
     , format_(summing_format(device, world.stars.stars.size(), exact))
 {
     if (!on())
@@ -64,9 +65,11 @@ void StarPass::bind(vk::CommandBuffer commands, std::size_t observer) const
         *sets_[false_colours_[observer]], std::uint32_t(observer * stride_));
 }
 
-void StarPass::fit(vk::Extent2D extent)
+void StarPass::fit(vk::Extent2D extent, bool exact)
 {
-    if (*picture_.view && picture_.extent.width >= extent.width && picture_.extent.height >= extent.height)
+    format_ = summing_format(device_, world_.stars.stars.size(), exact_ || exact);
+    if (*picture_.view && picture_.format == format_ && picture_.extent.width >= extent.width
+        && picture_.extent.height >= extent.height)
         return;
     extent.width = std::max(extent.width, picture_.extent.width);
     extent.height = std::max(extent.height, picture_.extent.height);

@@ -14,8 +14,8 @@ public:
     StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& world, const SeenStars& seen, bool exact);
 
     bool on() const { return seen_.on(); }
-    /// Makes room for an output. The device must have finished the frame before.
-    void fit(vk::Extent2D extent);
+    /// Makes room for an output. exact: the sums need all bits. The device must have finished the frame before.
+    void fit(vk::Extent2D extent, bool exact);
     /// One of those who see the stars.
     struct Observer {
         glm::dmat3 motion_from_world;
@@ -45,6 +45,7 @@ private:
     const Pipelines& pipelines_;
     const GpuWorld& world_;
     const SeenStars& seen_;
+    bool exact_;
     vk::Format format_;
     vk::raii::DescriptorPool pool_ = nullptr;
     std::array<vk::raii::DescriptorSet, 2> sets_ = {nullptr, nullptr}; ///< standard observer; false colours

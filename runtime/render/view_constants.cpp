@@ -84,6 +84,7 @@ WarpVariant ViewConstants::variant_metered(const ViewState& view, const Effects&
 {
     WarpVariant all = in_flight(variant_of_stars(view), on);
     all.mips = true;
+    all.range = state_.range.has_value();
     all.layered = views_.outputs[view.output].layers() > 1;
     return all;
 }
@@ -126,7 +127,7 @@ shared::ViewPush ViewConstants::star_push(const ViewState& view, std::optional<d
         = glm::inverse(own.rest_frames[0].motion_from_cockpit * view.compiled.matrix.value_or(glm::dmat3(1)));
     constants.row0 = shared::row(back, 0, constants.row0.w);
     constants.row1 = shared::row(back, 1, constants.row1.w);
-    constants.row2 = shared::row(back, 2, exposure ? GLARE_SHOWN : 0);
+    constants.row2 = shared::row(back, 2, exposure && !state_.range ? GLARE_SHOWN : 0);
     return constants;
 }
 

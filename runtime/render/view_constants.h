@@ -31,7 +31,7 @@ public:
     /// The same in the motion axes of the view's observer, exposed.
     shared::ViewPush exposed_push(const ViewState& view, double exposure) const;
     /// The star pass's push constants: their rows lead from motion axes back to pixels. exposure: of a picture that is
-    /// shown, with the stars' glare; without one the light is as it is measured.
+    /// shown, with the stars' glare unless a curve shows everything at once; without one the light is as it is measured.
     shared::ViewPush star_push(const ViewState& view, std::optional<double> exposure) const;
 
 private:

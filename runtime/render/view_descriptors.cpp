@@ -24,6 +24,8 @@ ViewDescriptors::ViewDescriptors(Device& device, const GpuWorld& world, const Fr
         vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge});
     name_object(device, finest_, "views: finest");
     const float zeros[4] = {};
+    range_ = make_mapped_buffer(device, sizeof(shared::RangeConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+    name_object(device, range_, "views: range");
     nothing_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
     name_object(device, nothing_, "views: nothing");
     no_maps_ = make_texture_array(device, exact_format, {1, 1}, 1, std::as_bytes(std::span(zeros)));
@@ -34,6 +36,8 @@ ViewDescriptors::ViewDescriptors(Device& device, const GpuWorld& world, const Fr
 
 void ViewDescriptors::write()
 {
+    if (state_.range)
+        write_range();
     for (ViewState& view : views_.all)
         write(view);
     if (views_.inset && state_.pattern == Pattern::none)
@@ -112,6 +116,7 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
     image(set, 17, globes ? globes->fine_maps : no_maps_, globes ? globes->map_sampler : nearest_);
     image(set, 18, !globes ? nothing_ : false_colours ? globes->false_light : globes->light, nearest_);
     image(set, 19, globes ? globes->rings : nothing_, globes ? globes->ring_sampler : nearest_);
+    buffer(set, 20, range_);
 }
 
 void ViewDescriptors::write_globes(ViewState& view)
@@ -126,6 +131,16 @@ void ViewDescriptors::write_globes(ViewState& view)
     shared::GlobeConstants constants = world_.globes->constants(seen, state_.pre_exposure);
     world_.globes->add_glare(constants, seen, world.motion_from_frame, world.E, eyes_.observer_of(view).shot.effects);
     std::memcpy(view.globes.mapped, &constants, sizeof constants);
+}
+
+void ViewDescriptors::write_range()
+{
+    shared::RangeConstants all{};
+    const std::array<double, RANGE_KNOTS>& shown = state_.range->shown;
+    for (std::size_t k = 0; k < shown.size(); ++k)
+        all.knots[k]
+            = glm::vec4(shown[k] + state_.shot.exposure_ev, k + 1 < shown.size() ? shown[k + 1] - shown[k] : 0, 0, 0);
+    std::memcpy(range_.mapped, &all, sizeof all);
 }
 
 void ViewDescriptors::write_rest_frames(ViewState& view)

@@ -21,6 +21,7 @@ private:
     /// Writes the constants of the rest frames in view, and of the sky.
     void write_rest_frames(ViewState& view);
     void write_globes(ViewState& view);
+    void write_range(); ///< the curve that shows everything at once
     void collect_label_set(const ViewState& view);
     void collect_warp_set(const ViewState& view);
     void image(
@@ -34,11 +35,12 @@ private:
     const EyeCubes& eyes_;
     const StarPass& stars_;
     vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr, finest_ = nullptr; ///< finest_ reads level 0 alone
+    Buffer range_; ///< RangeConstants
     Image nothing_, no_maps_; ///< for views without an image, or without an array of them
     Buffer no_globes_;
     // The content of one view's sets, collected anew for each view and frame.
     std::array<vk::DescriptorImageInfo, 20> image_infos_;
-    std::array<vk::DescriptorBufferInfo, 3> buffer_infos_;
+    std::array<vk::DescriptorBufferInfo, 4> buffer_infos_;
     std::array<vk::BufferView, 2> texel_views_;
     std::size_t images_used_ = 0, buffers_used_ = 0;
     std::vector<vk::WriteDescriptorSet> writes_;

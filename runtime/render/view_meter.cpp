@@ -50,9 +50,16 @@ void ViewMeter::meter_stars(vk::CommandBuffer commands, const ViewState& view, c
     stars_.sample(commands, view.observer, cell.corner, cell.size, meter_->every(), own.channels);
 }
 
-std::optional<double> ViewMeter::metered() const
+std::optional<double> ViewMeter::metered() const { return metered_ev(surfaces(), stars()); }
+
+std::span<const LuminanceSample> ViewMeter::surfaces() const
 {
-    return state_.meters && meter_ ? metered_ev(meter_->view(), meter_->stars()) : std::nullopt;
+    return state_.meters && meter_ ? meter_->view() : std::span<const LuminanceSample>();
+}
+
+std::span<const LuminanceSample> ViewMeter::stars() const
+{
+    return state_.meters && meter_ ? meter_->stars() : std::span<const LuminanceSample>();
 }
 
 } // namespace starbow

@@ -27,6 +27,9 @@ public:
     /// The exposure for the last frame, EV; nothing where it was dark or not metered. The device must have finished that
     /// frame.
     std::optional<double> metered() const;
+    /// Its samples; empty where nothing was metered.
+    std::span<const LuminanceSample> surfaces() const;
+    std::span<const LuminanceSample> stars() const;
     void reset() { meter_.reset(); } ///< call it when the views have changed
     vk::DeviceSize memory() const { return meter_ ? meter_->memory() : 0; }
 

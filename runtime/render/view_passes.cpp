@@ -98,7 +98,7 @@ void ViewPasses::prepare_stars()
         size = glm::max(size, output.size);
     if (views_.inset)
         size = glm::max(size, views_.inset->view.geometry().size);
-    stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)});
+    stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)}, state_.range.has_value());
     star_observers_.clear();
     for (const Observer& one : eyes_.observers)
         star_observers_.push_back({one.rest_frames[0].motion_from_frame, one.shot.effects.false_colours});
@@ -137,7 +137,8 @@ void ViewPasses::draw_lit(vk::CommandBuffer commands, const ViewState& view, vk:
 {
     WarpVariant variant = constants_.variant_shown(view);
     const LitPixels& pixels = view.pixels;
-    const shared::ViewPush constants = constants_.exposed_push(view, std::exp2(eyes_.observer_of(view).shot.exposure_ev));
+    variant.range = state_.range.has_value();
+    const shared::ViewPush constants = constants_.exposed_push(view, state_.exposure_of(eyes_.observer_of(view).shot));
     const glm::ivec2 corner = view.geometry().corner;
     if (!pixels.with_bodies.empty())
         draw_parts(commands, view, pipelines_.warp(variant, target), constants, corner, pixels.with_bodies);
@@ -163,7 +164,8 @@ void ViewPasses::draw_stars(
 void ViewPasses::draw_stars_of(vk::CommandBuffer commands, const ViewState& view, std::optional<double> exposure)
 {
     const shared::ViewPush constants = constants_.star_push(view, exposure);
-    const WarpVariant own = constants_.variant_of_stars(view);
+    WarpVariant own = constants_.variant_of_stars(view);
+    own.range = exposure && state_.range;
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.stars(own, stars_.format()));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 0, *view.warp_set, {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.star_layout,
@@ -182,7 +184,7 @@ void ViewPasses::draw_inset(vk::CommandBuffer commands)
     const Image& picture = views_.inset->picture;
     if (stars_.on()) {
         stars_.begin(commands, picture.extent);
-        draw_stars_of(commands, view, std::exp2(eyes_.observer_of(view).shot.exposure_ev));
+        draw_stars_of(commands, view, state_.exposure_of(eyes_.observer_of(view).shot));
         stars_.end(commands);
     }
     transition(commands, picture, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {},
@@ -205,10 +207,11 @@ void ViewPasses::bloom_view(vk::CommandBuffer commands, const ViewState& view)
     vk::RenderingAttachmentInfo colour(light.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
     device_.begin_rendering(commands, {{}, {{0, 0}, light.extent}, 1, 0, colour});
-    shared::ViewPush constants = constants_.exposed_push(view, std::exp2(state_.shot.exposure_ev));
+    shared::ViewPush constants = constants_.exposed_push(view, state_.exposure_of(state_.shot));
     constants.origin.x = constants.origin.y = 0;
     WarpVariant linear = constants_.variant_shown(view);
     linear.linear = true;
+    linear.range = state_.range.has_value();
     draw_warp(commands, view, pipelines_.warp(linear, light.format), constants, {0, 0}, view.geometry().size);
     device_.end_rendering(commands);
     view.bloom->spread(commands);
@@ -243,7 +246,7 @@ void ViewPasses::warp_layer(vk::CommandBuffer commands, std::size_t output, std:
         views_.outputs[output].finish->begin(commands);
     for (int canvas = 0; canvas < canvas_count(state_.layout.outputs[output].packing); ++canvas) {
         if (stars_.on() && state_.pattern == Pattern::none)
-            draw_stars(commands, output, layer, canvas, std::exp2(state_.shot.exposure_ev));
+            draw_stars(commands, output, layer, canvas, state_.exposure_of(state_.shot));
         const Target target = views_.canvas_target(output, canvas, last);
         const bool glows = state_.bloom > 0 && state_.pattern == Pattern::none;
         for (const ViewState& view : views_.all)
@@ -259,7 +262,7 @@ void ViewPasses::warp_layer(vk::CommandBuffer commands, std::size_t output, std:
             if (state_.pattern != Pattern::none)
                 pattern_view(commands, view, target.format);
             else if (glows)
-                view.bloom->show(commands, view.geometry().corner, state_.bloom, target.format);
+                view.bloom->show(commands, view.geometry().corner, state_.bloom, state_.range.has_value(), target.format);
             else
                 draw_lit(commands, view, target.format);
         }

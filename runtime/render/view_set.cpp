@@ -112,8 +112,8 @@ void ViewSet::apply_layout(LayoutParts parts)
     const std::uint32_t count = std::uint32_t(all.size());
     before.clear();
     pool_ = nullptr;
-    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 3 * count},
-        {vk::DescriptorType::eUniformTexelBuffer, 2 * count}, {vk::DescriptorType::eCombinedImageSampler, 17 * count}};
+    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 4 * count},
+        {vk::DescriptorType::eUniformTexelBuffer, 2 * count}, {vk::DescriptorType::eCombinedImageSampler, 19 * count}};
     pool_ = device_.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2 * count, sizes});
     name_object(device_, pool_, "views: descriptor pool");
     auto make_set = [&](const vk::raii::DescriptorSetLayout& set_layout) {

@@ -54,7 +54,7 @@ TEST(ExhibitFileTest, EveryMemberIsRead)
         "frame_budget_ms": 16.5, "ladder": "own/ladder.json",
         "flying": { "mode": "newtonian", "max_gamma": 50, "turn_deg_per_s": 11, "roll_deg_per_s": 12,
                     "turn_jerk_deg_per_s3": 13, "rapidity_per_s": 0.14, "rapidity_jerk_per_s2": 0.15 },
-        "exposure": { "automatic": false, "min_ev": -16, "max_ev": 1.7, "bloom": 0.18 },
+        "exposure": { "mode": "range", "automatic": false, "min_ev": -16, "max_ev": 1.7, "bloom": 0.18 },
         "visit": { "idle_s": 61, "ask_s": 11, "longest_s": 300, "fade_s": 0.5, "unlock": "red5", "attract": ["rainbow", "own/tour.json"] } })";
     EXPECT_TRUE(schema_accepts(json::parse(text)));
     const auto file = write_text("exhibit.json", text);
@@ -77,6 +77,7 @@ TEST(ExhibitFileTest, EveryMemberIsRead)
     EXPECT_EQ(flying.rapidity_per_s, 0.14);
     EXPECT_EQ(flying.rapidity_jerk_per_s2, 0.15);
     EXPECT_FALSE(exhibit.exposure.automatic);
+    EXPECT_EQ(exhibit.exposure.mode, ExposureMode::range);
     EXPECT_EQ(exhibit.exposure.min_ev, -16);
     EXPECT_EQ(exhibit.exposure.max_ev, 1.7);
     EXPECT_EQ(exhibit.exposure.bloom, 0.18);
@@ -167,6 +168,7 @@ TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
     EXPECT_EQ(from_schema.flying.rapidity_per_s, from_reader.flying.rapidity_per_s);
     EXPECT_EQ(from_schema.flying.rapidity_jerk_per_s2, from_reader.flying.rapidity_jerk_per_s2);
     EXPECT_EQ(from_schema.exposure.automatic, from_reader.exposure.automatic);
+    EXPECT_EQ(from_schema.exposure.mode, from_reader.exposure.mode);
     EXPECT_EQ(from_schema.exposure.min_ev, from_reader.exposure.min_ev);
     EXPECT_EQ(from_schema.exposure.max_ev, from_reader.exposure.max_ev);
     EXPECT_EQ(from_schema.exposure.bloom, from_reader.exposure.bloom);
@@ -217,6 +219,7 @@ TEST(ExhibitFileTest, WrongExhibitsAreRefusedByReaderAndSchema)
              {R"({ "left_handed": 1 })", "/left_handed: 1"}, {R"({ "calm": 1 })", "/calm: 1"},
              {R"({ "exposure": { "calm": true } })", "calm"},
              {R"({ "exposure": { "bloom": 1.5 } })", "/exposure/bloom: 1.5 is too large"},
+             {R"({ "exposure": { "mode": "log" } })", "/exposure/mode: \"log\""},
              {R"({ "exposure": { "min_ev": -61 } })", "/exposure/min_ev: -61"},
              {R"({ "exposure": { "ev": 0 } })", "/exposure"},
              {R"({ "visit": { "idle_s": 4 } })", "/visit/idle_s: 4 is too small"},

@@ -58,6 +58,9 @@ RecordEntry some_entry(std::mt19937_64& random)
     maybe3(c.turn, 1);
     maybe(c.look_rad.x, -0.1, 0.1);
     maybe(c.look_rad.y, -0.1, 0.1);
+    entry.ranged = random() % 2 == 0;
+    if (random() % 5 == 0)
+        entry.range_goal = {-31.25, 4.5, double(random() % 80), some_double(random, -9, 2), 0.001, 0.517, 1};
     if (random() % 4 == 0)
         c.commands = {{.kind = CommandKind::scene, .text = "train"}, {.kind = CommandKind::doppler, .on = random() % 2 == 0},
             {.kind = CommandKind::speed_limit, .number = 1 + std::uniform_real_distribution<double>(0, 9)(random)},
@@ -70,8 +73,8 @@ RecordEntry some_entry(std::mt19937_64& random)
              &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode, &Controls::freeze, &Controls::menu,
              &Controls::taken, &Controls::slow_motion, &Controls::aberration, &Controls::doppler, &Controls::headlight,
              &Controls::hud, &Controls::false_colours, &Controls::comparison, &Controls::full_screen, &Controls::quit,
-             &Controls::pattern, &Controls::save, &Controls::lock_exposure, &Controls::overlay, &Controls::mark,
-             &Controls::log, &Controls::why, &Controls::plot, &Controls::information, &Controls::beside})
+             &Controls::pattern, &Controls::save, &Controls::lock_exposure, &Controls::range, &Controls::overlay,
+             &Controls::mark, &Controls::log, &Controls::why, &Controls::plot, &Controls::information, &Controls::beside})
         c.*flag = random() % 200 == 0;
     c.choose = random() % 20 == 0 ? int(random() % 3) - 1 : 0;
     c.turn_by = random() % 20 == 0 ? int(random() % 21) - 10 : 0;
@@ -81,15 +84,17 @@ RecordEntry some_entry(std::mt19937_64& random)
 std::vector<std::uint64_t> bits(const RecordEntry& e)
 {
     const Controls& c = e.controls;
-    std::vector<std::uint64_t> all{
-        std::uint64_t(e.dt_ns), std::uint64_t(e.skipped_ns), e.shown, c.lever.has_value(), e.exposure_ev.has_value()};
+    std::vector<std::uint64_t> all{std::uint64_t(e.dt_ns), std::uint64_t(e.skipped_ns), e.shown, e.ranged,
+        e.range_goal.size(), c.lever.has_value(), e.exposure_ev.has_value()};
     for (double v : {c.lever.value_or(0), c.throttle_rate, c.push.x, c.push.y, c.push.z, c.turn.x, c.turn.y, c.turn.z,
              c.look_rad.x, c.look_rad.y, c.head.moved_m.x, c.head.moved_m.y, c.head.moved_m.z, c.head.turned.w,
              c.head.turned.x, c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0)})
         all.push_back(std::bit_cast<std::uint64_t>(v));
+    for (double v : e.range_goal)
+        all.push_back(std::bit_cast<std::uint64_t>(v));
     for (bool flag : {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.freeze, c.menu, c.taken, c.slow_motion,
              c.aberration, c.doppler, c.headlight, c.false_colours, c.comparison, c.hud, c.full_screen, c.quit, c.pattern,
-             c.save, c.lock_exposure, c.overlay, c.mark, c.log, c.why, c.plot, c.information, c.beside})
+             c.save, c.lock_exposure, c.range, c.overlay, c.mark, c.log, c.why, c.plot, c.information, c.beside})
         all.push_back(flag);
     all.push_back(std::uint64_t(c.choose));
     all.push_back(std::uint64_t(c.turn_by));
@@ -202,6 +207,9 @@ TEST(Record, TheHeaderIsReadBackToTheBit)
     EXPECT_EQ(text_of(read), text_of(header));
     RecordHeader calm = header;
     calm.exposing.calm = true;
+    calm.exposing.mode = ExposureMode::range;
+    EXPECT_EQ(parse_record_header("f", text_of(calm)).exposing.mode, ExposureMode::range);
+    EXPECT_EQ(read.exposing.mode, ExposureMode::eye);
     EXPECT_TRUE(parse_record_header("f", text_of(calm)).exposing.calm);
     EXPECT_FALSE(read.exposing.calm);
 }

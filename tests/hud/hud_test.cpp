@@ -153,6 +153,10 @@ TEST(Hud, UsesTheLanguagesWordsAndDecimalSign)
     EXPECT_EQ(field(r, "Welt", german), "5,000 Jahre");
     EXPECT_EQ(field(r, "Weg", german), "3,00 Licht-s");
     EXPECT_EQ(field(r, "Belichtung", german), "−1,3 EV fest");
+    r.range = Readings::Range{46.4, 7.6};
+    EXPECT_EQ(field(r, "Belichtung", german), "46 Stufen in 8, −1,3 EV fest");
+    EXPECT_EQ(range_sentence(*r.range, german), "Helligkeit gestaucht: 46 Stufen in 8");
+    EXPECT_EQ(range_sentence({7.4, 7.4}, starbow::testing::words()), "All 7 stops of brightness shown");
     EXPECT_EQ(shown_duration(-2.5, german), "−2,5 s");
     EXPECT_EQ(shown_duration(-720, german), "−12,0 min");
     EXPECT_EQ(shown_duration(-0.001, german, 2), "0,00 s"); // no minus before zero

@@ -99,7 +99,7 @@ TEST(Presenter, NoKeyMeansTwoThings)
                 EXPECT_TRUE(key.key != 'Y' && key.key != 'Z') << key.label;
                 EXPECT_TRUE(key.key > 255 || key.key == ' ' || key.name == std::string(1, char(key.key))) << key.label;
             }
-        EXPECT_EQ(sheet.keys.size(), 25u);
+        EXPECT_EQ(sheet.keys.size(), 26u);
     }
 }
 
@@ -163,8 +163,8 @@ TEST(Presenter, ASecondPressWithinAFrameGoesOnFromTheFirst)
         return after(then, hands, {key}).value();
     };
     using enum CommandKind;
-    for (const auto& [key, kind] :
-        {std::pair{'H', hold}, {'B', fade}, {'P', pause}, {'E', headlight}, {'F', false_colours}, {'S', slow_motion}})
+    for (const auto& [key, kind] : {std::pair{'H', hold}, {'B', fade}, {'P', pause}, {'E', headlight}, {'F', false_colours},
+             {'S', slow_motion}, {'U', range}})
         EXPECT_EQ(twice(key), on(kind, false));
     for (const auto& [key, kind] : {std::pair{'A', aberration}, {'D', doppler}}) // they are on
         EXPECT_EQ(twice(key), on(kind));

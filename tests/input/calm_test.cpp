@@ -223,6 +223,7 @@ TEST(CalmTest, NoHandsMakeMoreThanThreeFlashesInASecond)
             controls.undo = any(random) < 0.1 * restless;
             controls.next_mode = any(random) < 0.1 * restless;
             controls.lock_exposure = any(random) < 0.1 * restless;
+            controls.range = any(random) < 0.1 * restless;
             if (any(random) < restless)
                 lever = any(random), exposure = std::round(2 * any(random) - 1), rate = std::round(2 * any(random) - 1);
             if (trial % 2 == 0)

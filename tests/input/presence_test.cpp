@@ -53,15 +53,15 @@ TEST(PresenceTest, EveryControlAloneIsASign)
         controls_with(Steering{.menu = true}), controls_with(Steering{.slow_motion = true}),
         controls_with(WindowSwitches{.information = true}), controls_with(Looking{.look_rad = {0.02, 0}}),
         controls_with(Looking{.look_ahead = true}), controls_with(Looking{.exposure = -1}),
-        controls_with(Looking{.lock_exposure = true}), controls_with(EffectSwitches{.aberration = true}),
-        controls_with(EffectSwitches{.doppler = true}), controls_with(EffectSwitches{.headlight = true}),
-        controls_with(EffectSwitches{.false_colours = true}), controls_with(EffectSwitches{.comparison = true}),
-        controls_with(LabSwitches{.overlay = true}), controls_with(LabSwitches{.mark = true}),
-        controls_with(LabSwitches{.log = true}), controls_with(LabSwitches{.why = true}),
-        controls_with(LabSwitches{.plot = true}), controls_with(WindowSwitches{.hud = true}),
-        controls_with(WindowSwitches{.full_screen = true}), controls_with(AlignmentKeys{.pattern = true}),
-        controls_with(AlignmentKeys{.choose = -1}), controls_with(AlignmentKeys{.turn_by = 10}),
-        controls_with(Touches{.pressed = true})};
+        controls_with(Looking{.lock_exposure = true}), controls_with(Looking{.range = true}),
+        controls_with(EffectSwitches{.aberration = true}), controls_with(EffectSwitches{.doppler = true}),
+        controls_with(EffectSwitches{.headlight = true}), controls_with(EffectSwitches{.false_colours = true}),
+        controls_with(EffectSwitches{.comparison = true}), controls_with(LabSwitches{.overlay = true}),
+        controls_with(LabSwitches{.mark = true}), controls_with(LabSwitches{.log = true}),
+        controls_with(LabSwitches{.why = true}), controls_with(LabSwitches{.plot = true}),
+        controls_with(WindowSwitches{.hud = true}), controls_with(WindowSwitches{.full_screen = true}),
+        controls_with(AlignmentKeys{.pattern = true}), controls_with(AlignmentKeys{.choose = -1}),
+        controls_with(AlignmentKeys{.turn_by = 10}), controls_with(Touches{.pressed = true})};
     for (int axis = 0; axis < 3; ++axis)
         all.emplace_back().turn[axis] = 0.5;
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -154,6 +154,12 @@ void add_check(CLI::App& app, std::function<int()>& chosen)
             "With --flashes: a layout file, or the name of one in config/layouts [desk; for a record its own]")
         ->needs(flashes);
     command
+        ->add_option("--exposure-mode", options->flashes.mode,
+            "With --flashes of a tour: as an eye sees it (eye), or by one curve that shows everything at once (range)")
+        ->check(CLI::IsMember({"eye", "range"}))
+        ->needs(flashes)
+        ->capture_default_str();
+    command
         ->add_option(
             "--out", options->flashes.out, "With --flashes: the picture; without it NAME-flashes.png in the current folder")
         ->needs(flashes);

@@ -208,6 +208,8 @@ int measure_tour(const FlashOptions& options)
     return measure(options, film, [&](OffscreenRenderer& renderer, const SceneFile& scene, const auto& take) {
         TourFilm frames(show, frames_per_s);
         TourRenderer pictures(renderer, show, scene, words);
+        if (options.mode == "range")
+            pictures.range(1.0 / double(frames_per_s));
         Progress progress;
         for (long i = 0; i < frames.frames() && !interrupted(); ++i) {
             progress.show("frame " + std::to_string(i) + " of " + std::to_string(frames.frames()),
@@ -252,6 +254,8 @@ int measure_record(const FlashOptions& options)
 
 int check_flashes(const FlashOptions& options)
 {
+    if (options.mode != "eye" && options.film.ends_with(".jsonl"))
+        throw InputError("--exposure-mode is for a tour, and a record has its own; a tour is right");
     return options.film.ends_with(".jsonl") ? measure_record(options) : measure_tour(options);
 }
 

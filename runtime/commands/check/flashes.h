@@ -6,6 +6,7 @@ namespace starbow {
 struct FlashOptions {
     std::string film; ///< a tour's file or name, or a record's file
     std::string layout; ///< "": the desk for a tour, the record's own for a record
+    std::string mode = "eye"; ///< of a tour's exposure, by its name
     std::string out; ///< the picture's file; "": NAME-flashes.png in the current folder
 };
 

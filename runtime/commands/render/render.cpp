@@ -23,9 +23,9 @@ namespace starbow {
 namespace {
 
 struct RenderOptions {
-    std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames,
-                                         language = "en", information = "laboratory", tour, movie, points, overlay = "off",
-                                         why = "none", quality;
+    std::string layout, shot, out, size, pattern = "none", exposure = "shot", mode = "eye", spectra = "needed", replay,
+                                         frames, language = "en", information = "laboratory", tour, movie, points,
+                                         overlay = "off", why = "none", quality;
     long frames_per_s = 30;
     long every = 1, samples = 16;
     double bloom = 0;
@@ -85,12 +85,21 @@ int render(const RenderOptions& options)
         const Exposing rules;
         shot.exposure_ev = std::clamp(renderer.metered(shot).value_or(shot.exposure_ev), rules.min_ev, rules.max_ev);
     }
+    const double eyes_ev = shot.exposure_ev;
+    std::optional<RangeCurve> curve;
+    if (options.mode == "range") {
+        curve = renderer.ranged(shot);
+        renderer.frame().range(curve);
+        shot.exposure_ev = 0; // of an eye's exposure, the curve has what it needs
+    }
     std::optional<Panel> panel;
     const StillMeasurement measurement = measure_still(
         renderer, context.world, shot, parse_points(options.points, layout), options.overlay, options.why, words);
     if (options.hud) {
         Readings shown = readings(ship_at(shot), context.world.scene, shot.effects);
         shown.exposure_ev = shot.exposure_ev;
+        if (curve)
+            shown.range = Readings::Range{curve->stops(), curve->shown_stops()};
         show_on(information_named(options.information), shown.world_s, shown); // the shot is the start
         panel = Typesetter().draw(shown, words, renderer.frame().views().hud_width());
     }
@@ -99,7 +108,9 @@ int render(const RenderOptions& options)
     for (const std::string& line : measurement.lines)
         std::printf("%s\n", line.c_str());
     if (options.exposure == "auto")
-        std::printf("exposure %.2f EV\n", shot.exposure_ev);
+        std::printf("exposure %.2f EV\n", eyes_ev);
+    if (curve)
+        std::printf("brightness compressed: %.1f stops shown in %.1f\n", curve->stops(), curve->shown_stops());
     for (const Output& output : layout.outputs)
         std::printf("%s/%s.png%s\n", options.out.c_str(), output.name.c_str(), options.exr ? " and .exr" : "");
     return context.device.complaints.empty() ? 0 : 1;
@@ -126,6 +137,11 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
             "--exposure", options->exposure, "The shot's own exposure (shot), or one metered from the picture (auto)")
         ->check(CLI::IsMember({"shot", "auto"}))
         ->capture_default_str();
+    CLI::Option* mode = command
+                            ->add_option("--exposure-mode", options->mode,
+                                "As an eye sees it (eye), or by one curve that shows everything at once (range)")
+                            ->check(CLI::IsMember({"eye", "range"}))
+                            ->capture_default_str();
     CLI::Option* bloom
         = command->add_option("--bloom", options->bloom, "The share of the light that glows around bright things, 0 to 1")
               ->check(CLI::Range(0.0, 1.0))
@@ -154,7 +170,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     add_language(*command, options->language);
     CLI::Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
-    for (CLI::Option* other : {shot, exr, pattern, points, overlay, why})
+    for (CLI::Option* other : {shot, exr, pattern, points, overlay, why, mode}) // a record has its own mode
         replay->excludes(other);
     CLI::Option* frames
         = command->add_option("--frames", options->frames, "With --replay: the frames from A to B, counted from 0, as A:B")
@@ -173,12 +189,12 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         ->capture_default_str()
         ->needs(movie);
     tour->needs(movie);
-    for (CLI::Option* other : {shot, out, exr, pattern, replay, points, overlay, why})
+    for (CLI::Option* other : {shot, out, exr, pattern, replay, points, overlay, why, mode})
         tour->excludes(other);
     CLI::Option* reference = command->add_flag("--reference", options->reference,
         "Draw by rays, in double precision and with whole spectra, without a device: slow, the reference for the other "
         "pictures");
-    for (CLI::Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, overlay, why})
+    for (CLI::Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, overlay, why, mode})
         reference->excludes(other);
     command->add_option("--samples", options->samples, "With --reference: rays of each pixel")
         ->check(whole_number(1, 4096))
@@ -186,6 +202,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         ->needs(reference);
     command->footer(
         "Examples:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr\n"
+        "  starbow render --layout dome --shot starbow --out out/range --exposure-mode range --hud\n"
         "  starbow render --shot gamma100 --out out/right --reference --samples 64\n"
         "  starbow render --replay flight.jsonl --out out/flight --frames 0:599\n"
         "  starbow render --replay flight.jsonl --movie out/flight.mp4 --hud\n"

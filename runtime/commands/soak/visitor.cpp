@@ -10,7 +10,7 @@ namespace {
 /// has no use for, and the keys that write into files.
 using Switch = bool Controls::*;
 constexpr Switch pressed[]{&Controls::stop, &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode,
-    &Controls::menu, &Controls::slow_motion, &Controls::information, &Controls::beside, &Controls::freeze,
+    &Controls::menu, &Controls::slow_motion, &Controls::information, &Controls::beside, &Controls::range, &Controls::freeze,
     &Controls::look_ahead, &Controls::lock_exposure, &Controls::aberration, &Controls::doppler, &Controls::headlight,
     &Controls::false_colours, &Controls::comparison, &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why,
     &Controls::hud, &Controls::pattern};
