@@ -20,7 +20,7 @@ struct Levels {
     double count; ///< number of lit samples
 };
 
-std::optional<Levels> levels(std::span<const LuminanceSample> view)
+std::optional<Levels> levels(std::span<const LuminanceSample> view, bool in_space = false)
 {
     std::array<Bin, (high_ev - low_ev) * bins_per_ev> bins{};
     double all = 0, count = 0;
@@ -35,6 +35,16 @@ std::optional<Levels> levels(std::span<const LuminanceSample> view)
     }
     if (all == 0)
         return {};
+    if (in_space) {
+        double seen = 0;
+        std::size_t bright = bins.size();
+        while (bright > 0 && seen <= (1 - bright_in_space) * all)
+            seen += bins[--bright].weight;
+        for (std::size_t i = 0; i + std::size_t(dark_in_space) * bins_per_ev < bright; ++i) {
+            all -= bins[i].weight;
+            bins[i] = {};
+        }
+    }
     double below = 0, weight = 0, sum = 0, bright = 0;
     for (const Bin& bin : bins) {
         if (bin.weight == 0)
@@ -53,10 +63,10 @@ std::optional<Levels> levels(std::span<const LuminanceSample> view)
 
 } // namespace
 
-std::optional<double> metered_ev(std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars)
+std::optional<double> metered_ev(std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars, bool in_space)
 {
     const double grey = std::log2(metered_to_luminance);
-    const std::optional<Levels> surfaces = levels(view), points = levels(stars);
+    const std::optional<Levels> surfaces = levels(view, in_space), points = levels(stars);
     std::optional<double> ev;
     if (surfaces)
         ev = std::min(grey - surfaces->average, std::log2(brightest_luminance) - surfaces->bright);

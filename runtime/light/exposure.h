@@ -30,7 +30,12 @@ constexpr double few_stars = 16;
 /// them. Their own log average therefore never exceeds mid-grey, and it is mid-grey in a view of stars alone. An average
 /// over many stars stays steady when a few bright ones enter or leave the view. Where stars are few, `few_stars` more are
 /// added with the surfaces' exposure.
-std::optional<double> metered_ev(std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars = {});
+///
+/// in_space: a lit globe before the black sky. The bright end is then at bright_in_space, and parts that are darker than it by
+/// more than dark_in_space do not count: an eye that looks at the Earth adapts to the Earth.
+std::optional<double> metered_ev(
+    std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars = {}, bool in_space = false);
+constexpr double bright_in_space = 0.995, dark_in_space = 10; ///< a part of the view; EV
 
 /// Time constants of the adaptation to a brighter and to a darker view.
 constexpr double to_bright_s = 0.5, to_dark_s = 3;

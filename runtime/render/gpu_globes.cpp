@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace starbow {
 namespace {
@@ -147,6 +148,14 @@ GpuGlobes::Seen GpuGlobes::seen(const EyeEvent& eye) const
     return {globes_seen(globes_->system, origin_,
                 {eye.place, eye.time, world_from_equatorial_, unit_m_, seconds_, eye.now, back * glm::dvec3(0, 0, eye.beta)}),
         shorter * eye.cube_from_frame, back * shorter * eye.cube_from_frame};
+}
+
+double GpuGlobes::nearest(const EyeEvent& eye) const
+{
+    double least = std::numeric_limits<double>::max();
+    for (const SeenGlobe& one : seen(eye).globes)
+        least = std::min(least, one.distance - globes_->system.globes[one.globe].radius_m / unit_m_);
+    return std::max(least, 0.0);
 }
 
 shared::GlobeConstants GpuGlobes::constants(const Seen& all_seen, double pre_exposure) const

@@ -24,6 +24,8 @@ public:
         glm::dmat3 contraction; ///< of the world's axes
     };
     Seen seen(const EyeEvent& eye) const;
+    /// The distance of the nearest globe's ground, scene units.
+    double nearest(const EyeEvent& eye) const;
     /// The world's origin at a time from the Sun's middle, scene units, world axes.
     glm::dvec3 from_sun(double time) const { return world_from_equatorial_ * origin_.at(time * seconds_) / unit_m_; }
     /// What the passes read of them.

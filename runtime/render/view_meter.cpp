@@ -50,7 +50,7 @@ void ViewMeter::meter_stars(vk::CommandBuffer commands, const ViewState& view, c
     stars_.sample(commands, view.observer, cell.corner, cell.size, meter_->every(), own.channels);
 }
 
-std::optional<double> ViewMeter::metered() const { return metered_ev(surfaces(), stars()); }
+std::optional<double> ViewMeter::metered() const { return metered_ev(surfaces(), stars(), in_space_); }
 
 std::span<const LuminanceSample> ViewMeter::surfaces() const
 {

@@ -9,7 +9,7 @@ namespace starbow {
 class ViewMeter {
 public:
     ViewMeter(Device& device, Pipelines& pipelines, const FrameState& state, const ViewSet& views, const EyeCubes& eyes,
-        const StarPass& stars, const ViewConstants& constants, const ViewPasses& passes, std::uint32_t star_count)
+        const StarPass& stars, const ViewConstants& constants, const ViewPasses& passes, std::uint32_t star_count, bool in_space)
         : device_(device)
         , pipelines_(pipelines)
         , state_(state)
@@ -19,6 +19,7 @@ public:
         , constants_(constants)
         , passes_(passes)
         , star_count_(star_count)
+        , in_space_(in_space)
     {
     }
 
@@ -45,6 +46,7 @@ private:
     const ViewConstants& constants_;
     const ViewPasses& passes_;
     std::uint32_t star_count_;
+    bool in_space_; ///< see metered_ev
     std::unique_ptr<Meter> meter_;
 };
 
