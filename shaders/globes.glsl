@@ -79,7 +79,7 @@ struct Ring {
 // radius: from the middle; pixel: its change across a pixel.
 Ring ring_at(GlobeEntry g, float radius, float pixel)
 {
-    pixel = max(pixel, 1e-9);
+    pixel = clamp(pixel, 1e-9, 0.5 * radius); // near the plane's horizon a pixel does not reach back to the ring
     float inside = (min(radius + 0.5 * pixel, g.ring.y) - max(radius - 0.5 * pixel, g.ring.x)) / pixel;
     if (!(inside > 0.0))
         return Ring(0.0, 0.0);
