@@ -49,6 +49,10 @@ std::vector<WarmUp::State> states_of(bool combined)
     for (const State& state : {rest, few, aside, fewer, fastest})
         with_effects(state);
     with_overlays(rest);
+    for (State state : {rest, slow, aside, brisk, few, fast, faster, fewer, fastest}) {
+        state.range = true;
+        states.push_back(state);
+    }
     for (std::size_t pattern = 1; pattern < pattern_names.size(); ++pattern)
         states.push_back({.pattern = Pattern(pattern)});
     return states;
@@ -142,6 +146,7 @@ bool WarmUp::step(const Panel* hud)
         frame_.adopt(quality);
         frame_.show(state.pattern);
         frame_.fade(state.fade);
+        frame_.range(state.range ? std::optional(RangeCurve()) : std::nullopt);
         frame_.vignette({}, state.fade);
         frame_.measure({}); // the device has finished the overlay before
         if (state.overlay != Overlay::off)

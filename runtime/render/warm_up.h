@@ -33,6 +33,7 @@ public:
         Overlay overlay = Overlay::off;
         Pattern pattern = Pattern::none;
         double fade = 0;
+        bool range = false; ///< a curve shows everything at once
         bool cut = false, mips = true; ///< tiles of several images; images with coarser levels, where the quality has any
     };
 

@@ -4,7 +4,6 @@
 #include "config/model/shipped.h"
 #include "runtime/light/range_curve.h"
 #include "tests/support/small_world.h"
-#include <map>
 
 namespace starbow::gpu_test::range_gpu_test {
 namespace {
@@ -103,7 +102,7 @@ TEST_P(RangeOn, EveryPictureFollowsFromItsNumbersByOneCurve)
         const std::vector<Picture> pictures = ranged(offscreen, shot, &curve);
         for (std::size_t output = 0; output < layout.outputs.size(); ++output) {
             const Output& of = layout.outputs[output];
-            if (of.preview || of.packing != Packing::mono || !of.colour.lut.empty())
+            if (of.preview || (of.packing != Packing::mono && of.packing != Packing::side_by_side) || !of.colour.lut.empty())
                 continue;
             const Agreement found = compared(Numbers(offscreen, shot, output), pictures[output], curve);
             std::printf("  gamma %g, %s: %d pixels, %d off\n", gamma, of.name.c_str(), found.pixels, found.off);
@@ -309,6 +308,55 @@ TEST(RangePicture, StarsKeepTheirSpotsAndCrowdsTheirOrder)
             EXPECT_GT(spots, 20);
         }
     }
+}
+
+// In steady flight the curve does not pump: what changes is what passes by.
+TEST(RangePicture, AFlightOfConstantVelocityIsSteady)
+{
+    OffscreenRenderer offscreen = renderer(avenue().world, one_view(Fisheye{180, 30}, {96, 96}), false);
+    constexpr int per_s = 10;
+    FrameRenderer& frame = offscreen.frame();
+    for (double gamma : starbow::testing::all_cases() ? std::vector{1.1547, 4.0} : std::vector{1.1547}) {
+        Shot shot = flown(avenue().world.scene.start, gamma);
+        shot.exposure_ev = 0;
+        const double beta = std::sqrt(1 - 1 / (gamma * gamma));
+        RangeMode mode;
+        mode.wanted = offscreen.ranged(shot);
+        frame.meter(true);
+        std::vector<double> means;
+        std::optional<RangeCurve> second_ago;
+        double most_stops = 0;
+        for (int i = 0; i < 10 * per_s; ++i) { // ten seconds
+            std::vector<double> goal;
+            if (i > 0 && wants_goal(mode, 1.0 / per_s))
+                goal = range_goal(frame.surface_samples(), frame.star_samples(), 0);
+            mode = advance(std::move(mode), goal, 1.0 / per_s, false);
+            frame.range(mode.follower.shown);
+            const Picture picture = offscreen.picture(shot).front();
+            double sum = 0;
+            for (std::size_t k = 0; k < picture.size(); ++k)
+                sum += k % 4 < 3 ? picture[k] : 0;
+            means.push_back(sum / (0.75 * double(picture.size())));
+            shot.position.z -= beta / per_s; // a scene unit of light in a second
+            shot.time += 1.0 / per_s;
+            if (i % per_s == 0) {
+                const RangeCurve& now = *mode.follower.shown;
+                for (double at = now.low; second_ago && at < now.high; at += 0.5)
+                    most_stops = std::max(most_stops, std::abs(now.at(at) - second_ago->at(at)));
+                second_ago = now;
+            }
+        }
+        double most = 0;
+        for (std::size_t i = per_s; i < means.size(); ++i)
+            most = std::max(most, std::abs(means[i] / means[i - per_s] - 1));
+        std::printf(
+            "  gamma %g: within a second the mean of the bytes changes by at most %.1f %%, the curve by %.2f stops\n", gamma,
+            100 * most, most_stops);
+        EXPECT_LT(most, 0.1);
+        EXPECT_LT(most_stops, 0.4);
+    }
+    frame.range({});
+    frame.meter(false);
 }
 
 } // namespace

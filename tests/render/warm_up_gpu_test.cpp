@@ -51,6 +51,10 @@ TEST_P(WarmUpIn, AFlightAfterItMakesNoPipeline)
                  Effects{.headlight = false}, Effects{false, false, false}, Effects{.comparison = Comparison::galilean},
                  Effects{.comparison = Comparison::no_light_delay}, Effects{.false_colours = true}})
             fly(gamma, effects, Overlay::off);
+    offscreen.frame().range(RangeCurve());
+    for (double gamma : {1.0, 1.01, 1.2, 2.0, 4.0, 20.0, 100.0})
+        fly(gamma, {}, Overlay::off);
+    offscreen.frame().range({});
     for (double gamma : {1.0, 4.0})
         for (Overlay overlay : {Overlay::aim, Overlay::grid, Overlay::ring, Overlay::distance, Overlay::emission})
             fly(gamma, {}, overlay);
