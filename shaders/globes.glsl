@@ -189,12 +189,14 @@ void add_globe(GlobeEntry g, vec3 n, float angle, ShiftColumn column, inout vec3
             vec4 ground = textureLod(fine_globe_maps, vec3(place, 0.0), level);
             vec2 sky = textureLod(fine_globe_maps, vec3(place, 1.0), level).rg;
             float way_down = mu_sun > 0.0 ? air_above(1.0, 1.0 / g.air.x, mu_sun) : 0.0;
-            float through = air_level(air + way_down), clear = 1.0 - sky.r;
+            float clear = 1.0 - sky.r, mass = air + way_down;
+            // Half of the light that air takes from a wide field comes back to it; half of the air lies below the clouds.
+            float through = air_level(0.5 * mass), through_clouds = air_level(0.25 * mass), straight = air_level(mass);
             float water = ground.a;
             ground.rgb *= g.shape.x;
             shown = globe_colour(column, g.kinds.x, through) * (ground.r * clear) + globe_colour(column, g.kinds.y, through) * (ground.g * clear)
                 + globe_colour(column, g.kinds.z, through) * (ground.b * clear) + globe_colour(column, g.kinds.w, through) * (water * clear)
-                + globe_colour(column, g.air.w, through) * sky.r;
+                + globe_colour(column, g.air.w, through_clouds) * sky.r;
             lit *= smoothstep(-g.ring.w, g.ring.w, dot(normal, g.light.xyz)); // the Sun rises
             shown *= mu_sun * lit;
             // The Sun's glint on waves whose slopes are spread by a wind of 7 m/s (Cox and Munk 1954).
@@ -205,7 +207,7 @@ void add_globe(GlobeEntry g, vec3 n, float angle, ShiftColumn column, inout vec3
             // Waves hide each other from low eyes and a low Sun (Smith 1967).
             float seen = 2.0 / (mu + sqrt(mu * mu + spread * (1.0 - mu * mu))), reached = 2.0 * mu_sun / (mu_sun + sqrt(mu_sun * mu_sun + spread * (1.0 - mu_sun * mu_sun)));
             float glint = 0.25 * 3.14159265 * slopes * fresnel * seen * reached / (square * square);
-            shown += globe_colour(column, g.map.z, through) * (glint * water * clear * lit);
+            shown += globe_colour(column, g.map.z, straight) * (glint * water * clear * lit);
             // The lamps of cities are seen through the air above them alone.
             shown += globe_colour(column, g.lamps.x, 0.0) * (g.lamps.y * sky.g * sky.g * clear * exp(-GLOBE_AIR_DEPTH * air));
         } else {

@@ -6,28 +6,13 @@
 #include "view.glsl"
 #include "received_light.glsl"
 #include "tone.glsl"
-#ifdef WITH_GLOBES
-#include "physics/glare.glsl"
-#endif
+#include "sun_glare.glsl"
 #include "dither.glsl"
 
 layout(constant_id = 9) const bool LINEAR = false;  // light for the glow, before the tone curve; alpha 0: shows nothing
 layout(constant_id = 10) const bool DITHERED = true; // the target has 8 bits
 
 layout(location = 0) out vec4 shown;
-
-#ifdef WITH_GLOBES
-// The Sun's glare for the ship's direction n, motion axes: as a star's, and over the whole field of view.
-vec3 sun_glare(vec3 n)
-{
-    if (globes.sunlight.xyz == vec3(0.0))
-        return vec3(0.0);
-    vec3 off = n - globes.sun.xyz;
-    float chord = sqrt(dot(off, off)), angle = degrees(2.0 * asin(min(0.5 * chord, 1.0)));
-    float least = max(GLARE_LEAST, globes.sun.w);
-    return globes.sunlight.xyz * max(glare_at(angle * angle + least * least) - glare_at(SUN_GLARE_MOST * SUN_GLARE_MOST), 0.0);
-}
-#endif
 
 // Exposed. shows: false where the map shows nothing; there the light is 0.
 vec3 light_along(vec2 pixel, int channel, out bool shows)
@@ -43,12 +28,10 @@ vec3 light_along(vec2 pixel, int channel, out bool shows)
     vec3 light = light_at(pixel, channel, pixel_angle);
 #endif
     shows = !MAP || pixel_angle > 0.0;
-#ifdef WITH_GLOBES
-    if (shows) {
+    if (WITH_SUN_GLARE && shows) {
         float same_angle;
         light += sun_glare(look(view.row0, view.row1, view.row2, pixel, channel, same_angle));
     }
-#endif
     light *= view.boost.z;
     if (STARS && shows)
         light += texelFetch(stars_picture, ivec2(pixel + view.corner.xy), 0).rgb;
