@@ -27,6 +27,18 @@ OrbitElements read_orbit(const Place& place)
     return orbit;
 }
 
+OrbitElements::Correction read_correction(const Place& place)
+{
+    OrbitElements::Correction correction;
+    for (const Place& at : items(member(place, "polynomial"), 0, 9, "coefficients"))
+        correction.polynomial.push_back(number(at, any));
+    for (const Place& at : items(member(place, "terms"), 0, 1000, "terms [a, b, sine, cosine]")) {
+        const std::vector<Place> row = items(at, 4, 4, "numbers (multiples of Jupiter's and Saturn's longitude, sine, cosine)");
+        correction.terms.push_back({{integer(row[0], -20, 20), integer(row[1], -20, 20)}, number(row[2], any), number(row[3], any)});
+    }
+    return correction;
+}
+
 std::vector<LunarTerm> read_terms(const Place& place)
 {
     std::vector<LunarTerm> terms;
@@ -145,6 +157,7 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
     const Place bodies = root(bodies_document);
     const Place sizes = member(member(bodies, "sizes"), "bodies"), orbits = member(member(bodies, "orbits"), "bodies"),
                 rotations = member(member(bodies, "rotation"), "bodies"), moon = member(bodies, "moon");
+    const auto corrections = find_member(member(bodies, "orbits"), "corrections");
     SolarSystem system;
     read_spectra(root(spectra_document), system);
     system.moon_longitude = read_terms(member(moon, "longitude_deg_sin"));
@@ -170,6 +183,13 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
                 {"cloudy", Scattering::cloudy}, {"dusty", Scattering::dusty}, {"sun", Scattering::sun}});
         if (!globe.moon && globe.scattering != Scattering::sun)
             globe.orbit = read_orbit(member(orbits, globe.name == "Earth" ? "EarthMoonBarycenter" : globe.name));
+        if (globe.orbit && corrections)
+            if (const auto own = find_member(member(*corrections, "bodies"), globe.name)) {
+                globe.orbit->longitude_deg = read_correction(member(*own, "longitude_deg"));
+                globe.orbit->distance_part = read_correction(member(*own, "distance_fraction"));
+                system.jupiter_deg = read_element(member(orbits, "Jupiter"), "L_deg");
+                system.saturn_deg = read_element(member(orbits, "Saturn"), "L_deg");
+            }
         if (auto p = find_member(at, "map"))
             globe.map = folder / text(*p);
         take(at, "map_scale", globe.map_scale, {0, 100, true});

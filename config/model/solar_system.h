@@ -18,6 +18,18 @@ struct OrbitElements {
         double at_j2000, per_century;
     };
     Element semi_major_au, eccentricity, inclination_deg, mean_longitude_deg, perihelion_deg, node_deg;
+
+    /// The pull of Jupiter and Saturn on each other: a polynomial in Julian centuries, held beyond the centuries of its fit, and
+    /// periodic terms of the angle a L5 + b L6 of both mean longitudes.
+    struct Correction {
+        struct Term {
+            glm::ivec2 multiples;
+            double sine, cosine;
+        };
+        std::vector<double> polynomial;
+        std::vector<Term> terms;
+    };
+    Correction longitude_deg, distance_part; ///< added around the ecliptic's pole; times 1 + it. Empty: none
 };
 
 /// A periodic term of the Moon's motion: the multiples of its four arguments, and its amplitude.
@@ -88,6 +100,7 @@ struct SolarSystem {
     std::vector<Globe> globes; ///< at most MAX_GLOBES; the Sun is one
     std::vector<NamedTable> kinds, lamps;
     std::vector<LimbDarkening> limb; ///< rising wavelengths
+    OrbitElements::Element jupiter_deg{}, saturn_deg{}; ///< mean longitudes
     std::vector<LunarTerm> moon_longitude, moon_latitude, moon_distance;
 };
 

@@ -69,6 +69,29 @@ glm::dvec3 moon_place(const SolarSystem& system, double T)
 
 constexpr double moons_part = 1 / 82.3005691; ///< of the mass of the Earth and the Moon (DE440)
 
+double value_of(const SolarSystem& system, const OrbitElements::Correction& correction, double centuries)
+{
+    const double T = std::clamp(centuries, -1.05, 0.55); // the fit's
+    double sum = 0, power = 1;
+    for (const double coefficient : correction.polynomial)
+        sum += coefficient * power, power *= T;
+    const double jupiter = system.jupiter_deg.at_j2000 + system.jupiter_deg.per_century * centuries,
+                 saturn = system.saturn_deg.at_j2000 + system.saturn_deg.per_century * centuries;
+    for (const auto& term : correction.terms) {
+        const double angle = (term.multiples.x * jupiter + term.multiples.y * saturn) * degree;
+        sum += term.sine * std::sin(angle) + term.cosine * std::cos(angle);
+    }
+    return sum;
+}
+
+glm::dvec3 corrected(const SolarSystem& system, const OrbitElements& orbit, const glm::dvec3& place, double centuries)
+{
+    const glm::dvec3 pole = equatorial_from_ecliptic({0, 0, 1});
+    const double turn = value_of(system, orbit.longitude_deg, centuries) * degree;
+    const glm::dvec3 turned = place * std::cos(turn) + glm::cross(pole, place) * std::sin(turn) + pole * (glm::dot(pole, place) * (1 - std::cos(turn)));
+    return turned * (1 + value_of(system, orbit.distance_part, centuries));
+}
+
 glm::dvec3 place_of(const SolarSystem& system, const Globe& globe, double days)
 {
     const double centuries = dynamical_centuries(days);
@@ -77,7 +100,9 @@ glm::dvec3 place_of(const SolarSystem& system, const Globe& globe, double days)
         return place_on(earth->orbit.value(), centuries) + (1 - moons_part) * moon_place(system, centuries);
     if (!globe.orbit)
         return glm::dvec3(0);
-    const glm::dvec3 place = place_on(*globe.orbit, centuries);
+    glm::dvec3 place = place_on(*globe.orbit, centuries);
+    if (!globe.orbit->longitude_deg.polynomial.empty())
+        place = corrected(system, *globe.orbit, place, centuries);
     return globe.name == "Earth" ? place - moons_part * moon_place(system, centuries) : place;
 }
 
