@@ -76,21 +76,32 @@ float point_part(float radius) { return 1.0 - smoothstep(0.8, 1.6, radius); }
 struct Ring {
     float depth, bright; // optical depth, along its normal; brightness
 };
+// radius: from the middle; pixel: its change across a pixel.
 Ring ring_at(GlobeEntry g, float radius, float pixel)
 {
-    if (!(radius > g.ring.x && radius < g.ring.y))
+    pixel = max(pixel, 1e-9);
+    float inside = (min(radius + 0.5 * pixel, g.ring.y) - max(radius - 0.5 * pixel, g.ring.x)) / pixel;
+    if (!(inside > 0.0))
         return Ring(0.0, 0.0);
-    float across = g.ring.y - g.ring.x, texels = float(textureSize(ring_profile, 0).x);
-    float level = log2(max(pixel / across * texels, 1.0));
-    vec2 found = textureLod(ring_profile, vec2((radius - g.ring.x) / across, 0.5), level).rg;
-    return Ring(found.r * 8.0, found.g);
+    // The mean over four places of a pixel.
+    vec2 sum = vec2(0.0);
+    for (int i = 0; i < 4; ++i)
+        sum += textureLod(ring_profile, vec2((radius + pixel * (0.25 * float(i) - 0.375) - g.ring.x) / (g.ring.y - g.ring.x), 0.5), 0.0).rg;
+    return Ring(sum.x * 2.0 * inside, sum.y * 0.25); // 8 is the profile's greatest depth
 }
-// The ring's opacity and its light on a ray.
-float ring_hit(GlobeEntry g, GlobeRay ray, out float t, out float radius)
+// The change of the distance from the axis, over a step across a way, where the way meets the ring's plane.
+float radius_step(vec3 at, vec3 way)
+{
+    float slope = dot(at.xy, way.xy) / max(length(at.xy) * abs(way.z), 1e-6);
+    return sqrt(1.0 + slope * slope);
+}
+// The place of a ray in the ring's plane. Returns the cosine of its angle from the normal, 0: behind the eye.
+float ring_hit(GlobeEntry g, GlobeRay ray, out float t, out float radius, out float pixel)
 {
     t = -ray.from.z / (abs(ray.way.z) < 1e-9 ? 1e-9 : ray.way.z);
     vec3 at = ray.from + ray.way * t;
     radius = length(at.xy);
+    pixel = ray.pixel * abs(t / ray.ahead) * radius_step(at, ray.way);
     return t > 0.0 ? abs(ray.way.z) : 0.0;
 }
 
@@ -123,8 +134,8 @@ void add_globe(GlobeEntry g, vec3 n, float angle, ShiftColumn column, inout vec3
     float ring_depth = 0.0, ring_t = 0.0;
     vec3 ring_light = vec3(0.0);
     if (g.ring.y > 0.0) {
-        float radius, mu = ring_hit(g, ray, ring_t, radius);
-        Ring ring = ring_at(g, radius, ray.pixel / max(mu, 0.05));
+        float radius, width, mu = ring_hit(g, ray, ring_t, radius, width);
+        Ring ring = ring_at(g, radius, width);
         if (mu > 0.0 && ring.depth > 0.0) {
             vec3 at = ray.from + ray.way * ring_t;
             float mu_sun = abs(sun_scaled.z);
@@ -177,7 +188,8 @@ void add_globe(GlobeEntry g, vec3 n, float angle, ShiftColumn column, inout vec3
         float lit = g.light.w * left_by_other(g, at * own, g.light.xyz);
         if (g.ring.y > 0.0 && at.z * sun_scaled.z < 0.0) { // its ring's shadow
             vec3 there = at - sun_scaled * (at.z / sun_scaled.z);
-            lit *= exp(-ring_at(g, length(there.xy), ray.pixel).depth / abs(sun_scaled.z));
+            float width = ray.pixel / max(mu, 0.1) * radius_step(there, sun_scaled);
+            lit *= exp(-ring_at(g, length(there.xy), width).depth / abs(sun_scaled.z));
         }
         vec3 shown;
         vec2 place = place_in_panorama(normal) + vec2(0.5, 0.0);
@@ -269,7 +281,7 @@ float left_by_globes(vec3 n, int own)
         GlobeRay ray = globe_ray(g, n, 0.0);
         left *= 1.0 - covered(ray);
         if (g.ring.y > 0.0) {
-            float t, radius, mu = ring_hit(g, ray, t, radius);
+            float t, radius, width, mu = ring_hit(g, ray, t, radius, width);
             left *= mu > 0.0 ? exp(-ring_at(g, radius, 0.0).depth / max(mu, 1e-3)) : 1.0;
         }
     }

@@ -1,6 +1,7 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
+#include "config/model/angles.h"
 #include "config/model/shipped.h"
 #include "displays/check/floor_plan.h"
 #include "displays/check/floor_plan_table.h"
@@ -11,6 +12,8 @@
 #include "runtime/commands/commands.h"
 #include "runtime/images/capture.h"
 #include "runtime/world/spectral_errors.h"
+#include "runtime/world/ephemeris.h"
+#include "runtime/world/stars.h"
 #include "runtime/world/worldline.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -82,11 +85,34 @@ int check(const CheckOptions& options)
     return 0;
 }
 
+/// The places of a scene's globes at its time 0, as an eye at its origin sees them.
+void print_globes(const SceneFile& scene, const Globes& globes)
+{
+    const WorldOrigin origin = world_origin(globes.system, scene.globes.value());
+    const glm::dmat3 turn = world_from_equatorial(scene.stars.value().ahead_deg);
+    EyeAmongGlobes eye{glm::dvec3(0), 0, turn, scene.unit_m, scene.seconds_per_time_unit()};
+    const std::vector<glm::dvec3> places = globe_places_m(globes.system, origin.days);
+    std::printf("globes at %s's date from %s: place (x, y, z) at that time and radius, scene units; as %s sees it: light's way in "
+                "minutes, right ascension and declination (J2000)\n",
+        scene.name.c_str(), scene.globes->origin.c_str(), scene.globes->origin.c_str());
+    for (const SeenGlobe& one : globes_seen(globes.system, origin, eye)) {
+        const Globe& globe = globes.system.globes[one.globe];
+        const glm::dvec3 n = glm::transpose(turn) * (one.from_eye / one.distance);
+        const glm::dvec3 place = turn * (places[one.globe] - origin.place_m) / scene.unit_m;
+        const double ascension = std::atan2(n.y, n.x) / degree;
+        std::printf("  %-8s [%.9g, %.9g, %.9g] %.6g; %.3f min; %.3f %+.3f\n", globe.name.c_str(), place.x, place.y,
+            place.z, globe.radius_m / scene.unit_m, one.distance * scene.seconds_per_time_unit() / 60,
+            ascension < 0 ? ascension + 360 : ascension, std::asin(n.z) / degree);
+    }
+}
+
 /// How the live picture represents the scene's light, and how far its colours are off at worst.
 int check_scene(const std::string& name)
 {
     const SceneFile scene = load_scene_file(shipped_file("scenes", name));
     World world = load_world(scene);
+    if (world.globes)
+        print_globes(scene, *world.globes);
     place_bodies(world, scene);
     for (const std::string& note : world.notes)
         std::printf("note: %s\n", note.c_str());
@@ -115,7 +141,8 @@ void add_check(CLI::App& app, std::function<int()>& chosen)
     CLI::Option* layout
         = command->add_option("FILE", options->layout, "A layout file, or the name of one in config/layouts");
     CLI::Option* scene = command->add_option("--scene", options->scene,
-        "A scene file, or the name of one in config/scenes: how its light is represented, and the worst error of a colour");
+        "A scene file, or the name of one in config/scenes: how its light is represented, the worst error of a colour, and the places "
+        "of its globes");
     scene->excludes(layout);
     CLI::Option* flashes = command->add_option("--flashes", options->flashes.film,
         "A tour file, the name of one in config/tours, or a record of starbow run --record (.jsonl): the flashes that an "
