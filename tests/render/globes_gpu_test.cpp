@@ -19,6 +19,9 @@ std::filesystem::path scene_file()
     return std::filesystem::exists(at) ? at : testing::source_dir() / "scenes/solar-system/solar-system.json";
 }
 
+/// The time of most pictures, in the scene's seconds: after the eclipse, midnight over Europe and Africa.
+constexpr double later = 6 * 3600;
+
 /// The solar system without stars, on the device and for rays.
 struct Solar {
     ReferenceWorld rays = open_reference_world(scene_file());
@@ -46,23 +49,27 @@ struct Solar {
     double unit_m() const { return rays.scene.unit_m; }
     double radius(const std::string& name) const { return globe(name).radius_m / unit_m(); }
     /// A globe's place in the world at a time, as an eye beside it sees it.
-    dvec3 place(const std::string& name, double time = 0) const
+    dvec3 place(const std::string& name, double time = later) const
     {
         return world_from_equatorial
             * ((globe_places_m(system(), origin.days + time / 86400)[index_of(name)] - origin.at(time)) / unit_m());
     }
-    dvec3 to_sun(const std::string& name) const { return glm::normalize(-place(name) + place("Sun")); }
+    dvec3 to_sun(const std::string& name, double time = later) const
+    {
+        return glm::normalize(place("Sun", time) - place(name, time));
+    }
     dvec3 pole(const std::string& name) const
     {
         return world_from_equatorial * (glm::transpose(globe_turn(globe(name), origin.days)) * dvec3(0, 0, 1));
     }
-    /// A unit direction of the Earth's ground.
-    dvec3 on_earth(double latitude_deg, double longitude_deg) const
+    /// A place on the Earth's ground, from its middle, in equatorial radii. Geographic latitude.
+    dvec3 on_earth(double latitude_deg, double longitude_deg, double time = later) const
     {
         const double a = latitude_deg * degree, b = longitude_deg * degree;
-        return world_from_equatorial
-            * (glm::transpose(globe_turn(globe("Earth"), origin.days))
-                * dvec3(std::cos(a) * std::cos(b), std::cos(a) * std::sin(b), std::sin(a)));
+        const double polar = std::pow(1 - globe("Earth").flattening, 2);
+        const dvec3 own = dvec3(std::cos(a) * std::cos(b), std::cos(a) * std::sin(b), polar * std::sin(a))
+            / std::sqrt(std::pow(std::cos(a), 2) + polar * std::pow(std::sin(a), 2));
+        return world_from_equatorial * (glm::transpose(globe_turn(globe("Earth"), origin.days + time / 86400)) * own);
     }
 };
 
@@ -91,7 +98,8 @@ dvec3 tilted(const dvec3& from, const dvec3& towards, double degrees)
 struct Subject {
     const char* name;
     dvec3 eye, look; ///< look: unit, world
-    double fov_deg;
+    double fov_deg, time = later;
+    int samples = 4;
 };
 
 std::vector<Subject> subjects()
@@ -109,11 +117,12 @@ std::vector<Subject> subjects()
     for (const double height_km : {400.0, 10.0}) {
         const double up = 1 + height_km * 1000 / s.globe("Earth").radius_m;
         const double dip = std::acos(1 / up) / degree;
-        all.push_back({height_km > 100 ? "the limb from 400 km" : "the limb from 10 km", morning * earth * (up + 0.0005),
+        all.push_back({height_km > 100 ? "the limb from 400 km" : "the limb from 10 km",
+            s.place("Earth") + morning * earth * (up + 0.0005),
             tilted(glm::normalize(glm::cross(morning, north)), -morning, dip), height_km > 100 ? 30.0 : 20.0});
     }
-    const dvec3 asia = s.on_earth(25, 95);
-    before("cities at night", "Earth", asia, 1.6, 60);
+    // The Sun stands behind the Earth.
+    before("cities at night", "Earth", glm::normalize(s.on_earth(15, 5)), 1.5, 60);
     before("the Moon", "Moon", tilted(s.to_sun("Moon"), north, 50), 8, 18);
     const dvec3 pole = s.pole("Saturn"), saturn_sun = s.to_sun("Saturn");
     const double side = glm::dot(pole, saturn_sun) > 0 ? 1 : -1;
@@ -130,10 +139,12 @@ std::vector<Subject> subjects()
                 : pixels < 2 ? "a small Mars of 1.2 pixels"
                              : "a small Mars of 3 pixels",
             "Mars", tilted(s.to_sun("Mars"), north, 30), 1 / (pixels * pixel), 10);
+        all.back().samples = 64;
     }
-    const dvec3 shadow = s.on_earth(65.2, -25.2);
-    all.push_back({"the Moon's shadow", tilted(shadow, sun, 30) * 2.5 * earth, glm::dvec3(0), 30});
-    all.back().look = glm::normalize(shadow * earth - all.back().eye);
+    const dvec3 shadow = s.on_earth(65.2, -25.2, 0);
+    all.push_back({"the Moon's shadow",
+        s.place("Earth", 0) + tilted(glm::normalize(shadow), s.to_sun("Earth", 0), 30) * 2.5 * earth, dvec3(0), 30, 0});
+    all.back().look = glm::normalize(s.place("Earth", 0) + shadow * earth - all.back().eye);
     return all;
 }
 
@@ -161,6 +172,7 @@ Taken shot_of(const Subject& subject, const Speed& speed)
     const double D = speed.gamma + glm::dot(u, subject.look);
     const dvec3 seen = glm::normalize(subject.look + u + u * (glm::dot(u, subject.look) / (speed.gamma + 1)));
     Shot shot = shot_at(subject.eye, u, seen, up);
+    shot.time = subject.time;
     shot.effects = {true, true, true};
     return {shot, D};
 }
@@ -237,6 +249,16 @@ Errors compare(const Layout& layout, Shot shot, int samples, const std::string& 
         "distances off %.2f %%, D %.1e, %.1f dB, EV %.1f\n",
         name.c_str(), 100 * out.mean, out.smooth, 100 * out.median, 100 * out.most, out.where.x, out.where.y, out.live.r,
         out.live.g, out.live.b, out.rays.r, out.rays.g, out.rays.b, 100 * out.distances, out.D, out.psnr, shot.exposure_ev);
+    if (const char* probe = std::getenv("STARBOW_GLOBES_PROBE")) {
+        int x = 0, y = 0, used = 0;
+        while (std::sscanf(probe, "%d,%d%n", &x, &y, &used) == 2) {
+            probe += used;
+            const int i = y * numbers.size.x + x;
+            const dvec3 a = numbers.light(i), b = rays(i);
+            std::printf("    %d, %d: (%.4g %.4g %.4g) for (%.4g %.4g %.4g), depth %.7g for %.7g\n", x, y, a.r, a.g, a.b, b.r,
+                b.g, b.b, numbers.depth(i), truth.numbers[std::size_t(i)].distance);
+        }
+    }
     if (const char* folder = std::getenv("STARBOW_GLOBES_OUT")) {
         std::string file = name;
         std::replace(file.begin(), file.end(), ' ', '_');
@@ -265,8 +287,204 @@ TEST(Globes, LightIsThatOfTheRaysOnADesk)
                 continue;
             const Taken taken = shot_of(subject, speed);
             const Layout layout = one_view(Planar{.fov_y_deg = shrunk(subject.fov_deg, taken.D)}, {96, 72});
-            compare(layout, taken.shot, 4, name);
+            compare(layout, taken.shot, subject.samples, name);
         }
+}
+
+TEST(Globes, LightIsThatOfTheRaysInADome)
+{
+    for (const Subject& subject : subjects())
+        for (const Speed& speed : speeds) {
+            const std::string name = std::string("dome: ") + subject.name + ", " + speed.name;
+            if (!chosen(name))
+                continue;
+            const Taken taken = shot_of(subject, speed);
+            const Fisheye dome{.aperture_deg = std::min(1.2 * shrunk(subject.fov_deg, taken.D), 180.0), .tilt_deg = 90};
+            compare(one_view(dome, {72, 72}), taken.shot, subject.samples, name);
+        }
+}
+
+TEST(Globes, LightIsThatOfTheRaysForBothEyes)
+{
+    Layout layout = load_layout(testing::source_dir() / "config/layouts/stereo.json");
+    layout.outputs[0].size = {144, 54};
+    for (const Subject& subject : subjects())
+        for (const Speed& speed : speeds) {
+            const std::string name = std::string("stereo: ") + subject.name + ", " + speed.name;
+            if (!chosen(name))
+                continue;
+            compare(layout, shot_of(subject, speed).shot, subject.samples, name);
+        }
+}
+
+// ---------------------------------------------------------------- against published numbers
+
+namespace {
+
+/// The solar system with other globes, on the device and for rays.
+struct Changed {
+    ReferenceWorld rays;
+    GpuWorld gpu;
+    explicit Changed(const std::function<void(SolarSystem&)>& change)
+        : rays(open_reference_world(scene_file()))
+    {
+        auto globes = std::make_shared<Globes>(*rays.world.globes);
+        change(globes->system);
+        rays.world.globes = globes;
+        rays.stars.clear();
+        LoadedScene loaded = load_scene(scene_file());
+        loaded.world.globes = globes;
+        gpu = upload(device(), pipelines(), std::move(loaded.world), loaded.scene, {});
+    }
+};
+
+double luminance(const dvec3& rgb)
+{
+    static const dmat3 xyz_from_rec709 = glm::inverse(rec709_from_sunlit_xyz());
+    return (xyz_from_rec709 * rgb).y;
+}
+
+dvec3 light_of(const Reference& truth, int i)
+{
+    return (truth.light[0][std::size_t(i)] - truth.numbers[std::size_t(i)].glare) / truth.exposure;
+}
+
+} // namespace
+
+/// V(1, 0), the magnitude at one astronomical unit from the Sun and from the eye at full phase, from the light of the disc.
+TEST(Globes, WholeDiscsHaveThePublishedMagnitudes)
+{
+    // Mallama and Hilton 2018; the Moon: Allen's Astrophysical Quantities; the Sun: Willmer 2018.
+    struct Body {
+        const char* name;
+        double published, tolerance;
+    };
+    constexpr double sun = -26.74, far = 400; // radii
+    const Changed bare([](SolarSystem& system) {
+        for (Globe& globe : system.globes)
+            globe.ring.reset();
+    });
+    for (const Body& body : {Body{"Sun", sun, 0.01}, {"Mercury", -0.613, 0.1}, {"Venus", -4.384, 0.1}, {"Moon", 0.21, 0.1},
+             {"Mars", -1.601, 0.1}, {"Jupiter", -9.395, 0.1}, {"Saturn", -8.95, 0.1}, {"Uranus", -7.110, 0.1},
+             {"Neptune", -7.00, 0.1}}) {
+        const Solar& s = solar();
+        const bool is_sun = std::string(body.name) == "Sun";
+        const dvec3 from = is_sun ? s.pole("Sun") : s.to_sun(body.name);
+        const double distance = far * s.radius(body.name);
+        const double fov = 2 * std::atan(1.25 / far) / degree;
+        Shot shot = shot_at(
+            s.place(body.name) + from * distance, dvec3(0), -from, std::abs(from.y) > 0.9 ? dvec3(0, 0, 1) : dvec3(0, 1, 0));
+        shot.effects = {true, true, true};
+        shot.time = later;
+        const Layout layout = one_view(Planar{.fov_y_deg = fov}, {128, 128});
+        OffscreenRenderer live(device(), pipelines(), bare.gpu, layout, test_quality(), true);
+        const Numbers numbers(live, shot);
+        const Reference truth = reference(bare.rays.input(), layout, shot, 0, {.samples = 16});
+        const double pixel_sr = std::pow(2 * std::tan(0.5 * fov * degree) / 128, 2);
+        double live_flux = 0, rays_flux = 0;
+        for (int i = 0; i < numbers.count(); ++i)
+            live_flux += luminance(numbers.light(i)) * pixel_sr, rays_flux += luminance(light_of(truth, i)) * pixel_sr;
+        const double au = astronomical_unit_m / s.unit_m();
+        const double sun_au = is_sun ? 1 : glm::length(s.place(body.name) - s.place("Sun")) / au;
+        const auto magnitude
+            = [&](double flux) { return sun - 2.5 * std::log10(flux * std::pow(distance / au * sun_au, 2) / pi); };
+        std::printf("%-8s V(1, 0) %.3f live, %.3f by rays, %.3f published: %+.3f\n", body.name, magnitude(live_flux),
+            magnitude(rays_flux), body.published, magnitude(rays_flux) - body.published);
+        EXPECT_NEAR(magnitude(rays_flux), body.published, body.tolerance) << body.name;
+        EXPECT_NEAR(magnitude(live_flux), magnitude(rays_flux), 0.01) << body.name;
+    }
+}
+
+TEST(Globes, TheSunIsDarkerAtItsLimb)
+{
+    // At one wavelength, from the reference's spectra. Allen's Astrophysical Quantities, 4th ed., 550 nm:
+    // 1 - u - v + u mu + v mu^2 with u = 0.93, v = -0.23, rounded to two digits.
+    StandardObserver at_550 = eye();
+    at_550.samples = {{550, 1, dvec3(1)}};
+    const GlobeColours colours(*solar().rays.world.globes, at_550);
+    const auto one = [&](double mu) {
+        std::vector<GlobeColours::Term> terms;
+        for (int k = 0; k < 6; ++k)
+            terms.push_back({GlobeColours::sun + k, std::pow(mu, k), 0});
+        return glm::length(colours.seen(terms, 1));
+    };
+    // The picture's luminance has its middle near 560 nm, and its width.
+    const Solar& s = solar();
+    const dvec3 north = s.pole("Sun");
+    const double distance = 200 * s.radius("Sun");
+    Shot shot
+        = shot_at(s.place("Sun") + north * distance, dvec3(0), -north, glm::normalize(glm::cross(north, dvec3(1, 0, 0))));
+    shot.effects = {true, true, true};
+    shot.time = later;
+    const double fov = 2 * std::atan(1.1 / 200) / degree;
+    const Layout layout = one_view(Planar{.fov_y_deg = fov}, {201, 201});
+    OffscreenRenderer live(device(), pipelines(), s.gpu, layout, test_quality(), true);
+    const Numbers numbers(live, shot);
+    const Reference truth = reference(s.rays.input(), layout, shot, 0, {.samples = 4});
+    const dvec3 middle = glm::normalize(s.place("Sun") - shot.position);
+    std::map<double, dvec3> sums; ///< by radius: live, rays, count
+    for (int i = 0; i < numbers.count(); ++i) {
+        const double r = std::sin(between(truth.numbers[std::size_t(i)].world, middle)) * 200;
+        for (const double at : {0.0, 0.5, 0.9})
+            if (std::abs(r - at) < 0.012)
+                sums[at] += dvec3(luminance(numbers.light(i)), luminance(light_of(truth, i)), 1);
+    }
+    for (const double r : {0.5, 0.9}) {
+        const double mu = std::sqrt(1 - r * r), published = 1 - 0.93 + 0.23 + 0.93 * mu - 0.23 * mu * mu;
+        const double by_live = sums[r].x / sums[r].z / (sums[0].x / sums[0].z),
+                     by_rays = sums[r].y / sums[r].z / (sums[0].y / sums[0].z);
+        std::printf("%.1f radii: 550 nm %.4f (Allen %.4f); luminance live %.4f, by rays %.4f\n", r, one(mu) / one(1),
+            published, by_live, by_rays);
+        EXPECT_NEAR(one(mu) / one(1), published, 0.01) << r;
+        EXPECT_NEAR(by_live, by_rays, 0.002) << r;
+        EXPECT_NEAR(by_live, one(mu) / one(1), 0.02) << r;
+    }
+}
+
+/// The middle of the Moon's shadow at the greatest eclipse of 12 August 2026, from the light that the Moon takes.
+TEST(Globes, TheMoonsShadowFallsWhereItWasPredicted)
+{
+    const Solar& s = solar();
+    const Changed bright([](SolarSystem& system) {
+        for (Globe& globe : system.globes)
+            if (globe.moon)
+                globe.radius_m = 1;
+    });
+    const dvec3 ground = s.on_earth(65.2, -25.2, 0) * s.radius("Earth");
+    const dvec3 eye = s.place("Earth", 0) + ground * 2.2;
+    Shot shot = shot_at(eye, dvec3(0), s.place("Earth", 0) + ground - eye, dvec3(0, 1, 0));
+    shot.effects = {true, true, true};
+    const Layout layout = one_view(Planar{.fov_y_deg = 14}, {144, 108});
+    OffscreenRenderer dark(device(), pipelines(), s.gpu, layout, test_quality(), true),
+        lit(device(), pipelines(), bright.gpu, layout, test_quality(), true);
+    const Numbers with(dark, shot), without(lit, shot);
+    const Reference rays_with = reference(s.rays.input(), layout, shot, 0, {.samples = 1});
+    const Reference rays_without = reference(bright.rays.input(), layout, shot, 0, {.samples = 1});
+    const dmat3 own = globe_turn(s.globe("Earth"), s.origin.days - 1.2 * s.radius("Earth") / 86400)
+        * glm::transpose(s.world_from_equatorial);
+    dvec3 sums[2] = {dvec3(0), dvec3(0)};
+    for (int i = 0; i < with.count(); ++i) {
+        const Reference::Numbers& n = rays_with.numbers[std::size_t(i)];
+        if (std::isinf(n.distance))
+            continue;
+        const dvec3 place = own * (eye + n.world * n.distance - s.place("Earth", 0));
+        const double left[2] = {luminance(with.light(i)) / luminance(without.light(i)),
+            luminance(light_of(rays_with, i)) / luminance(light_of(rays_without, i))};
+        for (int k = 0; k < 2; ++k)
+            if (left[k] < 0.1)
+                sums[k] += place * (0.1 - left[k]);
+    }
+    for (int k = 0; k < 2; ++k) {
+        // Geographic latitude, by the spheroid's normal.
+        const double f = s.globe("Earth").flattening;
+        const dvec3 normal = sums[k] * dvec3(1, 1, 1 / ((1 - f) * (1 - f)));
+        const double latitude = std::atan2(normal.z, std::hypot(normal.x, normal.y)) / degree,
+                     longitude = std::atan2(normal.y, normal.x) / degree;
+        const double off = between(sums[k], own * (ground)) / degree;
+        std::printf("%s: %.2f N %.2f W, %.2f degrees from the published middle\n", k == 0 ? "live" : "rays", latitude,
+            -longitude, off);
+        EXPECT_LT(off, k == 0 ? 1.0 : 0.3);
+    }
 }
 
 } // namespace starbow::gpu_test::globes_gpu_test
