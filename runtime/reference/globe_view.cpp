@@ -4,7 +4,6 @@
 #include "point_glare.h"
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 namespace starbow {
 namespace {
@@ -38,26 +37,29 @@ OnShip on_ship(const TracingEye& eye, const glm::dvec3& middle_m, double radius_
     return out;
 }
 
-/// A body's light times its solid angle on the ship: the mean over directions within the cone of what belongs to it.
-glm::dvec3 whole_light(const TracingEye& eye, std::size_t body, const OnShip& outline,
-    const std::function<glm::dvec3(const glm::dvec3& way)>& beside)
+/// A body's light in `count` evenly spread directions of the cone around what belongs to it, each times its solid angle on
+/// the ship.
+std::vector<std::pair<glm::dvec3, glm::dvec3>> lights(const TracingEye& eye, std::size_t body, const OnShip& outline,
+    const std::function<glm::dvec3(const glm::dvec3& way)>& beside, int count)
 {
-    const GlobeSight::Body& of = eye.globes()->bodies()[body];
-    const int count = of.globe->air ? 4000 : 16000;
     const double half = std::sin(0.5 * std::min(outline.most * 1.0001, pi));
-    glm::dvec3 sum(0);
-    std::mutex mutex;
+    std::vector<std::pair<glm::dvec3, glm::dvec3>> all{std::size_t(count)};
     by_rows(count, [&](int first, int end) {
-        glm::dvec3 own(0);
         for (int i = first; i < end; ++i) {
             const glm::dvec3 way
                 = around(outline.way, 2 * std::asin(half * std::sqrt((i + 0.5) / count)), 2 * pi * 0.6180339887498949 * i);
-            own += eye.globe_light(body, way, beside(way));
+            all[std::size_t(i)] = {way, eye.globe_light(body, way, beside(way)) * (4 * pi * half * half / count)};
         }
-        const std::scoped_lock lock(mutex);
-        sum += own;
     });
-    return sum * (4 * pi * half * half / count);
+    return all;
+}
+
+glm::dvec3 sum(const std::vector<std::pair<glm::dvec3, glm::dvec3>>& all)
+{
+    glm::dvec3 light(0);
+    for (const auto& one : all)
+        light += one.second;
+    return light;
 }
 
 } // namespace
@@ -106,12 +108,16 @@ GlobeView::GlobeView(const TracingEye& eye, const ViewRays& rays, const glm::ive
         const bool reaches = near.off < 0.2; // a spot far beyond the picture brings no light
         if (!sun && (part >= 1 || !reaches))
             continue;
-        const glm::dvec3 light = whole_light(eye, i, on_ship(eye, bodies[i].middle_m, bodies[i].outer_m()), beside);
+        const OnShip outline = on_ship(eye, bodies[i].middle_m, bodies[i].outer_m());
+        const glm::dvec3 light = sum(lights(eye, i, outline, beside, bodies[i].globe->air ? 4000 : 16000));
         if (light == glm::dvec3(0))
             continue;
         std::optional<double> glared;
         if (sun) {
-            sun_ = SunGlare{near.outline.way, light, glare_radius(light, exposure, farthest_sun_deg)};
+            sun_ = SunGlare{lights(eye, i, outline, beside, 96), glare_radius(light, exposure, farthest_sun_deg)};
+            const glm::dvec3 part_of_light = light / glm::max(sum(sun_->lights), glm::dvec3(1e-300));
+            for (auto& one : sun_->lights)
+                one.second *= part_of_light;
             glared = light_of_glare(sun_->end_deg, nearest_glare_deg);
         }
         if (part < 1)
@@ -136,8 +142,9 @@ glm::dvec3 GlobeView::glare(const ViewRays& rays, const glm::ivec2& pixel, int c
     if (sun_->end_deg <= std::max(nearest, 2 * pixel_deg))
         return glm::dvec3(0);
     const double level = glare_per_sr(sun_->end_deg, nearest);
-    const double glare = glare_per_sr(angle_between(*here, sun_->way) / degree, nearest) - level;
-    glm::dvec3 change = sun_->light * std::max(glare, 0.0);
+    glm::dvec3 change(0);
+    for (const auto& [way, light] : sun_->lights)
+        change += light * std::max(glare_per_sr(angle_between(*here, way) / degree, nearest) - level, 0.0);
     if (sun != glm::dvec3(0))
         change -= sun * light_of_glare(sun_->end_deg, nearest);
     return change;

@@ -23,7 +23,7 @@ private:
     std::vector<double> parts_;
     std::vector<GlobeSpot> spots_;
     struct SunGlare {
-        glm::dvec3 way, light; ///< as GlobeSpot's
+        std::vector<std::pair<glm::dvec3, glm::dvec3>> lights; ///< of parts of its disc, as GlobeSpot's way and light
         double end_deg = 0;
     };
     std::optional<SunGlare> sun_;
