@@ -10,6 +10,7 @@ namespace {
 
 constexpr double largest_spot = 0.8, smallest_disc = 1.6; // radii in pixels
 constexpr double farthest_sun_deg = 60;
+constexpr int sun_parts = 96;
 
 /// Directions at an angle around an axis.
 glm::dvec3 around(const glm::dvec3& axis, double angle, double turn)
@@ -114,7 +115,8 @@ GlobeView::GlobeView(const TracingEye& eye, const ViewRays& rays, const glm::ive
             continue;
         std::optional<double> glared;
         if (sun) {
-            sun_ = SunGlare{lights(eye, i, outline, beside, 96), glare_radius(light, exposure, farthest_sun_deg)};
+            sun_ = SunGlare{lights(eye, i, outline, beside, sun_parts), glare_radius(light, exposure, farthest_sun_deg),
+                2 * std::sin(0.5 * outline.most) * std::sqrt(pi / sun_parts) / degree};
             const glm::dvec3 part_of_light = light / glm::max(sum(sun_->lights), glm::dvec3(1e-300));
             for (auto& one : sun_->lights)
                 one.second *= part_of_light;
@@ -138,8 +140,8 @@ glm::dvec3 GlobeView::glare(const ViewRays& rays, const glm::ivec2& pixel, int c
         return low && high ? *high - *low : low ? 2.0 * (*here - *low) : high ? 2.0 * (*high - *here) : glm::dvec3(0);
     };
     const double pixel_deg = std::sqrt(glm::length(glm::cross(step({0.5, 0}), step({0, 0.5})))) / degree;
-    const double nearest = std::max(nearest_glare_deg, pixel_deg);
-    if (sun_->end_deg <= std::max(nearest, 2 * pixel_deg))
+    const double nearest = std::max({nearest_glare_deg, pixel_deg, sun_->part_deg});
+    if (sun_->end_deg <= std::max(nearest_glare_deg, 2 * pixel_deg))
         return glm::dvec3(0);
     const double level = glare_per_sr(sun_->end_deg, nearest);
     glm::dvec3 change(0);

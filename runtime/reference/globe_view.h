@@ -25,6 +25,7 @@ private:
     struct SunGlare {
         std::vector<std::pair<glm::dvec3, glm::dvec3>> lights; ///< of parts of its disc, as GlobeSpot's way and light
         double end_deg = 0;
+        double part_deg = 0; ///< width of a part
     };
     std::optional<SunGlare> sun_;
 };

@@ -400,8 +400,6 @@ void GlobeSight::add_ring(const Body& body, const Sight& sight, double way, doub
             {body.rings, bright * light * std::pow(astronomical_unit_m / body.sun_m, 2) * part * through.grey, through.air});
     }
     const double left = std::exp(-depth / mu);
-    if (left < 0.5 && part >= 0.5)
-        out.distance_m = std::min(out.distance_m, way);
     through.grey *= 1 - part * (1 - left);
 }
 

@@ -51,7 +51,7 @@ public:
         std::vector<GlobeColours::Term> terms; ///< the light
         std::vector<GlobeColours::Term> sun; ///< the part of `terms` that is the Sun's disc
         double through = 1; ///< the part of the light behind that comes through, for the eye's most sensitive wavelength
-        double distance_m = INFINITY; ///< to the nearest ground, or to a ring that hides more than half
+        double distance_m = INFINITY; ///< to the nearest ground; rings and air have none
     };
     /// Follows a ray. from_m: the eye's offset from the event; direction: unit, world axes. parts: for each globe of the
     /// system the part of it that is drawn as a disc; empty: all. only: an index into bodies() to leave out all others'
