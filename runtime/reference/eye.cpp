@@ -7,13 +7,14 @@
 namespace starbow {
 
 TracingEye::TracingEye(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
-    const Observer& observer, const glm::dvec3& place, double beside)
+    const GlobeColours* globes, const Observer& observer, const glm::dvec3& place, double beside)
     : world_(world)
     , scene_(scene)
     , pictures_(pictures)
     , colours_(colours)
     , observer_(observer)
     , place_(place)
+    , globe_colours_(globes)
 {
     if (scene.stars)
         equatorial_from_world_ = glm::transpose(world_from_equatorial(scene.stars->ahead_deg));
@@ -24,6 +25,14 @@ TracingEye::TracingEye(const World& world, const SceneFile& scene, const Picture
         const double reach = beside * physics::gamma_of(rest_frame.shot.u);
         views_.push_back(
             {&rest_frame, Tracer(world, pictures, eye_event, reach), Lighting(world, scene, pictures, colours, eye_event)});
+    }
+    if (globes) {
+        const RestFrameView& rest_frame = observer_.rest_frames.front();
+        const EyeEvent eye_event = eye_event_of(rest_frame, 0, place);
+        const glm::dvec3& u = rest_frame.shot.u;
+        globes_ = std::make_unique<GlobeSight>(*world.globes, world_origin(world.globes->system, *scene.globes), *globes,
+            EyeAmongGlobes{eye_event.place, eye_event.time, world_from_equatorial(scene.stars->ahead_deg), scene.unit_m,
+                world.seconds_per_time_unit, rest_frame.now, u / physics::gamma_of(u)});
     }
 }
 
@@ -95,14 +104,36 @@ glm::dvec3 TracingEye::sky(const glm::dvec3& n) const
     return colour;
 }
 
-LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside) const
+/// The direction in the world, motion axes, for one of the cockpit.
+physics::AberratedRay TracingEye::world_ray(const glm::dvec3& way) const
+{
+    const glm::dvec3 n = glm::normalize(observer_.rest_frames.front().motion_from_cockpit * way);
+    physics::AberratedRay world = sight(n, observer_.E);
+    if (!observer_.shot.effects.aberration)
+        world.n = n;
+    return world;
+}
+
+GlobeSight::Ray TracingEye::among_globes(const physics::AberratedRay& world, const glm::dvec3& beside,
+    std::span<const double> parts, int only, double* stretch) const
+{
+    const RestFrameView& rest_frame = observer_.rest_frames.front();
+    glm::dvec3 stretched = world.n;
+    stretched.z /= rest_frame.contraction;
+    const double length = glm::length(stretched);
+    if (stretch)
+        *stretch = length;
+    glm::dvec3 from_m(0);
+    if (beside != glm::dvec3(0))
+        from_m = physics::eye_place(rest_frame.shot.u, rest_frame.shot.ship_from_cockpit * beside) * scene_.unit_m;
+    return globes_->ray(from_m, glm::transpose(rest_frame.motion_from_frame) * (stretched / length), parts, only);
+}
+
+LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside, std::span<const double> parts) const
 {
     const Effects& effects = observer_.shot.effects;
     const RestFrameView& rest_frame = observer_.rest_frames.front();
-    const glm::dvec3 n = glm::normalize(rest_frame.motion_from_cockpit * way);
-    physics::AberratedRay world = sight(n, observer_.E);
-    if (!effects.aberration)
-        world.n = n;
+    const physics::AberratedRay world = world_ray(way);
     LookedAt out;
     out.world = glm::transpose(rest_frame.motion_from_frame) * world.n;
     out.D = world.D;
@@ -112,24 +143,61 @@ LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside) const
         out.D = found.D;
         out.distance = found.way / (effects.aberration ? world.D : 1);
     }
+    GlobeSight::Ray globes;
+    bool before = false; // a globe stands before the nearest triangle
+    if (globes_) {
+        double stretch = 1;
+        globes = among_globes(world, beside, parts, -1, &stretch);
+        const double distance = globes.distance_m / scene_.unit_m;
+        before = !found.view || distance < found.met.distance;
+        if (before && std::isfinite(distance))
+            out.D = world.D, out.distance = distance / stretch;
+    }
     const double shift = effects.doppler ? out.D : 1;
-    if (found.view) {
+    if (before) {
+        out.light = globe_colours_->seen(globes.terms, shift);
+        out.sun = globe_colours_->seen(globes.sun, shift);
+        if (globes.through > 0)
+            out.light += globes.through
+                * (found.view ? found.view->lighting.seen(found.met, effects.doppler ? found.D : 1)
+                              : colours_.sky(sky(out.world), shift));
+    } else if (found.view) {
         out.light = found.view->lighting.seen(found.met, shift);
     } else {
         out.light = colours_.sky(sky(out.world), shift);
     }
-    if (effects.headlight)
+    if (effects.headlight) {
         out.light *= out.D * out.D * out.D;
+        out.sun *= out.D * out.D * out.D;
+    }
     return out;
 }
 
-bool TracingEye::covered(const glm::dvec3& way, const glm::dvec3& beside) const
+double TracingEye::sky_part(const glm::dvec3& way, const glm::dvec3& beside, std::span<const double> parts) const
 {
-    const glm::dvec3 n = glm::normalize(observer_.rest_frames.front().motion_from_cockpit * way);
-    physics::AberratedRay world = sight(n, observer_.E);
-    if (!observer_.shot.effects.aberration)
-        world.n = n;
-    return nearest(way, beside, world).view;
+    const physics::AberratedRay world = world_ray(way);
+    if (nearest(way, beside, world).view)
+        return 0;
+    return globes_ ? among_globes(world, beside, parts, -1).through : 1;
+}
+
+glm::dvec3 TracingEye::globe_light(std::size_t body, const glm::dvec3& way, const glm::dvec3& beside) const
+{
+    const Effects& effects = observer_.shot.effects;
+    const physics::AberratedRay world = world_ray(way);
+    if (nearest(way, beside, world).view)
+        return glm::dvec3(0);
+    const GlobeSight::Ray ray = among_globes(world, beside, {}, int(body));
+    const glm::dvec3 light = globe_colours_->seen(ray.terms, effects.doppler ? world.D : 1);
+    return effects.headlight ? light * (world.D * world.D * world.D) : light;
+}
+
+glm::dvec3 TracingEye::towards(const glm::dvec3& from_eye) const
+{
+    const RestFrameView& rest_frame = observer_.rest_frames.front();
+    glm::dvec3 way = rest_frame.motion_from_frame * from_eye;
+    way.z *= rest_frame.contraction;
+    return from_world(glm::normalize(glm::transpose(rest_frame.motion_from_frame) * way)).n;
 }
 
 physics::AberratedRay TracingEye::from_world(const glm::dvec3& towards) const

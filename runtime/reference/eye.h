@@ -1,4 +1,5 @@
 #pragma once
+#include "globes.h"
 #include "lighting.h"
 #include "runtime/world/observer.h"
 #include "shaders/physics/physics.h"
@@ -11,21 +12,31 @@ struct LookedAt {
     glm::dvec3 world; ///< unit direction in the world
     double D; ///< Doppler factor of the source
     double distance; ///< in the world, the light's travel distance there; infinite for the sky
+    glm::dvec3 sun{0}; ///< the part of `light` that is the disc of a globe that is the Sun
 };
 
 /// An observer's eye before all rest frames of a world, in double.
 class TracingEye {
 public:
     /// place: from the ship's event, in the observer's axes (the cockpit's), scene units; look() may use eyes up to
-    /// `beside` from it. All arguments must outlive the object.
+    /// `beside` from it. globes: null in a world without globes. All arguments must outlive the object.
     TracingEye(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
-        const Observer& observer, const glm::dvec3& place, double beside);
+        const GlobeColours* globes, const Observer& observer, const glm::dvec3& place, double beside);
 
-    /// Looks along a unit direction of the cockpit. beside: the eye's place from the constructor's.
-    LookedAt look(const glm::dvec3& way, const glm::dvec3& beside = glm::dvec3(0)) const;
+    /// Looks along a unit direction of the cockpit. beside: the eye's place from the constructor's. parts: for each globe
+    /// the part of it that is drawn as a disc; empty: all.
+    LookedAt look(const glm::dvec3& way, const glm::dvec3& beside = glm::dvec3(0), std::span<const double> parts = {}) const;
 
-    /// True if something stands before the sky.
-    bool covered(const glm::dvec3& way, const glm::dvec3& beside = glm::dvec3(0)) const;
+    /// The part of the sky's light that arrives there: 0 where something stands before the sky.
+    double sky_part(
+        const glm::dvec3& way, const glm::dvec3& beside = glm::dvec3(0), std::span<const double> parts = {}) const;
+
+    /// The globes before the eye, or null.
+    const GlobeSight* globes() const { return globes_.get(); }
+    /// The light of one of their bodies in a direction of the cockpit, dimmed by those before it.
+    glm::dvec3 globe_light(std::size_t body, const glm::dvec3& way, const glm::dvec3& beside) const;
+    /// The cockpit's direction towards a place of the world, from the eye; with Shot's comparison "now" it is contracted.
+    glm::dvec3 towards(const glm::dvec3& from_eye) const;
 
     /// The cockpit's direction towards a unit direction of the world, and D.
     physics::AberratedRay from_world(const glm::dvec3& towards) const;
@@ -52,6 +63,11 @@ private:
 
     glm::dvec3 sky(const glm::dvec3& n) const;
 
+    /// The ray of a direction among the globes. stretch: its length in the ship's contracted space over the world's.
+    GlobeSight::Ray among_globes(const physics::AberratedRay& world, const glm::dvec3& beside, std::span<const double> parts,
+        int only, double* stretch = nullptr) const;
+    physics::AberratedRay world_ray(const glm::dvec3& way) const;
+
     const World& world_;
     const SceneFile& scene_;
     const Pictures& pictures_;
@@ -59,6 +75,8 @@ private:
     glm::dmat3 equatorial_from_world_{1};
     Observer observer_;
     glm::dvec3 place_;
+    const GlobeColours* globe_colours_;
+    std::unique_ptr<const GlobeSight> globes_;
     std::vector<EyeInRestFrame> views_;
 };
 

@@ -3,6 +3,7 @@
 #include "config/model/angles.h"
 #include "displays/finish/anaglyph.h"
 #include "displays/finish/blend.h"
+#include "globe_view.h"
 #include "kept_rows.h"
 #include "overlap.h"
 #include "runtime/light/colour.h"
@@ -39,7 +40,7 @@ struct ViewAt {
     std::size_t eye;
     glm::dvec3 turning{0}; ///< not 0: the eye's offset from the head's middle where its baseline turns, cockpit, scene
                            ///< units
-    std::size_t stars = 0;
+    std::size_t stars = 0, globes = 0;
     ViewShade shade; ///< read only where viewports overlap
 };
 
@@ -59,6 +60,9 @@ public:
         , samples_(sample_places(samples))
         , pictures_(input.world)
         , colours_(input.world, input.scene, shot.effects.false_colours ? false_colours() : eye())
+        , globe_colours_(input.world.globes && input.scene.globes
+                  ? std::make_unique<GlobeColours>(*input.world.globes, shot.effects.false_colours ? false_colours() : eye())
+                  : nullptr)
         , exposure_(std::exp2(shot.exposure_ev))
     {
         const double scale = layout.stereo.hyper_stereo / input.scene.unit_m;
@@ -78,19 +82,29 @@ public:
             if (same == places.end())
                 places.push_back(at);
             const std::size_t own_ramp = views_.size();
-            views_.push_back({&compiled, ViewRays(compiled, samples_), index, turns ? beside * scale : glm::dvec3(0), 0,
+            views_.push_back({&compiled, ViewRays(compiled, samples_), index, turns ? beside * scale : glm::dvec3(0), 0, 0,
                 ViewShade(layout, compiled, ramps.empty() ? std::span<const float>() : ramps[own_ramp])});
         }
         eyes_.reserve(places.size());
         for (const EyeAt& at : places)
-            eyes_.emplace_back(input.world, input.scene, pictures_, colours_,
+            eyes_.emplace_back(input.world, input.scene, pictures_, colours_, globe_colours_.get(),
                 starbow::observer_of(input.world, shot, at.observer), at.place, at.beside);
-        if (input.scene.stars && !input.stars.empty())
+        if (globe_colours_)
+            for (ViewAt& view : views_) {
+                view.globes = globes_.size();
+                globes_.emplace_back(
+                    eyes_[view.eye], view.rays, view.compiled->view.size,
+                    [&](const glm::dvec3& way) { return beside(view, way); }, exposure_);
+            }
+        else
+            globes_.emplace_back();
+        if (input.scene.stars && (!input.stars.empty() || globe_colours_))
             for (ViewAt& view : views_) {
                 view.stars = stars_.size();
                 stars_.emplace_back(
                     input.stars, *input.scene.stars, input.scene.unit_m, eyes_[view.eye], colours_,
-                    [&](const glm::dvec3& way) { return beside(view, way); }, exposure_);
+                    [&](const glm::dvec3& way) { return beside(view, way); }, exposure_, globes_[view.globes].parts(),
+                    globes_[view.globes].spots());
             }
     }
 
@@ -112,8 +126,9 @@ public:
             const ViewRays::Row ways = view.rays.row(inside);
             for (int x = 0; x < own.size.x; ++x) {
                 const std::size_t at = std::size_t(own.corner.x + x);
-                const glm::dvec3 glare = glare_at(view, ways, {x, inside}) * exposure_;
-                light[std::size_t(own.canvas)][at] = pixel(view, ways, {x, inside}) * exposure_ + glare;
+                const Pixel shown = pixel(view, ways, {x, inside});
+                const glm::dvec3 glare = glare_at(view, ways, {x, inside}, shown.sun) * exposure_;
+                light[std::size_t(own.canvas)][at] = shown.light * exposure_ + glare;
                 if (own.canvas == 0 && numbers) {
                     numbers[at] = numbers_at(view, ways, x);
                     numbers[at].glare = glare;
@@ -156,8 +171,9 @@ private:
                 const Coat coat = coat_of(*each.view, each.ways, at);
                 if (coat.order == nothing_shown)
                     continue;
-                const glm::dvec3 glare = glare_at(*each.view, each.ways, at) * exposure_;
-                lights.push_back({&each, pixel(*each.view, each.ways, at) * exposure_ + glare, glare});
+                const Pixel shown = pixel(*each.view, each.ways, at);
+                const glm::dvec3 glare = glare_at(*each.view, each.ways, at, shown.sun) * exposure_;
+                lights.push_back({&each, shown.light * exposure_ + glare, glare});
                 coats.push_back(coat);
                 coats.back().screen = tone::tone_map(glm::clamp(lights.back().light, glm::dvec3(0), glm::dvec3(1e30)));
             }
@@ -201,34 +217,41 @@ private:
         return right * (far / std::max(glm::length(right), std::sin(layout_.stereo.full_from_zenith_deg * degree)));
     }
 
-    glm::dvec3 pixel(const ViewAt& view, const ViewRays::Row& ways, const glm::ivec2& at) const
+    /// A pixel's light without glare, and the part that is the Sun's disc.
+    struct Pixel {
+        glm::dvec3 light{0}, sun{0};
+    };
+    Pixel pixel(const ViewAt& view, const ViewRays::Row& ways, const glm::ivec2& at) const
     {
         const int channels = view.rays.channels();
         const TracingEye& eye = eyes_[view.eye];
-        glm::dvec3 out(0);
+        Pixel out;
         for (int channel = 0; channel < channels; ++channel) {
             if (!ways.centre(at.x, channel))
                 continue; // nothing is shown there
-            glm::dvec3 sum(0);
+            glm::dvec3 sum(0), sun(0);
             int count = 0;
             for (std::size_t i = 0; i < samples_.size(); ++i)
                 if (const auto way = ways.sample(at.x, i, channel)) {
-                    sum += eye.look(*way, beside(view, *way)).light;
+                    const LookedAt seen = eye.look(*way, beside(view, *way), globes_[view.globes].parts());
+                    sum += seen.light, sun += seen.sun;
                     ++count;
                 }
             glm::dvec3 light = count > 0 ? sum / double(count) : glm::dvec3(0);
+            if (count > 0)
+                sun /= double(count);
             if (!stars_.empty())
                 light += stars_[view.stars].light(view.rays, at, channel);
             if (channels == 3)
-                out[channel] = light[channel];
+                out.light[channel] = light[channel], out.sun[channel] = sun[channel];
             else
-                out = light;
+                out = {light, sun};
         }
         return out;
     }
 
-    /// The change by glare of a pixel's light.
-    glm::dvec3 glare_at(const ViewAt& view, const ViewRays::Row& ways, const glm::ivec2& at) const
+    /// The change by glare of a pixel's light. sun: as in Pixel.
+    glm::dvec3 glare_at(const ViewAt& view, const ViewRays::Row& ways, const glm::ivec2& at, const glm::dvec3& sun) const
     {
         glm::dvec3 out(0);
         if (stars_.empty())
@@ -236,7 +259,8 @@ private:
         const int channels = view.rays.channels();
         for (int channel = 0; channel < channels; ++channel)
             if (ways.centre(at.x, channel)) {
-                const glm::dvec3 glare = stars_[view.stars].glare(view.rays, at, channel);
+                const glm::dvec3 glare = stars_[view.stars].glare(view.rays, at, channel)
+                    + globes_[view.globes].glare(view.rays, at, channel, sun);
                 if (channels == 3)
                     out[channel] = glare[channel];
                 else
@@ -251,7 +275,7 @@ private:
         if (!way)
             return {};
         const TracingEye& eye = eyes_[view.eye];
-        const LookedAt seen = eye.look(*way, beside(view, *way));
+        const LookedAt seen = eye.look(*way, beside(view, *way), globes_[view.globes].parts());
         const RestFrameView& rest_frame = eye.observer_of().rest_frames.front();
         const glm::dvec3 camera = glm::transpose(rest_frame.motion_from_frame) * (rest_frame.motion_from_cockpit * *way);
         const glm::dvec3& u = eye.observer_of().shot.u;
@@ -266,10 +290,12 @@ private:
     std::vector<glm::dvec2> samples_;
     Pictures pictures_;
     Colours colours_;
+    std::unique_ptr<const GlobeColours> globe_colours_;
     double exposure_;
     std::vector<ViewAt> views_;
     std::vector<TracingEye> eyes_;
     std::vector<StarSpots> stars_;
+    std::vector<GlobeView> globes_;
 };
 
 std::string describe(const Shot& shot)
@@ -329,6 +355,12 @@ std::uint64_t sum_of(const ReferenceInput& input, const Layout& layout)
     sum.add(world.indices.data(), world.indices.size() * sizeof(std::uint32_t));
     for (const Texture& texture : world.textures)
         sum.add(texture.rgba.data(), texture.rgba.size());
+    if (world.globes) {
+        sum.add(input.scene.globes->file);
+        for (const Texture& map : world.globes->maps)
+            sum.add(map.rgba.data(), map.rgba.size());
+        sum.add(world.globes->sky.rgba.data(), world.globes->sky.rgba.size());
+    }
     for (const Star& star : input.stars) {
         const double values[] = {star.direction.x, star.direction.y, star.direction.z, star.magnitude, star.temperature_K};
         sum.add(values, sizeof values);

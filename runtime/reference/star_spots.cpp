@@ -1,6 +1,7 @@
 #include "star_spots.h"
 #include "config/model/angles.h"
 #include "displays/compile/rows.h"
+#include "point_glare.h"
 #include <algorithm>
 #include <cmath>
 
@@ -9,41 +10,7 @@ namespace {
 
 constexpr double radius = 2; // of a spot, pixels
 
-constexpr double glare_shown = 5e-4; // of white
-constexpr double nearest_glare_deg = 0.1, farthest_glare_deg = 3, farthest_glare_pixels = 96;
-
-/// CIE 146:2002's equation of disability glare at small angles for 35 years: veiling luminance over illuminance, 1/sr. It is
-/// flat within `nearest` degrees.
-double glare_per_sr(double angle_deg, double nearest)
-{
-    const double softened = std::hypot(angle_deg, nearest), age = 1 + std::pow(35 / 62.5, 4);
-    return 10 / std::pow(softened, 3) + 5 * age / std::pow(softened, 2);
-}
-
-/// The part of a point's light in its glare above the glare's level at its end, degrees: a sum over rings.
-double light_of_glare(double end, double nearest)
-{
-    const double level = glare_per_sr(end, nearest);
-    double part = 0;
-    constexpr int rings = 400;
-    for (int ring = 0; ring < rings; ++ring) {
-        const auto edge = [&](double at) { return end * std::pow(at / rings, 3); };
-        const double inner = edge(ring), outer = edge(ring + 1), middle = 0.5 * (inner + outer);
-        part += (glare_per_sr(middle, nearest) - level) * pi * (outer * outer - inner * inner) * degree * degree;
-    }
-    return part;
-}
-
-/// The angle, degrees, at which the glare of so much light (white times steradians) is the dimmest that shows; by bisection.
-double glare_radius(double light)
-{
-    double low = 1e-3, high = 1e3;
-    for (int i = 0; i < 60; ++i) {
-        const double middle = std::sqrt(low * high);
-        (light * glare_per_sr(middle, 0) > glare_shown ? low : high) = middle;
-    }
-    return std::min(low, farthest_glare_deg);
-}
+constexpr double farthest_glare_deg = 3, farthest_glare_pixels = 96;
 
 /// The part of a spot's light that falls on a pixel so far from its middle.
 double profile(double square)
@@ -55,7 +22,8 @@ double profile(double square)
 } // namespace
 
 StarSpots::StarSpots(const std::vector<Star>& stars, const StarSky& sky, double unit_m, const TracingEye& eye,
-    const Colours& colours, const std::function<glm::dvec3(const glm::dvec3& way)>& beside, double exposure)
+    const Colours& colours, const std::function<glm::dvec3(const glm::dvec3& way)>& beside, double exposure,
+    std::span<const double> parts, std::span<const GlobeSpot> globes)
 {
     const glm::dmat3 world_from_sky = world_from_equatorial(sky.ahead_deg);
     const double magnitude_0 = sky.brightness_arcmin2 * std::pow(pi / 180 / 60, 2);
@@ -69,20 +37,24 @@ StarSpots::StarSpots(const std::vector<Star>& stars, const StarSky& sky, double 
             const glm::dvec3 way = world_from_sky * star.direction * star.distance_m - eye_m;
             const double nearer = star.distance_m / std::max(glm::length(way), astronomical_unit_m);
             const physics::AberratedRay seen = eye.from_world(glm::normalize(way));
-            if (eye.covered(seen.n, beside(seen.n)))
+            const double shown = eye.sky_part(seen.n, beside(seen.n), parts);
+            if (shown == 0)
                 continue;
             glm::dvec3 light = colours.star(star.temperature_K, effects.doppler ? seen.D : 1)
-                * (magnitude_0 * std::pow(10, -0.4 * star.magnitude) * nearer * nearer);
+                * (magnitude_0 * std::pow(10, -0.4 * star.magnitude) * nearer * nearer * shown);
             if (effects.headlight)
                 light *= seen.D * seen.D * seen.D;
             light *= eye.solid_angle(seen); // a star is a surface too small to have a visible extent
-            all[std::size_t(i)] = {seen.n, light, glare_radius(std::max({light.r, light.g, light.b}) * exposure)};
+            all[std::size_t(i)] = {seen.n, light, glare_radius(light, exposure, farthest_glare_deg)};
         }
     });
+    for (const GlobeSpot& globe : globes)
+        all.push_back({globe.way, globe.light, globe.glared ? 0 : glare_radius(globe.light, exposure, farthest_glare_deg),
+            globe.glared.value_or(0)});
     std::copy_if(all.begin(), all.end(), std::back_inserter(spots_), [](const Spot& s) { return s.light != glm::dvec3(0); });
     sort(0, spots_.size(), 0);
     for (std::size_t i = 0; i < spots_.size(); ++i)
-        if (spots_[i].glare_deg > nearest_glare_deg)
+        if (spots_[i].glare_deg > nearest_glare_deg || spots_[i].glared > 0)
             glaring_.push_back({i, std::cos(1.5 * spots_[i].glare_deg * degree)});
 }
 
@@ -185,15 +157,19 @@ glm::dvec3 StarSpots::glare(const ViewRays& rays, const glm::ivec2& pixel, int c
 {
     if (glaring_.empty())
         return glm::dvec3(0);
-    const auto candidates = [&](const glm::dvec3& way, double) {
+    const auto candidates = [&](const glm::dvec3& way, double step) {
         std::vector<std::size_t> found;
         for (const auto& [spot, least_cosine] : glaring_)
-            if (glm::dot(way, spots_[spot].way) > least_cosine)
+            if (glm::dot(way, spots_[spot].way) > least_cosine || glm::length(way - spots_[spot].way) < 3 * radius * step)
                 found.push_back(spot);
         return found;
     };
     glm::dvec3 all(0);
     for (const Seen& seen : seen_near(rays, pixel, channel, farthest_glare_pixels, candidates)) {
+        if (seen.spot->glared > 0) {
+            all -= seen.spot->light * (seen.spot->glared * profile(seen.off_square) / seen.solid_angle_sr);
+            continue;
+        }
         const double pixel_deg = std::sqrt(seen.solid_angle_sr) / degree, nearest = std::max(nearest_glare_deg, pixel_deg);
         const double end = std::min(seen.spot->glare_deg, farthest_glare_pixels * pixel_deg);
         if (end <= std::max(radius * pixel_deg, nearest))

@@ -5,13 +5,21 @@
 
 namespace starbow {
 
+/// A globe that is shown as a star's spot.
+struct GlobeSpot {
+    glm::dvec3 way; ///< unit, cockpit
+    glm::dvec3 light; ///< times a solid angle, as the ship sees it
+    std::optional<double> glared; ///< the part of the light that the Sun's own glare holds; unset: it has a star's glare
+};
+
 /// The visible stars' spots as one eye sees them.
 class StarSpots {
 public:
     /// beside: the eye's place for a direction, as in TracingEye::look.
-    /// exposure: the shown picture's, on which it depends how far glare is seen.
+    /// exposure: the shown picture's, on which it depends how far glare is seen. parts: as in TracingEye::look.
     StarSpots(const std::vector<Star>& stars, const StarSky& sky, double unit_m, const TracingEye& eye,
-        const Colours& colours, const std::function<glm::dvec3(const glm::dvec3& way)>& beside, double exposure);
+        const Colours& colours, const std::function<glm::dvec3(const glm::dvec3& way)>& beside, double exposure,
+        std::span<const double> parts = {}, std::span<const GlobeSpot> globes = {});
 
     /// The light of stars in a pixel: the parts there of the spots that reach it.
     glm::dvec3 light(const ViewRays& rays, const glm::ivec2& pixel, int channel) const;
@@ -24,6 +32,7 @@ private:
         glm::dvec3 way; ///< unit, cockpit
         glm::dvec3 light; ///< divided by a solid angle, as a radiance
         double glare_deg = 0; ///< radius within which its glare is seen, if pixels are small
+        double glared = 0; ///< the part of its light that a glare elsewhere holds
     };
     /// A spot's place in the picture, as found from a pixel.
     struct Seen {
