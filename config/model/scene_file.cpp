@@ -101,9 +101,12 @@ double read_date(const Place& place)
     const std::string date = text(place);
     int year, month, day, hour, minute, end = 0;
     using namespace std::chrono;
-    if (std::sscanf(date.c_str(), "%4d-%2d-%2dT%2d:%2dZ%n", &year, &month, &day, &hour, &minute, &end) == 5 && date.size() == 17 && end == 17
-        && hour >= 0 && hour < 24 && minute >= 0 && minute < 60 && year >= 1800 && year < 2050)
-        if (const year_month_day at{std::chrono::year(year), std::chrono::month(unsigned(month)), std::chrono::day(unsigned(day))}; at.ok())
+    if (std::sscanf(date.c_str(), "%4d-%2d-%2dT%2d:%2dZ%n", &year, &month, &day, &hour, &minute, &end) == 5
+        && date.size() == 17 && end == 17 && hour >= 0 && hour < 24 && minute >= 0 && minute < 60 && year >= 1800
+        && year < 2050)
+        if (const year_month_day at{
+                std::chrono::year(year), std::chrono::month(unsigned(month)), std::chrono::day(unsigned(day))};
+            at.ok())
             return (sys_days(at) - sys_days(2000y / January / 1)).count() - 0.5 + (hour + minute / 60.0) / 24;
     complain(place, "is no date; one from 1800 to 2049 as \"2026-08-12T17:46Z\" (UTC) is right");
 }
@@ -143,8 +146,8 @@ SceneFile load_scene_file(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     reject_unknown_members(top,
-        {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "globes", "ambient", "lights", "bodies", "boundary", "flight", "goals",
-            "start"});
+        {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "globes", "ambient", "lights", "bodies", "boundary", "flight",
+            "goals", "start"});
     SceneFile scene;
     scene.name = file.stem().string();
     scene.file = document.file;

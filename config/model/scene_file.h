@@ -57,9 +57,10 @@ struct StarSky {
         = 200; ///< a star of magnitude 0 gives as much light as so many square arc minutes of the scene's white
     glm::dvec2 ahead_deg{0}; ///< right ascension and declination (J2000) of straight ahead (-z), with north up
     std::optional<MilkyWay> milky_way{};
-    std::optional<glm::dvec2> sun_deg{}; ///< right ascension and declination of the Sun, one astronomical unit from the origin
-    /// So many of the brightest are drawn one by one, each at its place in depth. The others are painted onto the Milky Way's
-    /// panorama, as they are seen from the Sun.
+    std::optional<glm::dvec2>
+        sun_deg{}; ///< right ascension and declination of the Sun, one astronomical unit from the origin
+    /// So many of the brightest are drawn one by one, each at its place in depth. The others are painted onto the Milky
+    /// Way's panorama, as they are seen from the Sun.
     std::size_t in_depth = std::numeric_limits<std::size_t>::max();
 };
 

@@ -19,7 +19,8 @@ OrbitElements read_orbit(const Place& place)
 {
     reject_unknown_members(place, {"a_au", "e", "i_deg", "L_deg", "perihelion_longitude_deg", "node_longitude_deg"});
     OrbitElements orbit{read_element(place, "a_au"), read_element(place, "e"), read_element(place, "i_deg"),
-        read_element(place, "L_deg"), read_element(place, "perihelion_longitude_deg"), read_element(place, "node_longitude_deg")};
+        read_element(place, "L_deg"), read_element(place, "perihelion_longitude_deg"),
+        read_element(place, "node_longitude_deg")};
     if (!(orbit.semi_major_au.at_j2000 > 0))
         complain(member(place, "a_au"), "is no orbit's; a first number above 0 is right");
     if (!(orbit.eccentricity.at_j2000 >= 0 && orbit.eccentricity.at_j2000 < 0.9))
@@ -33,8 +34,10 @@ OrbitElements::Correction read_correction(const Place& place)
     for (const Place& at : items(member(place, "polynomial"), 0, 9, "coefficients"))
         correction.polynomial.push_back(number(at, any));
     for (const Place& at : items(member(place, "terms"), 0, 1000, "terms [a, b, sine, cosine]")) {
-        const std::vector<Place> row = items(at, 4, 4, "numbers (multiples of Jupiter's and Saturn's longitude, sine, cosine)");
-        correction.terms.push_back({{integer(row[0], -20, 20), integer(row[1], -20, 20)}, number(row[2], any), number(row[3], any)});
+        const std::vector<Place> row
+            = items(at, 4, 4, "numbers (multiples of Jupiter's and Saturn's longitude, sine, cosine)");
+        correction.terms.push_back(
+            {{integer(row[0], -20, 20), integer(row[1], -20, 20)}, number(row[2], any), number(row[3], any)});
     }
     return correction;
 }
@@ -44,8 +47,9 @@ std::vector<LunarTerm> read_terms(const Place& place)
     std::vector<LunarTerm> terms;
     for (const Place& row : items(place, 0, 1000, "terms")) {
         const std::vector<Place> at = items(row, 5, 5, "numbers (multiples of D, M, M' and F, amplitude)");
-        terms.push_back({{integer(at[0], -20, 20), integer(at[1], -20, 20), integer(at[2], -20, 20), integer(at[3], -20, 20)},
-            number(at[4], any)});
+        terms.push_back(
+            {{integer(at[0], -20, 20), integer(at[1], -20, 20), integer(at[2], -20, 20), integer(at[3], -20, 20)},
+                number(at[4], any)});
     }
     return terms;
 }
@@ -57,7 +61,8 @@ Rotation read_rotation(const Place& place, bool universal_time)
         return glm::dvec2(number(two[0], any), number(two[1], any));
     };
     const glm::dvec2 ascension = pair("pole_ra_deg"), declination = pair("pole_dec_deg"), meridian = pair("W_deg");
-    Rotation rotation{{ascension.x, declination.x}, {ascension.y, declination.y}, meridian.x, meridian.y, {}, universal_time};
+    Rotation rotation{
+        {ascension.x, declination.x}, {ascension.y, declination.y}, meridian.x, meridian.y, {}, universal_time};
     const auto terms = find_member(place, "terms");
     if (!terms)
         return rotation;
@@ -163,6 +168,11 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
     system.moon_longitude = read_terms(member(moon, "longitude_deg_sin"));
     system.moon_latitude = read_terms(member(moon, "latitude_deg_sin"));
     system.moon_distance = read_terms(member(moon, "distance_km_cos"));
+    const auto require_kind = [&](const Place& place, const char* name) {
+        if (std::none_of(system.kinds.begin(), system.kinds.end(), [&](const NamedTable& one) { return one.name == name; }))
+            complain(place,
+                std::string("needs the kind \"") + name + "\", and the file of \"spectra\" has none; one with it is right");
+    };
     std::set<std::string> names;
     for (const Place& at : items(member(top, "globes"), 1, 16, "globes")) {
         reject_unknown_members(at, {"body", "scattering", "map", "map_scale", "kinds", "dimming", "air", "ring"});
@@ -195,12 +205,14 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
         take(at, "map_scale", globe.map_scale, {0, 100, true});
         const auto known = [&](const Place& kind) {
             const std::string own = text(kind);
-            if (std::none_of(system.kinds.begin(), system.kinds.end(), [&](const NamedTable& one) { return one.name == own; }))
+            if (std::none_of(
+                    system.kinds.begin(), system.kinds.end(), [&](const NamedTable& one) { return one.name == own; }))
                 complain(kind, "is no kind of the file of \"spectra\"; one of its \"kinds\" is right");
             return own;
         };
         if (globe.scattering != Scattering::sun) {
-            const std::vector<Place> kinds = items(member(at, "kinds"), 4, 4, "kinds (of red, green, blue and the rest; null: none)");
+            const std::vector<Place> kinds
+                = items(member(at, "kinds"), 4, 4, "kinds (of red, green, blue and the rest; null: none)");
             for (std::size_t k = 0; k < 4; ++k)
                 if (!kinds[k].json->is_null())
                     globe.kinds[k] = known(kinds[k]);
@@ -212,13 +224,17 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
         if (auto p = find_member(at, "air")) {
             reject_unknown_members(*p, {"scale_height_km", "clouds", "water", "lamps", "brightest_lamps"});
             globe.air = {number(member(*p, "scale_height_km"), {0.1, 1000}) * 1000, folder / text(member(*p, "clouds")),
-                folder / text(member(*p, "water")), folder / text(member(*p, "lamps")), number(member(*p, "brightest_lamps"), {0, 1})};
-            if (std::any_of(system.globes.begin(), system.globes.end(), [](const Globe& other) { return other.air.has_value(); }))
+                folder / text(member(*p, "water")), folder / text(member(*p, "lamps")),
+                number(member(*p, "brightest_lamps"), {0, 1})};
+            if (std::any_of(
+                    system.globes.begin(), system.globes.end(), [](const Globe& other) { return other.air.has_value(); }))
                 complain(*p, "is a second globe's; one globe with air is right");
+            require_kind(*p, "cloud");
             if (globe.map.empty())
                 complain(*p, "needs a \"map\" of the ground below it");
         }
         if (auto p = find_member(at, "ring")) {
+            require_kind(*p, "rings");
             const Document ring = read_document(folder / text(*p));
             globe.ring = read_ring(root(ring));
         }

@@ -19,8 +19,8 @@ struct OrbitElements {
     };
     Element semi_major_au, eccentricity, inclination_deg, mean_longitude_deg, perihelion_deg, node_deg;
 
-    /// The pull of Jupiter and Saturn on each other: a polynomial in Julian centuries, held beyond the centuries of its fit, and
-    /// periodic terms of the angle a L5 + b L6 of both mean longitudes.
+    /// The pull of Jupiter and Saturn on each other: a polynomial in Julian centuries, held beyond the centuries of its fit,
+    /// and periodic terms of the angle a L5 + b L6 of both mean longitudes.
     struct Correction {
         struct Term {
             glm::ivec2 multiples;
@@ -52,8 +52,8 @@ struct Rotation {
 
 enum class Scattering { cloudy, dusty, sun };
 
-/// A ring of thin matter around a globe's equator. profile: at evenly spaced radii its optical depth along its normal, and four
-/// times the product of its particles' albedo and phase function that a thick layer's reflectivity tells.
+/// A ring of thin matter around a globe's equator. profile: at evenly spaced radii its optical depth along its normal, and
+/// four times the product of its particles' albedo and phase function that a thick layer's reflectivity tells.
 struct PlanetRing {
     double inner_m, outer_m;
     std::vector<glm::dvec2> profile;
@@ -75,7 +75,8 @@ struct Globe {
     bool moon = false; ///< the Earth's
     Rotation rotation;
     Scattering scattering = Scattering::cloudy;
-    double dimming_per_deg = 0, dimming_per_deg4 = 0; ///< of a dusty one, in magnitudes by its phase angle's first and fourth power
+    double dimming_per_deg = 0,
+           dimming_per_deg4 = 0; ///< of a dusty one, in magnitudes by its phase angle's first and fourth power
     std::filesystem::path map; ///< parts of the first three kinds, over `map_scale`; empty: the fourth alone
     double map_scale = 1;
     std::array<std::string, 4> kinds; ///< names in SolarSystem::kinds; empty: none

@@ -63,7 +63,8 @@ std::optional<Levels> levels(std::span<const LuminanceSample> view, bool in_spac
 
 } // namespace
 
-std::optional<double> metered_ev(std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars, bool in_space)
+std::optional<double> metered_ev(
+    std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars, bool in_space)
 {
     const double grey = std::log2(metered_to_luminance);
     const std::optional<Levels> surfaces = levels(view, in_space), points = levels(stars);

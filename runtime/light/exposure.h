@@ -31,8 +31,8 @@ constexpr double few_stars = 16;
 /// over many stars stays steady when a few bright ones enter or leave the view. Where stars are few, `few_stars` more are
 /// added with the surfaces' exposure.
 ///
-/// in_space: a lit globe before the black sky. The bright end is then at bright_in_space, and parts that are darker than it by
-/// more than dark_in_space do not count: an eye that looks at the Earth adapts to the Earth.
+/// in_space: a lit globe before the black sky. The bright end is then at bright_in_space, and parts that are darker than it
+/// by more than dark_in_space do not count: an eye that looks at the Earth adapts to the Earth.
 std::optional<double> metered_ev(
     std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars = {}, bool in_space = false);
 constexpr double bright_in_space = 0.995, dark_in_space = 10; ///< a part of the view; EV

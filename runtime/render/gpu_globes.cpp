@@ -52,8 +52,8 @@ Image make_maps(Device& device, const std::vector<const Texture*>& maps)
         glm::uvec2 size(first.size);
         for (const std::vector<std::uint8_t>& level : levels_of(maps.empty() ? blank : *maps[layer])) {
             copies.emplace_back(all.size(), 0, 0,
-                vk::ImageSubresourceLayers(vk::ImageAspectFlagBits::eColor, std::uint32_t(copies.size()), layer, 1), vk::Offset3D(),
-                vk::Extent3D(size.x, size.y, 1));
+                vk::ImageSubresourceLayers(vk::ImageAspectFlagBits::eColor, std::uint32_t(copies.size()), layer, 1),
+                vk::Offset3D(), vk::Extent3D(size.x, size.y, 1));
             all.insert(all.end(), level.begin(), level.end());
             size = glm::max(size / 2u, 1u);
         }
@@ -61,8 +61,8 @@ Image make_maps(Device& device, const std::vector<const Texture*>& maps)
         std::memcpy(staging.mapped, all.data(), all.size());
         device.now([&](vk::CommandBuffer commands) {
             if (layer == 0)
-                transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {}, vk::ImageLayout::eTransferDstOptimal,
-                    Stage::eTransfer, Access::eTransferWrite);
+                transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {},
+                    vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite);
             commands.copyBufferToImage(*staging.buffer, *image.image, vk::ImageLayout::eTransferDstOptimal, copies);
             if (layer + 1 == image.layers)
                 transition(commands, image, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
@@ -104,8 +104,8 @@ GpuGlobes::GpuGlobes(Device& device, std::shared_ptr<const Globes> globes, const
     for (auto [observer, image, kept] :
         {std::tuple(&eye(), &light, &light_texels_), std::tuple(&false_colours(), &false_light, &false_texels_)}) {
         const std::vector<glm::vec4>& texels = *kept = globe_light(rows_, *observer);
-        *image = make_texture(device, exact_format, {GLOBE_COLUMNS, int(rows_.spectra.size())},
-            std::as_bytes(std::span(texels)), false);
+        *image = make_texture(
+            device, exact_format, {GLOBE_COLUMNS, int(rows_.spectra.size())}, std::as_bytes(std::span(texels)), false);
         name_object(device, *image, "globes: light");
     }
     upload_maps(device);
@@ -144,9 +144,11 @@ void GpuGlobes::upload_maps(Device& device)
 
 GpuGlobes::Seen GpuGlobes::seen(const EyeEvent& eye) const
 {
-    const glm::dmat3 shorter(1, 0, 0, 0, 1, 0, 0, 0, eye.now ? eye.contraction : 1), back = glm::transpose(eye.cube_from_frame);
-    return {globes_seen(globes_->system, origin_,
-                {eye.place, eye.time, world_from_equatorial_, unit_m_, seconds_, eye.now, back * glm::dvec3(0, 0, eye.beta)}),
+    const glm::dmat3 shorter(1, 0, 0, 0, 1, 0, 0, 0, eye.now ? eye.contraction : 1),
+        back = glm::transpose(eye.cube_from_frame);
+    return {
+        globes_seen(globes_->system, origin_,
+            {eye.place, eye.time, world_from_equatorial_, unit_m_, seconds_, eye.now, back * glm::dvec3(0, 0, eye.beta)}),
         shorter * eye.cube_from_frame, back * shorter * eye.cube_from_frame};
 }
 
@@ -188,12 +190,15 @@ shared::GlobeConstants GpuGlobes::constants(const Seen& all_seen, double pre_exp
         for (int c = 0; c < 3; ++c)
             own[c] *= scale;
         const glm::dvec3 eye = own * -from_eye;
-        entry.row0 = shared::row(own, 0, eye.x), entry.row1 = shared::row(own, 1, eye.y), entry.row2 = shared::row(own, 2, eye.z);
-        entry.shape = glm::vec4(globe.map_scale, polar, radius < distance ? std::asin(radius / distance) : pi / 2, float(int(globe.scattering)));
+        entry.row0 = shared::row(own, 0, eye.x), entry.row1 = shared::row(own, 1, eye.y),
+        entry.row2 = shared::row(own, 2, eye.z);
+        entry.shape = glm::vec4(
+            globe.map_scale, polar, radius < distance ? std::asin(radius / distance) : pi / 2, float(int(globe.scattering)));
         const glm::dvec3 sun = one.own_from_world * one.to_sun;
         const double far = one.sun_distance_au;
         entry.light = glm::vec4(sun, far > 0 ? phase_dimming(globe, one.phase_deg) / (far * far) : 0);
-        entry.kinds = glm::vec4(row_of(globe.kinds[0]), row_of(globe.kinds[1]), row_of(globe.kinds[2]), row_of(globe.kinds[3]));
+        entry.kinds
+            = glm::vec4(row_of(globe.kinds[0]), row_of(globe.kinds[1]), row_of(globe.kinds[2]), row_of(globe.kinds[3]));
         const Texture& map = globes_->maps[one.globe];
         entry.map = glm::vec4(layers_[one.globe], map.size.y, row_of("white"), rows_.means[one.globe]);
         if (globe.scattering == Scattering::sun)
@@ -208,11 +213,13 @@ shared::GlobeConstants GpuGlobes::constants(const Seen& all_seen, double pre_exp
         const double suns = far > 0 ? std::asin(std::min(1.0, globes.front().radius_m / (far * astronomical_unit_m))) : 0;
         entry.ring = glm::vec4(0, 0, 0, suns);
         if (globe.ring)
-            entry.ring = glm::vec4(globe.ring->inner_m / globe.radius_m, globe.ring->outer_m / globe.radius_m, row_of(globe.ring->kind), suns);
+            entry.ring = glm::vec4(
+                globe.ring->inner_m / globe.radius_m, globe.ring->outer_m / globe.radius_m, row_of(globe.ring->kind), suns);
         // The Moon and the Earth hide the Sun from each other.
         if (globe.moon || globe.name == "Earth")
             for (const SeenGlobe& other : seen)
-                if (other.globe != one.globe && (globe.moon ? globes[other.globe].name == "Earth" : globes[other.globe].moon))
+                if (other.globe != one.globe
+                    && (globe.moon ? globes[other.globe].name == "Earth" : globes[other.globe].moon))
                     entry.shade = glm::vec4(one.own_from_world * (other.from_eye - one.from_eye) / radius,
                         globes[other.globe].radius_m / globe.radius_m);
     }
@@ -229,7 +236,8 @@ void GpuGlobes::as_stars(const Seen& all_seen, std::span<shared::StarEntry> entr
             continue;
         const SeenGlobe& one = seen[i + seen.size() - count];
         const Globe& globe = globes_->system.globes[one.globe];
-        const double radius = globe.radius_m / unit_m_, part = std::min(radius / one.distance, 1.0), far = one.sun_distance_au;
+        const double radius = globe.radius_m / unit_m_, part = std::min(radius / one.distance, 1.0),
+                     far = one.sun_distance_au;
         const double lit = far > 0 ? phase_part(globe, one.phase_deg) / (far * far) : 1;
         entries[i].direction = glm::vec4(glm::normalize(all_seen.contraction * one.from_eye), -1 - float(i));
         entries[i].light = glm::vec4(lit * pi * part * part * (1 - globe.flattening), std::asin(part), 0, 0);
@@ -246,7 +254,8 @@ double sun_left(const GpuGlobes::Seen& all, const std::vector<Globe>& globes, do
     if (sun == all.globes.end())
         return 0;
     const glm::dvec3 way = sun->from_eye / sun->distance;
-    const glm::dvec3 side = glm::normalize(glm::cross(way, std::abs(way.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    const glm::dvec3 side
+        = glm::normalize(glm::cross(way, std::abs(way.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
     const glm::dvec3 up = glm::cross(side, way);
     const double radius = globes[sun->globe].radius_m / unit_m;
     constexpr int points = 61;
@@ -257,7 +266,8 @@ double sun_left(const GpuGlobes::Seen& all, const std::vector<Globe>& globes, do
         left += std::none_of(sun + 1, all.globes.end(), [&](const SeenGlobe& one) {
             const Globe& globe = globes[one.globe];
             const glm::dvec3 scale = unit_m / globe.radius_m * glm::dvec3(1, 1, 1 / (1 - globe.flattening));
-            const glm::dvec3 from = scale * (one.own_from_world * -one.from_eye), to = glm::normalize(scale * (one.own_from_world * n));
+            const glm::dvec3 from = scale * (one.own_from_world * -one.from_eye),
+                             to = glm::normalize(scale * (one.own_from_world * n));
             const double ahead = -glm::dot(from, to);
             const glm::dvec3 nearest = from + to * ahead;
             return ahead > 0 && glm::dot(nearest, nearest) < 1;
@@ -268,7 +278,8 @@ double sun_left(const GpuGlobes::Seen& all, const std::vector<Globe>& globes, do
 
 } // namespace
 
-void GpuGlobes::add_glare(shared::GlobeConstants& constants, const Seen& all, const glm::dmat3& motion_from_world, double E, const Effects& on) const
+void GpuGlobes::add_glare(shared::GlobeConstants& constants, const Seen& all, const glm::dmat3& motion_from_world, double E,
+    const Effects& on) const
 {
     const std::vector<Globe>& globes = globes_->system.globes;
     const double left = sun_left(all, globes, unit_m_);
@@ -289,12 +300,14 @@ void GpuGlobes::add_glare(shared::GlobeConstants& constants, const Seen& all, co
         }
     } else
         sight.D = galilean ? physics::galilean_world_from_camera(n, E, 1 / E).D : physics::world_from_camera(n, E, 1 / E).D;
-    const double at = std::clamp(((on.doppler ? std::log2(sight.D) : 0) - GLOBE_FIRST_LOG2_D) * GLOBE_PER_OCTAVE, 0.0, GLOBE_COLUMNS - 1.001);
+    const double at = std::clamp(
+        ((on.doppler ? std::log2(sight.D) : 0) - GLOBE_FIRST_LOG2_D) * GLOBE_PER_OCTAVE, 0.0, GLOBE_COLUMNS - 1.001);
     const std::vector<glm::vec4>& texels = on.false_colours ? false_texels_ : light_texels_;
     const std::size_t texel = std::size_t(rows_.means[sun.globe]) * GLOBE_COLUMNS + std::size_t(at);
     const glm::dvec4 mean = glm::mix(glm::dvec4(texels[texel]), glm::dvec4(texels[texel + 1]), at - std::floor(at));
     const double part = std::min(globes[sun.globe].radius_m / unit_m_ / sun.distance, 1.0);
-    const double factor = std::exp2(mean.w) * (on.headlight ? physics::headlight(sight.D) : 1) * pi * part * part / (growth * growth) * left;
+    const double factor
+        = std::exp2(mean.w) * (on.headlight ? physics::headlight(sight.D) : 1) * pi * part * part / (growth * growth) * left;
     constants.sun = glm::vec4(sight.n, std::asin(part) / growth / degree);
     constants.sunlight = glm::vec4(glm::dvec3(mean) * (factor * constants.first.x), 0);
 }

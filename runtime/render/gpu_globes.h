@@ -1,7 +1,7 @@
 #pragma once
 #include "resources.h"
-#include "runtime/world/globe_light.h"
 #include "runtime/world/eye_event.h"
+#include "runtime/world/globe_light.h"
 #include "runtime/world/globes.h"
 #include "shaders/shared_structs.h"
 
@@ -31,7 +31,8 @@ public:
     /// What the passes read of them.
     shared::GlobeConstants constants(const Seen& seen, double pre_exposure) const;
     /// Adds the Sun's glare for an observer. motion_from_world: turn; E: e^rapidity.
-    void add_glare(shared::GlobeConstants& constants, const Seen& seen, const glm::dmat3& motion_from_world, double E, const Effects& on) const;
+    void add_glare(shared::GlobeConstants& constants, const Seen& seen, const glm::dmat3& motion_from_world, double E,
+        const Effects& on) const;
     /// The globes as stars, in the same order: count() entries.
     void as_stars(const Seen& seen, std::span<shared::StarEntry> entries) const;
 

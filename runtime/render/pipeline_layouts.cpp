@@ -39,7 +39,8 @@ PipelineLayouts::PipelineLayouts(const Device& device)
     material_set = make_set_layout(device, "material descriptor set layout", fragment, {picture, picture});
     warp_set = make_set_layout(device, "warp descriptor set layout", both,
         {picture, picture, Type::eUniformTexelBuffer, Type::eUniformTexelBuffer, picture, picture, picture, picture, picture,
-            picture, constants, picture, constants, picture, picture, constants, picture, picture, picture, picture, constants});
+            picture, constants, picture, constants, picture, picture, constants, picture, picture, picture, picture,
+            constants});
     star_set = make_set_layout(device, "star descriptor set layout", vk::ShaderStageFlagBits::eVertex,
         {Type::eUniformBufferDynamic, Type::eStorageBuffer, constants});
     picture_set = make_set_layout(device, "picture descriptor set layout", fragment, {picture, picture});

@@ -6,8 +6,8 @@
 namespace starbow {
 namespace {
 
-/// The greatest angle, radians, between the ship's and an eye's direction of the nearest globe's ground: half a degree. An eye's
-/// muscles fuse two pictures that are a degree or two apart.
+/// The greatest angle, radians, between the ship's and an eye's direction of the nearest globe's ground: half a degree. An
+/// eye's muscles fuse two pictures that are a degree or two apart.
 constexpr double most_globe_parallax = 0.00873;
 
 } // namespace

@@ -9,7 +9,8 @@ namespace starbow {
 class ViewMeter {
 public:
     ViewMeter(Device& device, Pipelines& pipelines, const FrameState& state, const ViewSet& views, const EyeCubes& eyes,
-        const StarPass& stars, const ViewConstants& constants, const ViewPasses& passes, std::uint32_t star_count, bool in_space)
+        const StarPass& stars, const ViewConstants& constants, const ViewPasses& passes, std::uint32_t star_count,
+        bool in_space)
         : device_(device)
         , pipelines_(pipelines)
         , state_(state)

@@ -66,7 +66,8 @@ public:
     std::optional<glm::dvec3> direction(std::size_t output, const glm::dvec2& pixel) const;
     /// The index of the view that shows it there; of several the one with the largest part of the pixel.
     std::optional<std::size_t> view_at(std::size_t output, const glm::dvec2& pixel) const;
-    /// True if a flat view shows all directions of another flat one, in pixels at most half as wide. Both are in the cockpit.
+    /// True if a flat view shows all directions of another flat one, in pixels at most half as wide. Both are in the
+    /// cockpit.
     static bool shows_all_of(const ViewState& large, const ViewState& small);
     /// The finish pass of the view's output; null where there is none.
     const FinishPass* finish_of(const ViewState& view) const;

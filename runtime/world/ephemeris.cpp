@@ -27,7 +27,8 @@ glm::dvec3 place_on(const OrbitElements& orbit, double centuries)
     double E = mean + e * std::sin(mean); // Kepler's equation by Newton's method; the planets' e is at most 0.21
     for (int i = 0; i < 8; ++i)
         E -= (E - e * std::sin(E) - mean) / (1 - e * std::cos(E));
-    const double x = at(orbit.semi_major_au) * (std::cos(E) - e), y = at(orbit.semi_major_au) * std::sqrt(1 - e * e) * std::sin(E);
+    const double x = at(orbit.semi_major_au) * (std::cos(E) - e),
+                 y = at(orbit.semi_major_au) * std::sqrt(1 - e * e) * std::sin(E);
     const double w = perihelion * degree - node, inclination = at(orbit.inclination_deg) * degree;
     const double along = x * std::cos(w) - y * std::sin(w), across = x * std::sin(w) + y * std::cos(w);
     return equatorial_from_ecliptic({along * std::cos(node) - across * std::cos(inclination) * std::sin(node),
@@ -36,14 +37,21 @@ glm::dvec3 place_on(const OrbitElements& orbit, double centuries)
 }
 
 /// Turns of the axes around z and x.
-glm::dmat3 around_z(double a) { return glm::transpose(glm::dmat3(std::cos(a), std::sin(a), 0, -std::sin(a), std::cos(a), 0, 0, 0, 1)); }
-glm::dmat3 around_x(double a) { return glm::transpose(glm::dmat3(1, 0, 0, 0, std::cos(a), std::sin(a), 0, -std::sin(a), std::cos(a))); }
+glm::dmat3 around_z(double a)
+{
+    return glm::transpose(glm::dmat3(std::cos(a), std::sin(a), 0, -std::sin(a), std::cos(a), 0, 0, 0, 1));
+}
+glm::dmat3 around_x(double a)
+{
+    return glm::transpose(glm::dmat3(1, 0, 0, 0, std::cos(a), std::sin(a), 0, -std::sin(a), std::cos(a)));
+}
 
 /// The ecliptic axes of J2000 from those of a date: Lieske and others 1977, as in Meeus, formulas 21.6 and 21.7.
 glm::dmat3 j2000_from_date(double T)
 {
     const double second = degree / 3600;
-    const double eta = ((47.0029 - (0.03302 - 0.00006 * T) * T) * T) * second, p = ((5029.0966 + (1.11113 - 0.000006 * T) * T) * T) * second;
+    const double eta = ((47.0029 - (0.03302 - 0.00006 * T) * T) * T) * second,
+                 p = ((5029.0966 + (1.11113 - 0.000006 * T) * T) * T) * second;
     const double Pi = (174.876384 - (0.24161358 - 0.000009831 * T) * T) * degree;
     return glm::transpose(around_z(-(Pi + p)) * around_x(eta) * around_z(Pi));
 }
@@ -51,20 +59,24 @@ glm::dmat3 j2000_from_date(double T)
 /// The Moon's place from the Earth's middle, metres.
 glm::dvec3 moon_place(const SolarSystem& system, double T)
 {
-    const double longitude = 218.3164477 + 481267.88123421 * T - 0.0015786 * T * T, D = 297.8501921 + 445267.1114034 * T - 0.0018819 * T * T,
-                 M = 357.5291092 + 35999.0502909 * T - 0.0001536 * T * T, m = 134.9633964 + 477198.8675055 * T + 0.0087414 * T * T,
-                 F = 93.2720950 + 483202.0175233 * T - 0.0036539 * T * T;
+    const double longitude
+        = 218.3164477 + 481267.88123421 * T - 0.0015786 * T * T,
+        D = 297.8501921 + 445267.1114034 * T - 0.0018819 * T * T, M = 357.5291092 + 35999.0502909 * T - 0.0001536 * T * T,
+        m = 134.9633964 + 477198.8675055 * T + 0.0087414 * T * T, F = 93.2720950 + 483202.0175233 * T - 0.0036539 * T * T;
     const double flatter = 1 - 0.002516 * T - 0.0000074 * T * T; // of the Earth's orbit, in terms of the Sun's anomaly
     double l = longitude, b = 0, r = 385000.56;
     const auto sum = [&](const std::vector<LunarTerm>& terms, bool cosine, double& to) {
         for (const LunarTerm& term : terms) {
-            const double angle = (term.multiples.x * D + term.multiples.y * M + term.multiples.z * m + term.multiples.w * F) * degree;
-            to += term.amplitude * (cosine ? std::cos(angle) : std::sin(angle)) * std::pow(flatter, std::abs(term.multiples.y));
+            const double angle
+                = (term.multiples.x * D + term.multiples.y * M + term.multiples.z * m + term.multiples.w * F) * degree;
+            to += term.amplitude * (cosine ? std::cos(angle) : std::sin(angle))
+                * std::pow(flatter, std::abs(term.multiples.y));
         }
     };
     sum(system.moon_longitude, false, l), sum(system.moon_latitude, false, b), sum(system.moon_distance, true, r);
     l *= degree, b *= degree;
-    return equatorial_from_ecliptic(j2000_from_date(T) * glm::dvec3(std::cos(b) * std::cos(l), std::cos(b) * std::sin(l), std::sin(b)) * (r * 1000));
+    return equatorial_from_ecliptic(
+        j2000_from_date(T) * glm::dvec3(std::cos(b) * std::cos(l), std::cos(b) * std::sin(l), std::sin(b)) * (r * 1000));
 }
 
 constexpr double moons_part = 1 / 82.3005691; ///< of the mass of the Earth and the Moon (DE440)
@@ -88,14 +100,16 @@ glm::dvec3 corrected(const SolarSystem& system, const OrbitElements& orbit, cons
 {
     const glm::dvec3 pole = equatorial_from_ecliptic({0, 0, 1});
     const double turn = value_of(system, orbit.longitude_deg, centuries) * degree;
-    const glm::dvec3 turned = place * std::cos(turn) + glm::cross(pole, place) * std::sin(turn) + pole * (glm::dot(pole, place) * (1 - std::cos(turn)));
+    const glm::dvec3 turned = place * std::cos(turn) + glm::cross(pole, place) * std::sin(turn)
+        + pole * (glm::dot(pole, place) * (1 - std::cos(turn)));
     return turned * (1 + value_of(system, orbit.distance_part, centuries));
 }
 
 glm::dvec3 place_of(const SolarSystem& system, const Globe& globe, double days)
 {
     const double centuries = dynamical_centuries(days);
-    const auto earth = std::find_if(system.globes.begin(), system.globes.end(), [](const Globe& g) { return g.name == "Earth"; });
+    const auto earth
+        = std::find_if(system.globes.begin(), system.globes.end(), [](const Globe& g) { return g.name == "Earth"; });
     if (globe.moon)
         return place_on(earth->orbit.value(), centuries) + (1 - moons_part) * moon_place(system, centuries);
     if (!globe.orbit)
@@ -143,7 +157,8 @@ WorldOrigin world_origin(const SolarSystem& system, const GlobeSky& sky)
         names.push_back(globe.name);
     const Globe& globe = system.globes[index_named(sky.origin, names, "globe")];
     const double half_s = 60;
-    const glm::dvec3 change = place_of(system, globe, sky.days + half_s / 86400) - place_of(system, globe, sky.days - half_s / 86400);
+    const glm::dvec3 change
+        = place_of(system, globe, sky.days + half_s / 86400) - place_of(system, globe, sky.days - half_s / 86400);
     return {sky.days, place_of(system, globe, sky.days), change / (2 * half_s)};
 }
 
@@ -167,7 +182,8 @@ std::vector<SeenGlobe> globes_seen(const SolarSystem& system, const WorldOrigin&
         SeenGlobe seen{i, from_eye, glm::length(from_eye)};
         if (seen.distance * eye.unit_m <= globe.radius_m * (1 - globe.flattening))
             continue;
-        seen.own_from_world = globe_turn(globe, origin.days + time * eye.seconds / 86400) * glm::transpose(eye.world_from_equatorial);
+        seen.own_from_world
+            = globe_turn(globe, origin.days + time * eye.seconds / 86400) * glm::transpose(eye.world_from_equatorial);
         seen.to_sun = glm::dvec3(0);
         if (const double far_m = glm::length(from_sun_m); far_m > 0) {
             seen.to_sun = eye.world_from_equatorial * (-from_sun_m / far_m);

@@ -16,8 +16,8 @@ std::vector<glm::dvec3> globe_places_m(const SolarSystem& system, double days);
 /// The turn from the equatorial axes to a globe's own: z to its north pole, x to its prime meridian.
 glm::dmat3 globe_turn(const Globe& globe, double days);
 
-/// The motion of a world's origin, which is that of one globe at a date: metres from the Sun's middle, equatorial axes. All worlds
-/// move evenly.
+/// The motion of a world's origin, which is that of one globe at a date: metres from the Sun's middle, equatorial axes. All
+/// worlds move evenly.
 struct WorldOrigin {
     double days; ///< date
     glm::dvec3 place_m, velocity_m_s;

@@ -17,7 +17,8 @@ Spectrum through_air(Spectrum light, double mass)
 
 double air_mass(int level) { return (std::exp2(level) - 1) / 2; }
 
-void add(GlobeRows& rows, const std::string& name, const std::function<Spectrum(int level)>& light, int levels = GLOBE_LEVELS)
+void add(
+    GlobeRows& rows, const std::string& name, const std::function<Spectrum(int level)>& light, int levels = GLOBE_LEVELS)
 {
     rows.first[name] = int(rows.spectra.size());
     for (int level = 0; level < std::max(levels, 2); ++level)
@@ -36,7 +37,8 @@ double disc_of_lommel_seeliger(double phase)
 double rayleigh_depth(double nm)
 {
     const double um = std::clamp(nm, 200.0, 1e5) / 1000, square = um * um;
-    return 0.0021520 * (1.0455996 - 341.29061 / square - 0.90230850 * square) / (1 + 0.0027059889 / square - 85.968563 * square);
+    return 0.0021520 * (1.0455996 - 341.29061 / square - 0.90230850 * square)
+        / (1 + 0.0027059889 / square - 85.968563 * square);
 }
 
 double sun_radiance(const SolarSystem& system, double radius_m, double cosine, double nm)
@@ -69,14 +71,18 @@ GlobeRows globe_rows(const SolarSystem& system, std::span<const glm::dvec4> part
         return [white, reflectance = Reflectance{kind.points}](double nm) { return white(nm) * reflectance(nm); };
     };
     const auto kind_named = [&](const std::string& name) {
-        return *std::find_if(system.kinds.begin(), system.kinds.end(), [&](const NamedTable& kind) { return kind.name == name; });
+        return *std::find_if(
+            system.kinds.begin(), system.kinds.end(), [&](const NamedTable& kind) { return kind.name == name; });
     };
-    const auto airy = std::find_if(system.globes.begin(), system.globes.end(), [](const Globe& globe) { return globe.air.has_value(); });
+    const auto airy
+        = std::find_if(system.globes.begin(), system.globes.end(), [](const Globe& globe) { return globe.air.has_value(); });
     for (const NamedTable& kind : system.kinds) {
         const bool under_air = kind.name == "cloud"
-            || (airy != system.globes.end() && std::find(airy->kinds.begin(), airy->kinds.end(), kind.name) != airy->kinds.end());
+            || (airy != system.globes.end()
+                && std::find(airy->kinds.begin(), airy->kinds.end(), kind.name) != airy->kinds.end());
         const Spectrum light = reflected(kind);
-        add(rows, kind.name, [&](int level) { return through_air(light, air_mass(level)); }, under_air ? GLOBE_LEVELS : 1);
+        add(
+            rows, kind.name, [&](int level) { return through_air(light, air_mass(level)); }, under_air ? GLOBE_LEVELS : 1);
     }
     add(rows, "air", [&](int level) {
         return through_air([white](double nm) { return white(nm) * rayleigh_depth(nm); }, air_mass(level));
@@ -85,33 +91,42 @@ GlobeRows globe_rows(const SolarSystem& system, std::span<const glm::dvec4> part
     for (const NamedTable& lamp : system.lamps) {
         const SpectralTable table{lamp.points};
         const double amount = sunlit_part(table);
-        add(rows, lamp.name, [&](int) { return [light = spectrum_of(table), amount](double nm) { return light(nm) * amount; }; }, 1);
+        add(
+            rows, lamp.name,
+            [&](int) { return [light = spectrum_of(table), amount](double nm) { return light(nm) * amount; }; }, 1);
     }
     for (std::size_t i = 0; i < system.globes.size(); ++i) {
         const Globe& globe = system.globes[i];
         if (globe.scattering == Scattering::sun) {
             add(rows, "sun", [&](int level) {
                 const double cosine = std::min(level / (GLOBE_LEVELS - 1.001), 1.0);
-                return [&system, radius = globe.radius_m, cosine](double nm) { return sun_radiance(system, radius, cosine, nm); };
+                return [&system, radius = globe.radius_m, cosine](
+                           double nm) { return sun_radiance(system, radius, cosine, nm); };
             });
             const double bright = (astronomical_unit_m / globe.radius_m) * (astronomical_unit_m / globe.radius_m);
-            add(rows, globe.name + " mean", [&](int) { return [white, bright](double nm) { return white(nm) * bright; }; }, 1);
+            add(
+                rows, globe.name + " mean", [&](int) { return [white, bright](double nm) { return white(nm) * bright; }; },
+                1);
         } else {
             // A matt sphere's geometric albedo is 2/3 of its surface's; other maps already hold geometric albedos.
             std::vector<std::pair<double, Reflectance>> sum;
             for (int k = 0; k < 4; ++k)
                 if (!globe.kinds[std::size_t(k)].empty())
-                    sum.emplace_back(parts[i][k] * (globe.air ? 2.0 / 3 : 1), Reflectance{kind_named(globe.kinds[std::size_t(k)]).points});
+                    sum.emplace_back(parts[i][k] * (globe.air ? 2.0 / 3 : 1),
+                        Reflectance{kind_named(globe.kinds[std::size_t(k)]).points});
             if (globe.air)
                 sum.emplace_back(clouds * 2 / 3, Reflectance{kind_named("cloud").points});
-            add(rows, globe.name + " mean", [&](int) {
-                return [white, sum](double nm) {
-                    double all = 0;
-                    for (const auto& [part, reflectance] : sum)
-                        all += part * reflectance(nm);
-                    return white(nm) * all;
-                };
-            }, 1);
+            add(
+                rows, globe.name + " mean",
+                [&](int) {
+                    return [white, sum](double nm) {
+                        double all = 0;
+                        for (const auto& [part, reflectance] : sum)
+                            all += part * reflectance(nm);
+                        return white(nm) * all;
+                    };
+                },
+                1);
         }
         rows.means.push_back(rows.first[globe.name + " mean"]);
     }
@@ -120,13 +135,13 @@ GlobeRows globe_rows(const SolarSystem& system, std::span<const glm::dvec4> part
 
 std::vector<glm::vec4> globe_light(const GlobeRows& rows, const StandardObserver& observer)
 {
-    const ColourTable table
-        = colour_table(rows.spectra, observer, GLOBE_FIRST_LOG2_D, int(GLOBE_PER_OCTAVE), GLOBE_COLUMNS);
+    const ColourTable table = colour_table(rows.spectra, observer, GLOBE_FIRST_LOG2_D, int(GLOBE_PER_OCTAVE), GLOBE_COLUMNS);
     std::vector<glm::vec4> texels(rows.spectra.size() * GLOBE_COLUMNS);
     for (std::size_t row = 0; row < rows.spectra.size(); ++row)
         for (int column = 0; column < GLOBE_COLUMNS; ++column) {
             const glm::dvec3 seen = table.row(column)[row];
-            const double peak = std::max({seen.x, seen.y, seen.z}), log = peak > 0 ? std::max(std::log2(peak), -1000.0) : -1000;
+            const double peak = std::max({seen.x, seen.y, seen.z}),
+                         log = peak > 0 ? std::max(std::log2(peak), -1000.0) : -1000;
             texels[row * GLOBE_COLUMNS + std::size_t(column)] = glm::vec4(observer.rec709 * (seen * std::exp2(-log)), log);
         }
     return texels;

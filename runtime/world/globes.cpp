@@ -27,7 +27,8 @@ Texture enlarged(const Texture& map, const glm::ivec2& size)
 {
     if (map.size == size)
         return map;
-    Texture out{.size = size, .rgba = std::vector<std::uint8_t>(4 * std::size_t(size.x) * std::size_t(size.y)), .sampler = {}};
+    Texture out{
+        .size = size, .rgba = std::vector<std::uint8_t>(4 * std::size_t(size.x) * std::size_t(size.y)), .sampler = {}};
     const auto texel = [&](int x, int y, int c) {
         x = (x % map.size.x + map.size.x) % map.size.x, y = std::clamp(y, 0, map.size.y - 1);
         return double(map.rgba[4 * (std::size_t(y) * std::size_t(map.size.x) + std::size_t(x)) + std::size_t(c)]);
@@ -38,9 +39,10 @@ Texture enlarged(const Texture& map, const glm::ivec2& size)
             const glm::dvec2 from = (glm::dvec2(x, y) + 0.5) * glm::dvec2(map.size) / glm::dvec2(size) - 0.5;
             const int i = int(std::floor(from.x)), j = int(std::floor(from.y));
             for (int c = 0; c < 4; ++c)
-                out.rgba[at++] = std::uint8_t(std::lerp(std::lerp(texel(i, j, c), texel(i + 1, j, c), from.x - i),
-                                                  std::lerp(texel(i, j + 1, c), texel(i + 1, j + 1, c), from.x - i), from.y - j)
-                    + 0.5);
+                out.rgba[at++]
+                    = std::uint8_t(std::lerp(std::lerp(texel(i, j, c), texel(i + 1, j, c), from.x - i),
+                                       std::lerp(texel(i, j + 1, c), texel(i + 1, j + 1, c), from.x - i), from.y - j)
+                        + 0.5);
         }
     return out;
 }

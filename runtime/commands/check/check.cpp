@@ -11,8 +11,8 @@
 #include "flashes.h"
 #include "runtime/commands/commands.h"
 #include "runtime/images/capture.h"
-#include "runtime/world/spectral_errors.h"
 #include "runtime/world/ephemeris.h"
+#include "runtime/world/spectral_errors.h"
 #include "runtime/world/stars.h"
 #include "runtime/world/worldline.h"
 #include <CLI/CLI.hpp>
@@ -92,16 +92,17 @@ void print_globes(const SceneFile& scene, const Globes& globes)
     const glm::dmat3 turn = world_from_equatorial(scene.stars ? scene.stars->ahead_deg : glm::dvec2(0));
     EyeAmongGlobes eye{glm::dvec3(0), 0, turn, scene.unit_m, scene.seconds_per_time_unit()};
     const std::vector<glm::dvec3> places = globe_places_m(globes.system, origin.days);
-    std::printf("globes at %s's date from %s: place (x, y, z) at that time and radius, scene units; as %s sees it: light's way in "
-                "minutes, right ascension and declination (J2000)\n",
+    std::printf(
+        "globes at %s's date from %s: place (x, y, z) at that time and radius, scene units; as %s sees it: light's way in "
+        "minutes, right ascension and declination (J2000)\n",
         scene.name.c_str(), scene.globes->origin.c_str(), scene.globes->origin.c_str());
     for (const SeenGlobe& one : globes_seen(globes.system, origin, eye)) {
         const Globe& globe = globes.system.globes[one.globe];
         const glm::dvec3 n = glm::transpose(turn) * (one.from_eye / one.distance);
         const glm::dvec3 place = turn * (places[one.globe] - origin.place_m) / scene.unit_m;
         const double ascension = std::atan2(n.y, n.x) / degree;
-        std::printf("  %-8s [%.9g, %.9g, %.9g] %.6g; %.3f min; %.3f %+.3f\n", globe.name.c_str(), place.x, place.y,
-            place.z, globe.radius_m / scene.unit_m, one.distance * scene.seconds_per_time_unit() / 60,
+        std::printf("  %-8s [%.9g, %.9g, %.9g] %.6g; %.3f min; %.3f %+.3f\n", globe.name.c_str(), place.x, place.y, place.z,
+            globe.radius_m / scene.unit_m, one.distance * scene.seconds_per_time_unit() / 60,
             ascension < 0 ? ascension + 360 : ascension, std::asin(n.z) / degree);
     }
 }
@@ -141,7 +142,8 @@ void add_check(CLI::App& app, std::function<int()>& chosen)
     CLI::Option* layout
         = command->add_option("FILE", options->layout, "A layout file, or the name of one in config/layouts");
     CLI::Option* scene = command->add_option("--scene", options->scene,
-        "A scene file, or the name of one in config/scenes: how its light is represented, the worst error of a colour, and the places "
+        "A scene file, or the name of one in config/scenes: how its light is represented, the worst error of a colour, and "
+        "the places "
         "of its globes");
     scene->excludes(layout);
     CLI::Option* flashes = command->add_option("--flashes", options->flashes.film,
