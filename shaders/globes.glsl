@@ -72,22 +72,31 @@ float covered(GlobeRay ray) { return ray.ahead > 0.0 ? clamp(0.5 + (1.0 - sqrt(r
 // The part of a globe's light that is shown as a star's. radius: its radius in the picture, pixels.
 float point_part(float radius) { return 1.0 - smoothstep(0.8, 1.6, radius); }
 
-// A ring of thin matter around the equator.
-struct Ring {
-    float depth, bright; // optical depth, along its normal; brightness
+// A ring's pixel: four places across it, of which each has its own optical depth along the normal and its brightness.
+struct RingPixel {
+    float radius, step_; // the first place's, and the distance to the next
+    float inside;        // the part of the pixel that the ring covers
 };
 // radius: from the middle; pixel: its change across a pixel.
-Ring ring_at(GlobeEntry g, float radius, float pixel)
+RingPixel ring_pixel(GlobeEntry g, float radius, float pixel)
 {
     pixel = clamp(pixel, 1e-9, 0.5 * radius); // near the plane's horizon a pixel does not reach back to the ring
     float inside = (min(radius + 0.5 * pixel, g.ring.y) - max(radius - 0.5 * pixel, g.ring.x)) / pixel;
-    if (!(inside > 0.0))
-        return Ring(0.0, 0.0);
-    // The mean over four places of a pixel.
-    vec2 sum = vec2(0.0);
-    for (int i = 0; i < 4; ++i)
-        sum += textureLod(ring_profile, vec2((radius + pixel * (0.25 * float(i) - 0.375) - g.ring.x) / (g.ring.y - g.ring.x), 0.5), 0.0).rg;
-    return Ring(sum.x * 2.0 * inside, sum.y * 0.25); // 8 is the profile's greatest depth
+    return RingPixel(radius - 0.375 * pixel, 0.25 * pixel, max(inside, 0.0));
+}
+vec2 ring_place(GlobeEntry g, RingPixel at, int i)
+{
+    float part = (at.radius + float(i) * at.step_ - g.ring.x) / (g.ring.y - g.ring.x);
+    return textureLod(ring_profile, vec2(part, 0.5), 0.0).rg * vec2(8.0, 1.0); // 8: the profile's greatest depth
+}
+// The part of light that passes the ring. mu: cosine of its way from the normal.
+float through_ring_at(GlobeEntry g, float radius, float pixel, float mu)
+{
+    RingPixel at = ring_pixel(g, radius, pixel);
+    float sum = 0.0;
+    for (int i = 0; at.inside > 0.0 && i < 4; ++i)
+        sum += 0.25 * exp(-ring_place(g, at, i).x / mu);
+    return mix(1.0, sum, at.inside);
 }
 // The change of the distance from the axis, over a step across a way, where the way meets the ring's plane.
 float radius_step(vec3 at, vec3 way)
@@ -95,14 +104,14 @@ float radius_step(vec3 at, vec3 way)
     float slope = dot(at.xy, way.xy) / max(length(at.xy) * abs(way.z), 1e-6);
     return sqrt(1.0 + slope * slope);
 }
-// The place of a ray in the ring's plane. Returns the cosine of its angle from the normal, 0: behind the eye.
-float ring_hit(GlobeEntry g, GlobeRay ray, out float t, out float radius, out float pixel)
+// The place of a ray in the ring's plane; false: it is behind the eye.
+bool ring_hit(GlobeEntry g, GlobeRay ray, out float t, out float radius, out float pixel)
 {
     t = -ray.from.z / (abs(ray.way.z) < 1e-9 ? 1e-9 : ray.way.z);
     vec3 at = ray.from + ray.way * t;
     radius = length(at.xy);
     pixel = ray.pixel * abs(t / ray.ahead) * radius_step(at, ray.way);
-    return t > 0.0 ? abs(ray.way.z) : 0.0;
+    return t > 0.0;
 }
 
 // The part of the Sun's light that another globe leaves. at: a place; sun: the unit way to it; both in a globe's own axes, radii.
@@ -131,30 +140,37 @@ void add_globe(GlobeEntry g, vec3 n, float angle, ShiftColumn column, inout vec3
     vec3 sun_scaled = normalize(g.light.xyz / own);
     float half_chord = sqrt(max(1.0 - ray.square, 0.0)), t = ray.ahead - half_chord;
 
-    float ring_depth = 0.0, ring_t = 0.0;
+    float through_ring = 1.0, ring_t = 0.0;
     vec3 ring_light = vec3(0.0);
     if (g.ring.y > 0.0) {
-        float radius, width, mu = ring_hit(g, ray, ring_t, radius, width);
-        Ring ring = ring_at(g, radius, width);
-        if (mu > 0.0 && ring.depth > 0.0) {
+        float radius, width;
+        bool ahead = ring_hit(g, ray, ring_t, radius, width);
+        RingPixel pixel = ring_pixel(g, radius, width);
+        if (ahead && pixel.inside > 0.0) {
             vec3 at = ray.from + ray.way * ring_t;
-            float mu_sun = abs(sun_scaled.z);
-            bool same_side = (ray.from.z > 0.0) == (sun_scaled.z > 0.0);
-            // Light scattered once in a plane layer (Chandrasekhar, "Radiative transfer", 1960).
-            float scattered = same_side
-                ? mu_sun / (mu + mu_sun) * (1.0 - exp(-ring.depth * (1.0 / mu + 1.0 / mu_sun)))
-                : (abs(mu - mu_sun) < 1e-3 ? ring.depth / mu * exp(-ring.depth / mu)
-                                           : mu_sun / (mu - mu_sun) * (exp(-ring.depth / mu) - exp(-ring.depth / mu_sun)));
+            float mu = max(abs(normalize(ray.way * own).z), 1e-4), mu_sun = max(abs(g.light.z), 1e-4);
+            bool same_side = (ray.from.z > 0.0) == (g.light.z > 0.0);
+            float scattered = 0.0, through = 0.0;
+            for (int i = 0; i < 4; ++i) {
+                vec2 place = ring_place(g, pixel, i);
+                float out_ = exp(-place.x / mu), in_ = exp(-place.x / mu_sun);
+                // Light scattered once in a plane layer (Chandrasekhar, "Radiative transfer", 1960).
+                scattered += 0.25 * place.y
+                    * (same_side                      ? mu_sun / (mu + mu_sun) * (1.0 - out_ * in_)
+                            : abs(mu - mu_sun) < 1e-3 ? place.x / mu * out_
+                                                      : mu_sun / (mu - mu_sun) * (out_ - in_));
+                through += 0.25 * out_;
+            }
             float along = -dot(at, sun_scaled); // in the globe's shadow?
             vec3 side = at + sun_scaled * along;
             float unshaded = along > 0.0 ? clamp(0.5 + (length(side) - 1.0) / max(2.0 * g.ring.w * along, ray.pixel), 0.0, 1.0) : 1.0;
-            ring_light = globe_colour(column, g.ring.z, 0.0) * (ring.bright * scattered * unshaded * g.light.w);
-            ring_depth = ring.depth / mu;
+            ring_light = globe_colour(column, g.ring.z, 0.0) * (scattered * unshaded * g.light.w * pixel.inside);
+            through_ring = mix(1.0, through, pixel.inside);
         }
     }
-    bool ring_before = ring_depth > 0.0 && (cover <= 0.0 || ring_t < t);
-    float through_ring = exp(-ring_depth);
-    if (ring_depth > 0.0 && !ring_before)
+    bool rings = through_ring < 1.0 || ring_light != vec3(0.0);
+    bool ring_before = rings && (cover <= 0.0 || ring_t < t);
+    if (rings && !ring_before)
         light = light * mix(1.0, through_ring, disc) + ring_light * disc;
 
     // Air: light scattered once on the way, and the air between the eye and the ground.
@@ -166,12 +182,15 @@ void add_globe(GlobeEntry g, vec3 n, float angle, ShiftColumn column, inout vec3
         if (inside > 0.0 && ray.ahead + sqrt(inside) > 0.0) {
             float begin = max(ray.ahead - sqrt(inside), 0.0);
             float end = ray.square < 1.0 && ray.ahead > 0.0 ? t : ray.ahead + sqrt(inside);
-            float step_ = (end - begin) / float(GLOBE_AIR_STEPS), cosine = dot(ray.way, sun_scaled);
+            // Places lie the denser, the nearer to the lowest: at squares of even steps from there.
+            float lowest = clamp(ray.ahead, begin, end), first = -sqrt(lowest - begin), last = sqrt(end - lowest);
+            float step_ = (last - first) / float(GLOBE_AIR_STEPS), cosine = dot(normalize(ray.way * own), g.light.xyz);
             for (int i = 0; i < GLOBE_AIR_STEPS; ++i) {
-                vec3 at = ray.from + ray.way * (begin + (float(i) + 0.5) * step_);
-                float r = length(at), mu = dot(at, sun_scaled) / r, part = exp((1.0 - r) * x) * step_ * x;
+                float root = first + (float(i) + 0.5) * step_;
+                vec3 at = ray.from + ray.way * (lowest + root * abs(root));
+                float r = length(at), mu = dot(at, sun_scaled) / r, part = exp((1.0 - r) * x) * 2.0 * abs(root) * step_ * x;
                 if (mu > 0.0 || r * r * (1.0 - mu * mu) > 1.0)
-                    scattered += part * globe_colour(column, g.air.z, air_level(air + 0.5 * part + air_above(r, x, mu)));
+                    scattered += part * left_by_other(g, at * own, g.light.xyz) * globe_colour(column, g.air.z, air_level(air + 0.5 * part + air_above(r, x, mu)));
                 air += part;
             }
             // Rayleigh's phase function over 4, for a sunlit white surface sends a part of 1 / pi.
@@ -181,15 +200,18 @@ void add_globe(GlobeEntry g, vec3 n, float angle, ShiftColumn column, inout vec3
     light *= exp(-GLOBE_AIR_DEPTH * air * disc);
 
     if (cover > 0.0) {
-        vec3 at = ray.from + ray.way * t;
-        at = half_chord > 0.0 ? at : at * inversesqrt(dot(at, at));
+        // The middle of the part of the pixel that the globe covers.
+        float off = sqrt(ray.square), low = max(off - 0.5 * ray.pixel, -1.0), high = min(off + 0.5 * ray.pixel, 1.0);
+        float middle = off + 0.5 * ray.pixel > 1.0 ? 0.5 * (low + high) : off;
+        vec3 nearest = ray.from + ray.way * ray.ahead;
+        vec3 at = nearest * (middle / max(off, 1e-9)) - ray.way * sqrt(max(1.0 - middle * middle, 0.0));
         vec3 normal = normalize(at / own), way = normalize(ray.way * own);
         float mu = max(-dot(normal, way), 0.0), mu_sun = max(dot(normal, g.light.xyz), 0.0);
         float lit = g.light.w * left_by_other(g, at * own, g.light.xyz);
         if (g.ring.y > 0.0 && at.z * sun_scaled.z < 0.0) { // its ring's shadow
             vec3 there = at - sun_scaled * (at.z / sun_scaled.z);
             float width = ray.pixel / max(mu, 0.1) * radius_step(there, sun_scaled);
-            lit *= exp(-ring_at(g, length(there.xy), width).depth / abs(sun_scaled.z));
+            lit *= through_ring_at(g, length(there.xy), width, max(abs(g.light.z), 1e-4));
         }
         vec3 shown;
         vec2 place = place_in_panorama(normal) + vec2(0.5, 0.0);
@@ -281,8 +303,9 @@ float left_by_globes(vec3 n, int own)
         GlobeRay ray = globe_ray(g, n, 0.0);
         left *= 1.0 - covered(ray);
         if (g.ring.y > 0.0) {
-            float t, radius, width, mu = ring_hit(g, ray, t, radius, width);
-            left *= mu > 0.0 ? exp(-ring_at(g, radius, 0.0).depth / max(mu, 1e-3)) : 1.0;
+            float t, radius, width, mu = abs(normalize(ray.way * vec3(1.0, 1.0, g.shape.y)).z);
+            if (ring_hit(g, ray, t, radius, width))
+                left *= through_ring_at(g, radius, 0.0, max(mu, 1e-4));
         }
     }
     return left;

@@ -164,12 +164,10 @@ void main()
     vec3 before = in_cube_axes(n, world_rest_frame());
     bool is_globe = star.direction.w < 0.0;
     light *= left_by_globes(before, is_globe ? int(-1.0 - star.direction.w) : -1);
-    if (light == vec3(0.0))
-        return;
     if (is_globe) {
         is_sun = globe(int(-1.0 - star.direction.w)).shape.w == GLOBE_SUN;
         disc = star.light.y / world_angle(sight, sight.n, 1.0);
-        glare.w = point_part(disc / pixel_angle);
+        light *= point_part(disc / pixel_angle);
     }
 #endif
     if (METERING_SAMPLES) {
@@ -181,7 +179,7 @@ void main()
         return;
     }
     float radius = is_sun ? STAR_RADIUS : find_glare(point, channel, pixel_angle, disc);
-    if (glare.w == 0.0 && glare.y == 0.0)
+    if (light == vec3(0.0))
         return;
     gl_PointSize = 2.0 * radius;
     float factor = RANGE ? range_factor(luminance_of(light) / STAR_SPOT) : 1.0; // by its spot's middle luminance

@@ -12,7 +12,8 @@ namespace starbow {
 namespace {
 
 /// A picture and all its coarser levels, each texel the mean of four.
-std::vector<std::vector<std::uint8_t>> levels_of(const Texture& map)
+/// rooted: a channel that holds roots of light, whose squares have the mean; -1: none.
+std::vector<std::vector<std::uint8_t>> levels_of(const Texture& map, int rooted)
 {
     std::vector<std::vector<std::uint8_t>> levels = {map.rgba};
     for (glm::ivec2 size = map.size; size.y > 1; size /= 2) {
@@ -23,16 +24,19 @@ std::vector<std::vector<std::uint8_t>> levels_of(const Texture& map)
             for (std::size_t x = 0; x < std::size_t(size.x) / 2; ++x)
                 for (std::size_t c = 0; c < 4; ++c) {
                     const std::size_t at = 2 * y * row + 8 * x + c;
-                    to[y * row / 2 + 4 * x + c]
-                        = std::uint8_t((from[at] + from[at + 4] + from[at + row] + from[at + row + 4] + 2) / 4);
+                    const int four[] = {from[at], from[at + 4], from[at + row], from[at + row + 4]};
+                    double sum = 0;
+                    for (const int one : four)
+                        sum += int(c) == rooted ? one * one : one;
+                    to[y * row / 2 + 4 * x + c] = std::uint8_t((int(c) == rooted ? std::sqrt(sum / 4) : sum / 4) + 0.5);
                 }
         levels.push_back(std::move(to));
     }
     return levels;
 }
 
-/// An array of maps of one size, with coarser levels.
-Image make_maps(Device& device, const std::vector<const Texture*>& maps)
+/// An array of maps of one size, with coarser levels. second_has_lamps: its green holds roots of light.
+Image make_maps(Device& device, const std::vector<const Texture*>& maps, bool second_has_lamps)
 {
     const Texture blank{.size = {2, 1}, .rgba = std::vector<std::uint8_t>(8, 0), .sampler = {}};
     const Texture& first = maps.empty() ? blank : *maps.front();
@@ -50,7 +54,8 @@ Image make_maps(Device& device, const std::vector<const Texture*>& maps)
         std::vector<std::uint8_t> all;
         std::vector<vk::BufferImageCopy> copies;
         glm::uvec2 size(first.size);
-        for (const std::vector<std::uint8_t>& level : levels_of(maps.empty() ? blank : *maps[layer])) {
+        for (const std::vector<std::uint8_t>& level :
+            levels_of(maps.empty() ? blank : *maps[layer], second_has_lamps && layer == 1 ? 1 : -1)) {
             copies.emplace_back(all.size(), 0, 0,
                 vk::ImageSubresourceLayers(vk::ImageAspectFlagBits::eColor, std::uint32_t(copies.size()), layer, 1),
                 vk::Offset3D(), vk::Extent3D(size.x, size.y, 1));
@@ -129,7 +134,7 @@ void GpuGlobes::upload_maps(Device& device)
                 profile.push_back({float(at.x / deepest_ring), float(at.y)});
         }
     }
-    maps = make_maps(device, plain), fine_maps = make_maps(device, fine);
+    maps = make_maps(device, plain, false), fine_maps = make_maps(device, fine, true);
     name_object(device, maps, "globes: maps"), name_object(device, fine_maps, "globes: fine maps");
     std::vector<std::uint16_t> halves;
     for (const glm::vec2& at : profile)

@@ -186,7 +186,9 @@ std::vector<SeenGlobe> globes_seen(const SolarSystem& system, const WorldOrigin&
             = globe_turn(globe, origin.days + time * eye.seconds / 86400) * glm::transpose(eye.world_from_equatorial);
         seen.to_sun = glm::dvec3(0);
         if (const double far_m = glm::length(from_sun_m); far_m > 0) {
-            seen.to_sun = eye.world_from_equatorial * (-from_sun_m / far_m);
+            // Sunlight left so long before, and the world has moved since.
+            const double light_s = far_m * eye.seconds / eye.unit_m;
+            seen.to_sun = eye.world_from_equatorial * glm::normalize(origin.velocity_m_s * light_s - from_sun_m);
             seen.sun_distance_au = far_m / astronomical_unit_m;
             seen.phase_deg = std::acos(std::clamp(glm::dot(seen.to_sun, -from_eye / seen.distance), -1.0, 1.0)) / degree;
         }
