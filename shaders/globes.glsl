@@ -72,7 +72,8 @@ float covered(GlobeRay ray) { return ray.ahead > 0.0 ? clamp(0.5 + (1.0 - sqrt(r
 // The part of a globe's light that is shown as a star's. radius: its radius in the picture, pixels.
 float point_part(float radius) { return 1.0 - smoothstep(0.8, 1.6, radius); }
 
-// A ring's pixel: four places across it, of which each has its own optical depth along the normal and its brightness.
+const int RING_PLACES = 8;
+// A ring's pixel: some places across it, of which each has its own optical depth along the normal and its brightness.
 struct RingPixel {
     float radius, step_; // the first place's, and the distance to the next
     float inside;        // the part of the pixel that the ring covers
@@ -82,7 +83,7 @@ RingPixel ring_pixel(GlobeEntry g, float radius, float pixel)
 {
     pixel = clamp(pixel, 1e-9, 0.5 * radius); // near the plane's horizon a pixel does not reach back to the ring
     float inside = (min(radius + 0.5 * pixel, g.ring.y) - max(radius - 0.5 * pixel, g.ring.x)) / pixel;
-    return RingPixel(radius - 0.375 * pixel, 0.25 * pixel, max(inside, 0.0));
+    return RingPixel(radius + (0.5 / float(RING_PLACES) - 0.5) * pixel, pixel / float(RING_PLACES), max(inside, 0.0));
 }
 vec2 ring_place(GlobeEntry g, RingPixel at, int i)
 {
@@ -94,9 +95,9 @@ float through_ring_at(GlobeEntry g, float radius, float pixel, float mu)
 {
     RingPixel at = ring_pixel(g, radius, pixel);
     float sum = 0.0;
-    for (int i = 0; at.inside > 0.0 && i < 4; ++i)
-        sum += 0.25 * exp(-ring_place(g, at, i).x / mu);
-    return mix(1.0, sum, at.inside);
+    for (int i = 0; at.inside > 0.0 && i < RING_PLACES; ++i)
+        sum += exp(-ring_place(g, at, i).x / mu);
+    return mix(1.0, sum / float(RING_PLACES), at.inside);
 }
 // The change of the distance from the axis, over a step across a way, where the way meets the ring's plane.
 float radius_step(vec3 at, vec3 way)
@@ -130,12 +131,13 @@ float left_by_other(GlobeEntry g, vec3 at, vec3 sun)
 }
 
 // Light, before the headlight effect. light: behind the globe on entry, with it on return. distance: as Shown's. n: unit direction in
-// the world, the cube map's axes; angle: of a pixel there; D: of the world's light.
-void add_globe(GlobeEntry g, vec3 n, float angle, ShiftColumn column, inout vec3 light, inout float distance)
+// the world, the cube map's axes; angle: of a ray there. disc: the part of its light that is no star's.
+void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column, inout vec3 light, inout float distance)
 {
     GlobeRay ray = globe_ray(g, n, angle);
-    float disc = 1.0 - point_part(g.shape.z / angle);
-    float cover = covered(ray) * disc;
+    // Edges as soft as a pixel make a small disc too large, by a twelfth of a square pixel.
+    float pixels = g.shape.z / angle;
+    float cover = covered(ray) * disc / (1.0 + 1.0 / max(12.0 * pixels * pixels, 1.0));
     vec3 own = vec3(1.0, 1.0, g.shape.y); // from the scaled axes to those of one unit
     vec3 sun_scaled = normalize(g.light.xyz / own);
     float half_chord = sqrt(max(1.0 - ray.square, 0.0)), t = ray.ahead - half_chord;
@@ -151,15 +153,15 @@ void add_globe(GlobeEntry g, vec3 n, float angle, ShiftColumn column, inout vec3
             float mu = max(abs(normalize(ray.way * own).z), 1e-4), mu_sun = max(abs(g.light.z), 1e-4);
             bool same_side = (ray.from.z > 0.0) == (g.light.z > 0.0);
             float scattered = 0.0, through = 0.0;
-            for (int i = 0; i < 4; ++i) {
+            for (int i = 0; i < RING_PLACES; ++i) {
                 vec2 place = ring_place(g, pixel, i);
                 float out_ = exp(-place.x / mu), in_ = exp(-place.x / mu_sun);
                 // Light scattered once in a plane layer (Chandrasekhar, "Radiative transfer", 1960).
-                scattered += 0.25 * place.y
+                scattered += place.y / float(RING_PLACES)
                     * (same_side                      ? mu_sun / (mu + mu_sun) * (1.0 - out_ * in_)
                             : abs(mu - mu_sun) < 1e-3 ? place.x / mu * out_
                                                       : mu_sun / (mu - mu_sun) * (out_ - in_));
-                through += 0.25 * out_;
+                through += out_ / float(RING_PLACES);
             }
             float along = -dot(at, sun_scaled); // in the globe's shadow?
             vec3 side = at + sun_scaled * along;
@@ -286,7 +288,26 @@ void add_globes(vec3 n, float angle, float D, inout vec3 light, inout float dist
     while (hits != 0) {
         int i = findLSB(hits);
         hits &= hits - 1;
-        add_globe(globe(i), n, angle, column, light, distance);
+        GlobeEntry g = globe(i);
+        float pixels = g.shape.z / angle, disc = 1.0 - point_part(pixels);
+        if (disc <= 0.0)
+            continue;
+        // A small disc changes within a pixel: four rays.
+        int rays = pixels < 8.0 ? 4 : 1;
+        vec3 side = normalize(cross(n, abs(n.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0))), up = cross(side, n);
+        vec3 sum = vec3(0.0), behind = light;
+        float near = distance;
+        for (int k = 0; k < rays; ++k) {
+            vec2 off = rays == 1 ? vec2(0.0) : (vec2(k & 1, k >> 1) - 0.5) * (0.5 * angle);
+            light = behind;
+            float here = 0.0;
+            add_globe(g, normalize(n + side * off.x + up * off.y), angle / sqrt(float(rays)), disc, column, light, here);
+            sum += light;
+            near = here > 0.0 ? here : near;
+        }
+        if (rays == 1 || covered(globe_ray(g, n, angle)) > 0.5) // at the pixel's middle
+            distance = near;
+        light = sum / float(rays);
     }
     light *= gain;
 }

@@ -3,8 +3,15 @@
 #include "runtime/world/stars.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace starbow {
+namespace {
+
+/// Half a degree: eyes are no farther from the ship's place, so that they see one planet.
+constexpr double most_globe_parallax = 0.00873;
+
+} // namespace
 
 TracingEye::TracingEye(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
     const GlobeColours* globes, const Observer& observer, const glm::dvec3& place, double beside)
@@ -28,11 +35,17 @@ TracingEye::TracingEye(const World& world, const SceneFile& scene, const Picture
     }
     if (globes) {
         const RestFrameView& rest_frame = observer_.rest_frames.front();
-        const EyeEvent eye_event = eye_event_of(rest_frame, 0, place);
+        const EyeEvent ship = eye_event_of(rest_frame, 0, glm::dvec3(0));
         const glm::dvec3& u = rest_frame.shot.u;
-        globes_ = std::make_unique<GlobeSight>(*world.globes, world_origin(world.globes->system, *scene.globes), *globes,
-            EyeAmongGlobes{eye_event.place, eye_event.time, world_from_equatorial(scene.stars->ahead_deg), scene.unit_m,
-                world.seconds_per_time_unit, rest_frame.now, u / physics::gamma_of(u)});
+        const WorldOrigin origin = world_origin(world.globes->system, *scene.globes);
+        const EyeAmongGlobes event{ship.place, ship.time,
+            world_from_equatorial(scene.stars ? scene.stars->ahead_deg : glm::dvec2(0)), scene.unit_m,
+            world.seconds_per_time_unit, rest_frame.now, u / physics::gamma_of(u)};
+        double nearest = std::numeric_limits<double>::max();
+        for (const SeenGlobe& seen : globes_seen(world.globes->system, origin, event))
+            nearest = std::min(nearest, seen.distance - world.globes->system.globes[seen.globe].radius_m / scene.unit_m);
+        farthest_among_globes_ = most_globe_parallax * std::max(nearest, 0.0);
+        globes_ = std::make_unique<GlobeSight>(*world.globes, origin, *globes, event);
     }
 }
 
@@ -124,8 +137,11 @@ GlobeSight::Ray TracingEye::among_globes(const physics::AberratedRay& world, con
     if (stretch)
         *stretch = length;
     glm::dvec3 from_m(0);
-    if (beside != glm::dvec3(0))
-        from_m = physics::eye_place(rest_frame.shot.u, rest_frame.shot.ship_from_cockpit * beside) * scene_.unit_m;
+    glm::dvec3 place = place_ + beside;
+    if (const double away = glm::length(place); away > farthest_among_globes_)
+        place *= farthest_among_globes_ / away;
+    if (place != glm::dvec3(0))
+        from_m = physics::eye_place(rest_frame.shot.u, rest_frame.shot.ship_from_cockpit * place) * scene_.unit_m;
     return globes_->ray(from_m, glm::transpose(rest_frame.motion_from_frame) * (stretched / length), parts, only);
 }
 

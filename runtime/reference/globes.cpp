@@ -81,8 +81,9 @@ struct AirAround {
     }
 };
 
-/// Bilinear texels of an equirectangular map around an own unit direction, as fractions.
-glm::dvec4 texel(const Texture& map, const glm::dvec3& normal)
+/// Bilinear texels of an equirectangular map around an own unit direction, as fractions. rooted: a channel that holds roots;
+/// its squares are interpolated.
+glm::dvec4 texel(const Texture& map, const glm::dvec3& normal, int rooted = -1)
 {
     const double longitude = std::atan2(normal.y, normal.x), latitude = std::atan2(normal.z, std::hypot(normal.x, normal.y));
     const double x = (longitude / (2 * pi) + 0.5) * map.size.x - 0.5, y = (0.5 - latitude / pi) * map.size.y - 0.5;
@@ -94,8 +95,10 @@ glm::dvec4 texel(const Texture& map, const glm::dvec3& normal)
             const int row = std::clamp(int(above) + j, 0, map.size.y - 1);
             const std::size_t at = 4 * (std::size_t(row) * std::size_t(map.size.x) + std::size_t(column));
             const double part = (i ? x - left : 1 - (x - left)) * (j ? y - above : 1 - (y - above));
-            for (int c = 0; c < 4; ++c)
-                sum[c] += part * map.rgba[at + std::size_t(c)] / 255.0;
+            for (int c = 0; c < 4; ++c) {
+                const double value = map.rgba[at + std::size_t(c)] / 255.0;
+                sum[c] += part * (c == rooted ? value * value : value);
+            }
         }
     return sum;
 }
@@ -445,7 +448,7 @@ void GlobeSight::add_ground(
         return;
     }
     const AirAround around{globe.radius_m, globe.air->scale_height_m};
-    const glm::dvec4 above = texel(globes_.sky, normal);
+    const glm::dvec4 above = texel(globes_.sky, normal, 1);
     const double clouds = above.x;
     const double sun_size = sun_radius_m_ / body.sun_m;
     const double risen = smooth_step(-sun_size, sun_size, std::asin(std::clamp(mu_sun, -1.0, 1.0)));
@@ -469,7 +472,7 @@ void GlobeSight::add_ground(
             add(GlobeColours::white, sunlight * risen * glint * parts.w * (1 - clouds), all);
         }
     }
-    add(GlobeColours::lamps, globe.air->brightest_lamps * above.y * above.y * std::exp(-lamps_depth * air), 0);
+    add(GlobeColours::lamps, globe.air->brightest_lamps * above.y * std::exp(-lamps_depth * air), 0);
 }
 
 GlobeSight::Ray GlobeSight::ray(
