@@ -130,9 +130,9 @@ float left_by_other(GlobeEntry g, vec3 at, vec3 sun)
     return 1.0 - in_part * in_part * (3.0 - 2.0 * in_part) * size * size;
 }
 
-// Light, before the headlight effect. light: behind the globe on entry, with it on return. distance: as Shown's. n: unit direction in
+// Light, before the headlight effect. light: behind the globe on entry, with it on return. n: unit direction in
 // the world, the cube map's axes; angle: of a ray there. disc: the part of its light that is no star's.
-void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column, inout vec3 light, inout float distance)
+void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column, inout vec3 light)
 {
     GlobeRay ray = globe_ray(g, n, angle);
     // Edges as soft as a pixel make a small disc too large, by a twelfth of a square pixel.
@@ -260,8 +260,6 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
             shown *= lit * (g.shape.w == GLOBE_DUSTY ? 2.0 * mu_sun / max(mu + mu_sun, 1e-6) : 1.5 * mu_sun);
         }
         light = mix(light, shown, cover);
-        if (cover > 0.5)
-            distance = t / length(vec3(dot(g.row0.xyz, n), dot(g.row1.xyz, n), dot(g.row2.xyz, n)));
     }
     light += scattered;
     if (ring_before)
@@ -296,17 +294,16 @@ void add_globes(vec3 n, float angle, float D, inout vec3 light, inout float dist
         int rays = pixels < 8.0 ? 4 : 1;
         vec3 side = normalize(cross(n, abs(n.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0))), up = cross(side, n);
         vec3 sum = vec3(0.0), behind = light;
-        float near = distance;
         for (int k = 0; k < rays; ++k) {
             vec2 off = rays == 1 ? vec2(0.0) : (vec2(k & 1, k >> 1) - 0.5) * (0.5 * angle);
             light = behind;
-            float here = 0.0;
-            add_globe(g, normalize(n + side * off.x + up * off.y), angle / sqrt(float(rays)), disc, column, light, here);
+            add_globe(g, normalize(n + side * off.x + up * off.y), angle / sqrt(float(rays)), disc, column, light);
             sum += light;
-            near = here > 0.0 ? here : near;
         }
-        if (rays == 1 || covered(globe_ray(g, n, angle)) > 0.5) // at the pixel's middle
-            distance = near;
+        GlobeRay middle = globe_ray(g, n, angle);
+        if (covered(middle) > 0.5)
+            distance = (middle.ahead - sqrt(max(1.0 - middle.square, 0.0)))
+                / length(vec3(dot(g.row0.xyz, n), dot(g.row1.xyz, n), dot(g.row2.xyz, n)));
         light = sum / float(rays);
     }
     light *= gain;
