@@ -16,5 +16,7 @@ vec3 dithered_srgb(vec3 light, ivec2 pixel)
 {
     vec3 power = intBitsToFloat(ivec3(vec3(floatBitsToInt(light)) * (1.4 / 2.4) + 453659763.0));
     vec3 slope = max(power, vec3(1.0 / 12.92));
-    return light + dither(pixel) * slope;
+    // Below a tenth of the first step the noise fades: some devices round 0.45 of a step up, and black must stay black.
+    vec3 fade = min(light * (10.0 * 255.0 * 12.92), vec3(1.0));
+    return light + dither(pixel) * slope * fade;
 }
