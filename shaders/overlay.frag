@@ -105,8 +105,10 @@ vec4 false_colour(float distance, vec3 n)
 vec4 signs(vec3 n, float pixel_angle)
 {
     vec4 sum = vec4(0.0);
-    vec3 first = overlay.marks[0].xyz, second = overlay.marks[1].xyz;
-    if (overlay.marks[0].w > 0.0 && overlay.marks[1].w > 0.0) {
+    int none = int(overlay.world0.w); // shared.h says why
+    vec4 marks[2] = vec4[2](overlay.marks[none], overlay.marks[none + 1]);
+    vec3 first = marks[0].xyz, second = marks[1].xyz;
+    if (marks[0].w > 0.0 && marks[1].w > 0.0) {
         // Dashes follow the great circle between them.
         vec3 axis = cross(first, second);
         float sine = length(axis);
@@ -121,8 +123,8 @@ vec4 signs(vec3 n, float pixel_angle)
     }
     float size = max(radians(1.0), 6.0 * pixel_angle), width = max(radians(0.05), 1.2 * pixel_angle);
     for (int i = 0; i < 2; ++i) {
-        vec3 to = n - overlay.marks[i].xyz;
-        if (overlay.marks[i].w <= 0.0 || dot(to, to) > 9.0 * size * size)
+        vec3 to = n - marks[i].xyz;
+        if (marks[i].w <= 0.0 || dot(to, to) > 9.0 * size * size)
             continue;
         vec2 at = vec2(dot(to, overlay.right.xyz), dot(to, overlay.up.xyz));
         // At the edge of the view the look's axes are oblique; the length is always right.
@@ -131,9 +133,10 @@ vec4 signs(vec3 n, float pixel_angle)
         sum = over(line(i == 0 ? vec3(1.0, 0.62, 0.2) : vec3(0.35, 0.9, 1.0), off / pixel_angle, 0.5 * width / pixel_angle, 1.0), sum);
         sum = over(line(vec3(1.0), length(at) / pixel_angle, 0.5 * width / pixel_angle, 1.0), sum);
     }
-    vec3 to = n - overlay.aim.xyz;
+    vec4 aim = overlay.aim[none];
+    vec3 to = n - aim.xyz;
     float reach = max(radians(1.6), 14.0 * pixel_angle);
-    if (overlay.aim.w > 0.0 && dot(to, to) < 4.0 * reach * reach) {
+    if (aim.w > 0.0 && dot(to, to) < 4.0 * reach * reach) {
         vec2 at = abs(vec2(dot(to, overlay.right.xyz), dot(to, overlay.up.xyz)));
         float along = max(at.x, at.y), beside = min(at.x, at.y);
         float gap = clamp((along - 0.3 * reach) / pixel_angle + 0.5, 0.0, 1.0) * clamp((reach - along) / pixel_angle + 0.5, 0.0, 1.0);

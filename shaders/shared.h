@@ -5,7 +5,7 @@
 // A number that decides a branch must not have a constant place in a uniform buffer: there, llvmpipe (Mesa 22.3) takes it
 // for a constant, compiles the shader again whenever the buffer is bound, if that makes it much shorter, and keeps every
 // copy. Such a number is therefore in an array, and the array's index has an addend that is 0, and that only the buffer
-// tells.
+// tells. In a stage with four uniform buffers and push constants, it crashes over such a number in the last of them.
 
 // The fixed division's tiles (see tiles.h); every tile has an entry, drawn or not.
 #define TILE_FRONT 0
@@ -202,14 +202,14 @@ struct StarConstants {
 
 // The measuring overlays of a viewport.
 struct OverlayConstants {
-    vec4 world0, world1, world2; // rows of world_from_motion
+    vec4 world0, world1, world2; // rows of world_from_motion; world0.w: 0, see above
     vec4 ring; // x: cosine, y: sine of the angle from the motion where D = 1; z: 1 where there is one;
                // w: 1 without light delay
     vec4 scale; // of the colours: x: lowest log10 of a distance in seconds of light, y: 1 over the range; z: log10 of
                 // seconds of light per scene unit
     vec4 steps; // retarded time: x: seconds between contours, y: the eye's time since a heavier one, seconds; z: seconds
                 // of light per scene unit; w: the proper velocity, without light delay
-    vec4 aim, right, up; // the look's axes, in motion axes; aim.w: 1: the crosshair is drawn
+    vec4 aim[1], right, up; // the look's axes, in motion axes; aim[0].w: 1: the crosshair is drawn
     vec4 marks[2]; // directions in the ship, motion axes; w: 1 where there is one
 };
 

@@ -52,7 +52,7 @@ void OverlayPass::prepare(std::size_t view, const Content& content, const Measur
     c.steps = glm::vec4(step, std::fmod(now_s, 5 * step), seconds_per_time_unit, 0);
     if (observer.comparison == Comparison::no_light_delay) // at the ship's present the world's time is later ahead
         c.ring.w = 1, c.steps.w = float(glm::length(observer.u));
-    c.aim = glm::vec4(-from_cockpit[2], 1);
+    c.aim[0] = glm::vec4(-from_cockpit[2], 1);
     c.right = glm::vec4(from_cockpit[0], 0), c.up = glm::vec4(from_cockpit[1], 0);
     for (int i = 0; i < 2; ++i)
         if (const auto& mark = content.marks[std::size_t(i)])
