@@ -64,7 +64,7 @@ void main()
     } else {
         vec3 value = CURVE == 1 ? pow(light, vec3(push.curve.x)) : tabled(light);
         if (DITHERED)
-            value = clamp(value + dither(p), 0.0, 1.0);
+            value = clamp(value + dither(p) * min(value * 2550.0, vec3(1.0)), 0.0, 1.0); // black stays black: see dithered_srgb
         light = undo_srgb(value);
     }
     shown = vec4(light, 1.0);
