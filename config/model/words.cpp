@@ -343,7 +343,6 @@ const std::vector<Known> known{
     {"menu.scene.gamow"},
     {"menu.scene.light-clock"},
     {"menu.scene.rainbow"},
-    {"menu.scene.solar-system"},
     {"menu.scene.train"},
     {"menu.scene.twins"},
     {"menu.scene.warm-wall"},

@@ -49,26 +49,34 @@ TEST(SolarSystemTest, WrongFilesAreRefused)
 {
     write_companions();
     expect_wrong(load,
-        {{globes(""), "/globes", "", "globes"},
-            {beside_sun(R"("body": "Vulcan", "scattering": "dusty", "kinds": [null, null, null, "soil"])"), "/globes/1/body",
-                "Vulcan", "has no size"},
-            {beside_sun(R"("body": "Sun", "scattering": "sun")"), "/globes/1/body", "Sun", "each globe once"},
+        {{beside_sun(R"("body": "Vulcan", "scattering": "dusty", "kinds": [null, null, null, "soil"])"), "/globes/1/body",
+             "\"Vulcan\"", "has no size"},
+            {beside_sun(R"("body": "Sun", "scattering": "sun")"), "/globes/1/body", "\"Sun\"", "each globe once"},
             {beside_sun(R"("body": "Mars", "scattering": "shiny", "kinds": [null, null, null, "soil"])"),
-                "/globes/1/scattering", "shiny", "dusty"},
+                "/globes/1/scattering", "\"shiny\"", "dusty"},
             {beside_sun(R"("body": "Mars", "scattering": "dusty", "kinds": [null, null, null, "rust"])"),
-                "/globes/1/kinds/3", "rust", "is no kind"},
-            {beside_sun(R"("body": "Mars", "scattering": "dusty", "kinds": [null, "soil"])"), "/globes/1/kinds", "",
-                "kinds"},
-            {beside_sun(R"("body": "Moon", "scattering": "dusty", "kinds": [null, null, null, "soil"])"), "/globes", "",
-                "without the Earth"},
-            {globes(R"({ "body": "Mars", "scattering": "dusty", "kinds": [null, null, null, "soil"] })"), "/globes", "",
-                "the Sun first"},
+                "/globes/1/kinds/3", "\"rust\"", "is no kind"},
             {beside_sun(
                  R"("body": "Earth", "scattering": "cloudy", "map": "e.png", "kinds": ["soil", null, null, "water"], "air": { "scale_height_km": 8, "clouds": "c.jpg", "water": "w.png", "lamps": "l.png", "brightest_lamps": 0 })"),
-                "/globes/1/air", "", "needs the kind \"cloud\""},
+                "/globes/1/air", "{", "needs the kind \"cloud\""},
             {beside_sun(
                  R"("body": "Saturn", "scattering": "cloudy", "kinds": [null, null, null, "soil"], "ring": "ring.json")"),
-                "/globes/1/ring", "ring.json", "needs the kind \"rings\""}});
+                "/globes/1/ring", "\"ring.json\"", "needs the kind \"rings\""}});
+}
+
+TEST(SolarSystemTest, WrongListsAreRefused)
+{
+    write_companions();
+    const auto says = [](const std::string& text) { return complaint([&] { load(write_text("wrong.json", text)); }); };
+    EXPECT_NE(says(globes("")).find("globes"), std::string::npos);
+    EXPECT_NE(says(beside_sun(R"("body": "Mars", "scattering": "dusty", "kinds": [null, "soil"])")).find("/globes/1/kinds"),
+        std::string::npos);
+    EXPECT_NE(says(beside_sun(R"("body": "Moon", "scattering": "dusty", "kinds": [null, null, null, "soil"])"))
+                  .find("without the Earth"),
+        std::string::npos);
+    EXPECT_NE(says(globes(R"({ "body": "Mars", "scattering": "dusty", "kinds": [null, null, null, "soil"] })"))
+                  .find("the Sun first"),
+        std::string::npos);
 }
 
 TEST(SolarSystemTest, MistypedFilesLoadOrAreRefused)
@@ -108,11 +116,11 @@ TEST(SolarSystemTest, AScenesDateIsReadAndWrongOnesAreRefused)
     std::vector<Wrong> wrong;
     for (const char* date : {"2026-02-30T00:00Z", "2026-08-12 17:46Z", "1700-01-01T00:00Z", "2026-08-12T24:00Z", "tomorrow",
              "2026-08-12T17:46Zx"})
-        wrong.push_back({scene(date), "/globes/date", date, "is no date"});
+        wrong.push_back({scene(date), "/globes/date", '"' + std::string(date) + '"', "is no date"});
     wrong.push_back(
         {scene("2026-08-12T17:46Z",
              R"(, "bodies": [{ "name": "b", "nodes": ["n"], "at": { "time": 0, "position": [0, 0, 0] }, "velocity": { "direction": [1, 0, 0], "beta": 0.1 } }])"),
-            "/globes", "", "other things move"});
+            "/globes", "{", "other things move"});
     expect_wrong([](const std::filesystem::path& file) { (void)load_scene_file(file); }, wrong);
 }
 
