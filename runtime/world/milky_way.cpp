@@ -2,17 +2,25 @@
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include "config/model/scene_file.h"
-#include "gltf/parts.h"
 #include "globes.h"
+#include "gltf/parts.h"
 #include "painted_sky.h"
+#include <algorithm>
 
 namespace starbow {
 
 World load_world(const SceneFile& scene)
 {
     World world = load_world(scene.gltf);
-    if (scene.globes)
+    if (scene.globes) {
         world.globes = load_globes(scene.globes->file);
+        const std::vector<Globe>& globes = world.globes->system.globes;
+        const std::string& origin = scene.globes->origin;
+        if (std::none_of(globes.begin(), globes.end(), [&](const Globe& globe) { return globe.name == origin; }))
+            throw InputError(scene.file, "/globes/origin",
+                '"' + origin + "\" is no globe of " + one_line(scene.globes->file.string())
+                    + "; a \"body\" of that file is right");
+    }
     if (!scene.stars || !scene.stars->milky_way)
         return world;
     const std::filesystem::path& file = scene.stars->milky_way->panorama;
