@@ -88,7 +88,7 @@ RingPixel ring_pixel(GlobeEntry g, float radius, float pixel)
 vec2 ring_place(GlobeEntry g, RingPixel at, int i)
 {
     float part = (at.radius + float(i) * at.step_ - g.ring.x) / (g.ring.y - g.ring.x);
-    return textureLod(ring_profile, vec2(part, 0.5), 0.0).rg * vec2(8.0, 1.0); // 8: the profile's greatest depth
+    return textureLod(ring_profile, vec2(part, 0.5), 0.0).rg * vec2(GLOBE_DEEPEST_RING, 1.0);
 }
 // The part of light that passes the ring. mu: cosine of its way from the normal.
 float through_ring_at(GlobeEntry g, float radius, float pixel, float mu)

@@ -55,6 +55,7 @@
 #define GLOBE_PER_OCTAVE 64.0
 #define GLOBE_AIR_STEPS 12
 #define GLOBE_AIR_DEPTH 0.0973 // optical depth of the Earth's air at 550 nm, from the ground upwards (Bucholtz 1995)
+#define GLOBE_DEEPEST_RING 8.0 // optical depth, of the ring profile's white
 #define GLOBE_CLOUDY 0.0 // scatters light as a matt surface
 #define GLOBE_DUSTY 1.0 // as grains that shade each other (Lommel and Seeliger)
 #define GLOBE_SUN 2.0

@@ -148,7 +148,7 @@ void main()
     if (!find(sight.n, channel, second, point, pixel_angle) || any(lessThan(point, vec2(-reach)))
         || any(greaterThan(point, size + reach)))
         return;
-    vec3 from_place = in_cube_axes(n, world_rest_frame()); // of the cube map
+    vec3 from_eye = in_cube_axes(n, world_rest_frame()), from_place = from_eye; // of the cube map
     if (REPROJECT)
         from_place = reprojected(from_place, eye_offset(sight.n, world_rest_frame()), world_angle(sight, sight.n, pixel_angle), world_rest_frame());
     if (hidden(place_of(from_place, world_rest_frame())))
@@ -161,11 +161,10 @@ void main()
     glare.w = 1.0;
     light = starlight(star, sight) * (view.boost.z / (pixel_angle * pixel_angle));
 #ifdef WITH_GLOBES
-    vec3 before = in_cube_axes(n, world_rest_frame());
-    bool is_globe = star.direction.w < 0.0;
-    light *= left_by_globes(before, is_globe ? int(-1.0 - star.direction.w) : -1);
-    if (is_globe) {
-        is_sun = globe(int(-1.0 - star.direction.w)).shape.w == GLOBE_SUN;
+    int own = star.direction.w < 0.0 ? int(-1.0 - star.direction.w) : -1;
+    light *= left_by_globes(from_eye, own);
+    if (own >= 0) {
+        is_sun = globe(own).shape.w == GLOBE_SUN;
         disc = star.light.y / world_angle(sight, sight.n, 1.0);
         light *= point_part(disc / pixel_angle);
     }

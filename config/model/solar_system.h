@@ -53,7 +53,7 @@ struct Rotation {
 enum class Scattering { cloudy, dusty, sun };
 
 /// A ring of thin matter around a globe's equator. profile: at evenly spaced radii its optical depth along its normal, and
-/// four times the product of its particles' albedo and phase function that a thick layer's reflectivity tells.
+/// twice the reflectivity of a thick layer of its particles, lit and seen from its normal.
 struct PlanetRing {
     double inner_m, outer_m;
     std::vector<glm::dvec2> profile;

@@ -27,7 +27,7 @@ struct RangeCurve {
 /// of white, is 13 of 255 by sRGB's curve: dim, and yet above the black of a projector of 1000:1, which has 0.001 of white.
 constexpr double range_top = -0.3959, range_bottom = -8;
 
-/// What makes a view's curve, in few numbers, for records: RangeCurve's low and high, the index of the first knot in the
+/// The numbers of a view's curve, few enough for records: RangeCurve's low and high, the index of the first knot in the
 /// range, the shown luminance at the last one, and the slopes between them. From the view's samples; empty for a view
 /// without light. ev: the exposure of an eye, EV. The top of the view is no brighter than with that exposure, and a view
 /// whose stops all fit below it is shown as with that exposure.

@@ -3,15 +3,8 @@
 #include "runtime/world/stars.h"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace starbow {
-namespace {
-
-/// Half a degree: eyes are no farther from the ship's place, so that they see one planet.
-constexpr double most_globe_parallax = 0.00873;
-
-} // namespace
 
 TracingEye::TracingEye(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
     const GlobeColours* globes, const Observer& observer, const glm::dvec3& place, double beside)
@@ -41,10 +34,8 @@ TracingEye::TracingEye(const World& world, const SceneFile& scene, const Picture
         const EyeAmongGlobes event{ship.place, ship.time,
             world_from_equatorial(scene.stars ? scene.stars->ahead_deg : glm::dvec2(0)), scene.unit_m,
             world.seconds_per_time_unit, rest_frame.now, u / physics::gamma_of(u)};
-        double nearest = std::numeric_limits<double>::max();
-        for (const SeenGlobe& seen : globes_seen(world.globes->system, origin, event))
-            nearest = std::min(nearest, seen.distance - world.globes->system.globes[seen.globe].radius_m / scene.unit_m);
-        farthest_among_globes_ = most_globe_parallax * std::max(nearest, 0.0);
+        const SolarSystem& system = world.globes->system;
+        farthest_among_globes_ = farthest_eye(system, globes_seen(system, origin, event), scene.unit_m);
         globes_ = std::make_unique<GlobeSight>(*world.globes, origin, *globes, event);
     }
 }

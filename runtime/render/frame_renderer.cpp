@@ -79,7 +79,8 @@ FrameRenderer::FrameRenderer(Device& device, Pipelines& pipelines, const GpuWorl
     , constants_(world, state_, views_, eyes_)
     , descriptors_(device, world, state_, views_, eyes_, stars_)
     , passes_(device, pipelines, state_, views_, eyes_, stars_, constants_, descriptors_)
-    , meter_(device, pipelines, state_, views_, eyes_, stars_, constants_, passes_, std::uint32_t(world.stars.brightest), world.globes != nullptr)
+    , meter_(device, pipelines, state_, views_, eyes_, stars_, constants_, passes_, std::uint32_t(world.stars.brightest),
+          world.globes != nullptr)
     , measurement_(device, pipelines, world, state_, views_, eyes_, constants_, descriptors_, passes_)
 {
     state_.keeps_depth = keeps_depth || state_.reprojects() || stars_.on() || world.several_rest_frames();

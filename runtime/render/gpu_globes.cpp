@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 namespace starbow {
 namespace {
@@ -85,8 +84,8 @@ vk::raii::Sampler make_sampler(const Device& device, vk::SamplerAddressMode arou
         VK_LOD_CLAMP_NONE});
 }
 
-/// Over this optical depth a texel of the ring's profile is white.
-constexpr double deepest_ring = 8;
+static_assert(
+    int(Scattering::cloudy) == GLOBE_CLOUDY && int(Scattering::dusty) == GLOBE_DUSTY && int(Scattering::sun) == GLOBE_SUN);
 
 /// How much air still counts: 10 scale heights hold all but 5e-5 of it.
 constexpr double scale_heights = 10;
@@ -131,7 +130,7 @@ void GpuGlobes::upload_maps(Device& device)
         if (globe.ring) {
             profile.clear();
             for (const glm::dvec2& at : globe.ring->profile)
-                profile.push_back({float(at.x / deepest_ring), float(at.y)});
+                profile.push_back({float(at.x / GLOBE_DEEPEST_RING), float(at.y)});
         }
     }
     maps = make_maps(device, plain, false), fine_maps = make_maps(device, fine, true);
@@ -155,14 +154,6 @@ GpuGlobes::Seen GpuGlobes::seen(const EyeEvent& eye) const
         globes_seen(globes_->system, origin_,
             {eye.place, eye.time, world_from_equatorial_, unit_m_, seconds_, eye.now, back * glm::dvec3(0, 0, eye.beta)}),
         shorter * eye.cube_from_frame, back * shorter * eye.cube_from_frame};
-}
-
-double GpuGlobes::nearest(const EyeEvent& eye) const
-{
-    double least = std::numeric_limits<double>::max();
-    for (const SeenGlobe& one : seen(eye).globes)
-        least = std::min(least, one.distance - globes_->system.globes[one.globe].radius_m / unit_m_);
-    return std::max(least, 0.0);
 }
 
 shared::GlobeConstants GpuGlobes::constants(const Seen& all_seen, double pre_exposure) const
@@ -251,24 +242,21 @@ void GpuGlobes::as_stars(const Seen& all_seen, std::span<shared::StarEntry> entr
 
 namespace {
 
-/// The part of the Sun's disc that nearer globes leave, from points spread evenly over it.
-double sun_left(const GpuGlobes::Seen& all, const std::vector<Globe>& globes, double unit_m)
+/// The part of the Sun's disc that nearer globes leave, from points spread evenly over it. sun: an element of `seen`.
+double sun_left(std::span<const SeenGlobe> seen, std::size_t sun, const std::vector<Globe>& globes, double unit_m)
 {
-    const auto sun = std::find_if(all.globes.begin(), all.globes.end(),
-        [&](const SeenGlobe& one) { return globes[one.globe].scattering == Scattering::sun; });
-    if (sun == all.globes.end())
-        return 0;
-    const glm::dvec3 way = sun->from_eye / sun->distance;
+    const glm::dvec3 middle = seen[sun].from_eye, way = middle / seen[sun].distance;
     const glm::dvec3 side
         = glm::normalize(glm::cross(way, std::abs(way.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
     const glm::dvec3 up = glm::cross(side, way);
-    const double radius = globes[sun->globe].radius_m / unit_m;
+    const double radius = globes[seen[sun].globe].radius_m / unit_m;
     constexpr int points = 61;
     int left = 0;
     for (int i = 0; i < points; ++i) {
         const double r = radius * std::sqrt((i + 0.5) / points), turn = i * 2.399963229728653; // the golden angle
-        const glm::dvec3 n = glm::normalize(sun->from_eye + (side * std::cos(turn) + up * std::sin(turn)) * r);
-        left += std::none_of(sun + 1, all.globes.end(), [&](const SeenGlobe& one) {
+        const glm::dvec3 n = glm::normalize(middle + (side * std::cos(turn) + up * std::sin(turn)) * r);
+        const std::span<const SeenGlobe> nearer = seen.subspan(sun + 1);
+        left += std::none_of(nearer.begin(), nearer.end(), [&](const SeenGlobe& one) {
             const Globe& globe = globes[one.globe];
             const glm::dvec3 scale = unit_m / globe.radius_m * glm::dvec3(1, 1, 1 / (1 - globe.flattening));
             const glm::dvec3 from = scale * (one.own_from_world * -one.from_eye),
@@ -287,11 +275,14 @@ void GpuGlobes::add_glare(shared::GlobeConstants& constants, const Seen& all, co
     const Effects& on) const
 {
     const std::vector<Globe>& globes = globes_->system.globes;
-    const double left = sun_left(all, globes, unit_m_);
+    const auto found = std::find_if(all.globes.begin(), all.globes.end(),
+        [&](const SeenGlobe& one) { return globes[one.globe].scattering == Scattering::sun; });
+    if (found == all.globes.end())
+        return;
+    const SeenGlobe& sun = *found;
+    const double left = sun_left(all.globes, std::size_t(found - all.globes.begin()), globes, unit_m_);
     if (left == 0)
         return;
-    const SeenGlobe& sun = *std::find_if(all.globes.begin(), all.globes.end(),
-        [&](const SeenGlobe& one) { return globes[one.globe].scattering == Scattering::sun; });
     const glm::dvec3 n = motion_from_world * glm::normalize(all.contraction * sun.from_eye);
     const bool galilean = on.comparison == Comparison::galilean;
     physics::AberratedRay sight{n, 1};
@@ -305,16 +296,12 @@ void GpuGlobes::add_glare(shared::GlobeConstants& constants, const Seen& all, co
         }
     } else
         sight.D = galilean ? physics::galilean_world_from_camera(n, E, 1 / E).D : physics::world_from_camera(n, E, 1 / E).D;
-    const double at = std::clamp(
-        ((on.doppler ? std::log2(sight.D) : 0) - GLOBE_FIRST_LOG2_D) * GLOBE_PER_OCTAVE, 0.0, GLOBE_COLUMNS - 1.001);
-    const std::vector<glm::vec4>& texels = on.false_colours ? false_texels_ : light_texels_;
-    const std::size_t texel = std::size_t(rows_.means[sun.globe]) * GLOBE_COLUMNS + std::size_t(at);
-    const glm::dvec4 mean = glm::mix(glm::dvec4(texels[texel]), glm::dvec4(texels[texel + 1]), at - std::floor(at));
+    const glm::dvec3 mean
+        = globe_colour(on.false_colours ? false_texels_ : light_texels_, rows_.means[sun.globe], on.doppler ? sight.D : 1);
     const double part = std::min(globes[sun.globe].radius_m / unit_m_ / sun.distance, 1.0);
-    const double factor
-        = std::exp2(mean.w) * (on.headlight ? physics::headlight(sight.D) : 1) * pi * part * part / (growth * growth) * left;
+    const double factor = (on.headlight ? physics::headlight(sight.D) : 1) * pi * part * part / (growth * growth) * left;
     constants.sun = glm::vec4(sight.n, std::asin(part) / growth / degree);
-    constants.sunlight = glm::vec4(glm::dvec3(mean) * (factor * constants.first.x), 0);
+    constants.sunlight = glm::vec4(mean * (factor * constants.first.x), 0);
 }
 
 } // namespace starbow

@@ -24,11 +24,11 @@ public:
         glm::dmat3 contraction; ///< of the world's axes
     };
     Seen seen(const EyeEvent& eye) const;
-    /// The distance of the nearest globe's ground, scene units.
-    double nearest(const EyeEvent& eye) const;
+    /// starbow::farthest_eye for the globes from the ship's place.
+    double farthest_eye(const Seen& seen) const { return starbow::farthest_eye(globes_->system, seen.globes, unit_m_); }
     /// The world's origin at a time from the Sun's middle, scene units, world axes.
     glm::dvec3 from_sun(double time) const { return world_from_equatorial_ * origin_.at(time * seconds_) / unit_m_; }
-    /// What the passes read of them.
+    /// The shaders' constants of the globes that one eye sees.
     shared::GlobeConstants constants(const Seen& seen, double pre_exposure) const;
     /// Adds the Sun's glare for an observer. motion_from_world: turn; E: e^rapidity.
     void add_glare(shared::GlobeConstants& constants, const Seen& seen, const glm::dmat3& motion_from_world, double E,

@@ -4,14 +4,6 @@
 #include <cstring>
 
 namespace starbow {
-namespace {
-
-/// The greatest angle, radians, between the ship's and an eye's direction of the nearest globe's ground: half a degree. An
-/// eye's muscles fuse two pictures that are a degree or two apart.
-constexpr double most_globe_parallax = 0.00873;
-
-} // namespace
-
 ViewDescriptors::ViewDescriptors(Device& device, const GpuWorld& world, const FrameState& state, ViewSet& views,
     const EyeCubes& eyes, const StarPass& stars)
     : device_(device)
@@ -133,13 +125,13 @@ void ViewDescriptors::write_globes(ViewState& view)
     if (!*view.globes.buffer)
         view.globes = make_mapped_buffer(device_, sizeof(shared::GlobeConstants), vk::BufferUsageFlagBits::eUniformBuffer);
     const RestFrameView& world = eyes_.observer_of(view).rest_frames[0];
-    // Eyes that a layout's hyper-stereo parts by a planet's width would see two planets.
+    GpuGlobes::Seen seen = world_.globes->seen(eye_event_of(world, 0, glm::dvec3(0)));
     glm::dvec3 place = views_.scene_units(view.cube_m + view.beside_m);
-    const double most = most_globe_parallax * world_.globes->nearest(eye_event_of(world, 0, glm::dvec3(0)));
-    if (const double away = glm::length(place); away > most)
+    const double away = glm::length(place), most = world_.globes->farthest_eye(seen);
+    if (away > most)
         place *= most / away;
-    const EyeEvent eye = eye_event_of(world, 0, place);
-    const GpuGlobes::Seen seen = world_.globes->seen(eye);
+    if (place != glm::dvec3(0))
+        seen = world_.globes->seen(eye_event_of(world, 0, place));
     shared::GlobeConstants constants = world_.globes->constants(seen, state_.pre_exposure);
     world_.globes->add_glare(constants, seen, world.motion_from_frame, world.E, eyes_.observer_of(view).shot.effects);
     std::memcpy(view.globes.mapped, &constants, sizeof constants);

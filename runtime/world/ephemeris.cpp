@@ -3,6 +3,7 @@
 #include "config/model/angles.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace starbow {
 namespace {
@@ -196,6 +197,15 @@ std::vector<SeenGlobe> globes_seen(const SolarSystem& system, const WorldOrigin&
     }
     std::sort(all.begin(), all.end(), [](const SeenGlobe& a, const SeenGlobe& b) { return a.distance > b.distance; });
     return all;
+}
+
+double farthest_eye(const SolarSystem& system, std::span<const SeenGlobe> seen, double unit_m)
+{
+    constexpr double most_parallax = 0.00873; // half a degree
+    double nearest = std::numeric_limits<double>::max();
+    for (const SeenGlobe& one : seen)
+        nearest = std::min(nearest, one.distance - system.globes[one.globe].radius_m / unit_m);
+    return most_parallax * std::max(nearest, 0.0);
 }
 
 } // namespace starbow

@@ -1,5 +1,6 @@
 #pragma once
 #include "config/model/solar_system.h"
+#include <span>
 
 namespace starbow {
 
@@ -48,5 +49,10 @@ struct EyeAmongGlobes {
     glm::dvec3 way{0}; ///< then: the direction of the ship's motion times its speed over light's
 };
 std::vector<SeenGlobe> globes_seen(const SolarSystem& system, const WorldOrigin& origin, const EyeAmongGlobes& eye);
+
+/// The greatest distance of an eye from the ship's place, scene units, at which the nearest globe's ground moves by half a
+/// degree. An eye's muscles fuse two pictures that are a degree or two apart; a layout's hyper-stereo may part two eyes by a
+/// planet's width. seen: from the ship's place.
+double farthest_eye(const SolarSystem& system, std::span<const SeenGlobe> seen, double unit_m);
 
 } // namespace starbow

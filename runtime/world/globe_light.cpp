@@ -147,6 +147,17 @@ std::vector<glm::vec4> globe_light(const GlobeRows& rows, const StandardObserver
     return texels;
 }
 
+glm::dvec3 globe_colour(std::span<const glm::vec4> texels, int row, double D)
+{
+    const double unclamped = (std::log2(D) - GLOBE_FIRST_LOG2_D) * GLOBE_PER_OCTAVE;
+    const double at = std::clamp(unclamped, 0.0, GLOBE_COLUMNS - 1.001);
+    const std::size_t texel = std::size_t(row) * GLOBE_COLUMNS + std::size_t(at);
+    const glm::dvec4 here = glm::mix(glm::dvec4(texels[texel]), glm::dvec4(texels[texel + 1]), at - std::floor(at));
+    // Beyond the table every tail falls as 1 / D^2.
+    const double beyond = std::exp2(std::min(0.0, (at - unclamped) / GLOBE_PER_OCTAVE));
+    return glm::dvec3(here) * (std::exp2(here.w) * beyond * beyond);
+}
+
 double phase_dimming(const Globe& globe, double phase_deg)
 {
     if (globe.scattering != Scattering::dusty)

@@ -21,6 +21,9 @@ GlobeRows globe_rows(const SolarSystem& system, std::span<const glm::dvec4> part
 /// Rows as a shader reads them, by log2 D (GLOBE_COLUMNS columns): Rec. 709 over a scale, and the scale's binary logarithm.
 std::vector<glm::vec4> globe_light(const GlobeRows& rows, const StandardObserver& observer);
 
+/// The colour of a row at D, as globes.glsl computes it.
+glm::dvec3 globe_colour(std::span<const glm::vec4> texels, int row, double D);
+
 /// The optical depth of the Earth's air from the ground upwards, which scatters light: Bodhaine and others, "On Rayleigh
 /// optical depth calculations", 1999, equation 30.
 double rayleigh_depth(double nm);

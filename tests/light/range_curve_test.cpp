@@ -93,7 +93,7 @@ TEST(RangeCurve, AViewThatFitsIsShownAsAnEyeSeesIt)
     for (double stops = -4; stops <= 2; stops += 0.25)
         EXPECT_NEAR(curve.at(stops), stops - 3, 0.01) << stops;
     EXPECT_NEAR(curve.stops(), curve.shown_stops(), 0.01);
-    // As near to it as the range allows.
+    // Beyond the range the curve stays at the range's end.
     EXPECT_NEAR(range_curve(view, {}, 9)->at(2), range_top, 0.01);
     EXPECT_NEAR(range_curve(view, {}, -9)->at(2), range_bottom + 5, 0.01);
     EXPECT_NEAR(range_curve(view, {}, -9)->at(-4), range_bottom, 0.05);

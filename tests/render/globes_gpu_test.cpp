@@ -328,32 +328,32 @@ void expect_close(const Errors& errors, const Subject& subject, const Speed& spe
     EXPECT_GT(errors.psnr, subject.psnr_dB) << name;
 }
 
-TEST(Globes, LightIsThatOfTheRaysOnADesk)
+/// Each chosen subject at each chosen speed on a display, by its name in front of theirs. layout_of: from a subject's field
+/// of view, degrees, as it is in flight.
+template <class LayoutOf> void expect_all_close(const std::string& display, std::size_t every, LayoutOf&& layout_of)
 {
     const std::vector<Subject> all = subjects();
     for (std::size_t i = 0; i < all.size(); ++i)
         for (std::size_t k = 0; k < std::size(speeds); ++k) {
-            const std::string name = std::string(all[i].name) + ", " + speeds[k].name;
-            if (!chosen(name, i, k))
+            const std::string name = display + all[i].name + ", " + speeds[k].name;
+            if (!chosen(name, i, k, every))
                 continue;
             const Taken taken = shot_of(all[i], speeds[k]);
-            const Layout layout = one_view(Planar{.fov_y_deg = shrunk(all[i].fov_deg, taken.D)}, {96, 72});
+            const Layout layout = layout_of(shrunk(all[i].fov_deg, taken.D));
             expect_close(compare(layout, taken.shot, all[i].samples, name), all[i], speeds[k], name);
         }
 }
 
+TEST(Globes, LightIsThatOfTheRaysOnADesk)
+{
+    expect_all_close("", 1, [](double fov_deg) { return one_view(Planar{.fov_y_deg = fov_deg}, {96, 72}); });
+}
+
 TEST(Globes, LightIsThatOfTheRaysInADome)
 {
-    const std::vector<Subject> all = subjects();
-    for (std::size_t i = 0; i < all.size(); ++i)
-        for (std::size_t k = 0; k < std::size(speeds); ++k) {
-            const std::string name = std::string("dome: ") + all[i].name + ", " + speeds[k].name;
-            if (!chosen(name, i, k, 3))
-                continue;
-            const Taken taken = shot_of(all[i], speeds[k]);
-            const Fisheye dome{.aperture_deg = std::min(1.2 * shrunk(all[i].fov_deg, taken.D), 180.0), .tilt_deg = 90};
-            expect_close(compare(one_view(dome, {72, 72}), taken.shot, all[i].samples, name), all[i], speeds[k], name);
-        }
+    expect_all_close("dome: ", 3, [](double fov_deg) {
+        return one_view(Fisheye{.aperture_deg = std::min(1.2 * fov_deg, 180.0), .tilt_deg = 90}, {72, 72});
+    });
 }
 
 /// The eyes of this layout are 9,750 km apart: each has its own view of a globe.
@@ -361,14 +361,7 @@ TEST(Globes, LightIsThatOfTheRaysForBothEyes)
 {
     Layout layout = load_layout(testing::source_dir() / "config/layouts/stereo.json");
     layout.outputs[0].size = {144, 54};
-    const std::vector<Subject> all = subjects();
-    for (std::size_t i = 0; i < all.size(); ++i)
-        for (std::size_t k = 0; k < std::size(speeds); ++k) {
-            const std::string name = std::string("stereo: ") + all[i].name + ", " + speeds[k].name;
-            if (!chosen(name, i, k, 4))
-                continue;
-            expect_close(compare(layout, shot_of(all[i], speeds[k]).shot, all[i].samples, name), all[i], speeds[k], name);
-        }
+    expect_all_close("stereo: ", 4, [&](double) { return layout; });
 }
 
 /// The two wrong pictures, and the right one without each effect.
