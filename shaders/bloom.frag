@@ -1,16 +1,25 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
-// One step of the glow: to half the size, or back to twice the size and mixed with the present picture. Each step's
+#include "physics/real.glsl"
+#include "tone.glsl"
+// One step of the glow: to half the size, or back to twice the size and mixed with the present picture. The first step takes
+// the light that is brighter than a level. Each step's
 // weights add up to 1, so that no light is created (filters of Bjorge, "Bandwidth-efficient rendering", 2015).
 
 layout(constant_id = 0) const bool UP = false;
+
+layout(constant_id = 1) const bool FIRST = false;
 
 layout(set = 0, binding = 0) uniform sampler2D picture;
 layout(push_constant) uniform Push { BloomPush push; };
 layout(location = 0) out vec4 spread;
 
-vec3 at(vec2 place) { return textureLod(picture, place, 0.0).rgb; }
+vec3 at(vec2 place)
+{
+    vec3 light = textureLod(picture, place, 0.0).rgb;
+    return FIRST ? brighter_than(light, push.part.y) : light;
+}
 
 void main()
 {

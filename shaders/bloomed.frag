@@ -19,7 +19,7 @@ void main()
     vec2 pixel = gl_FragCoord.xy - push.part.zw;
     vec4 light = texelFetch(picture, ivec2(pixel), 0);
     vec3 around = textureLod(glow, pixel * push.step.xy, 0.0).rgb;
-    vec3 all = mix(light.rgb, around, push.part.x);
+    vec3 all = light.rgb + push.part.x * (around - brighter_than(light.rgb, push.part.y));
     vec3 screen = light.a > 0.0 ? (RANGE ? tone_map_in_order(all) : tone_map(all)) : vec3(0.0);
     shown = vec4(DITHERED ? dithered_srgb(screen, ivec2(gl_FragCoord.xy)) : screen, 1.0);
 }

@@ -1,10 +1,10 @@
 // The place in a direction map that shows a star. Needs star.vert's inverse_map. A build with FLAT is for planar views.
 
 #ifdef FLAT
-bool find_in_map(vec3 way, int channel, bool second, out vec2 point, out float pixel_angle)
+bool find_in_map(vec3 way, int channel, bool second, out vec2 point, out vec2 angles)
 {
     point = vec2(0.0);
-    pixel_angle = 0.0;
+    angles = vec2(0.0);
     return false;
 }
 #else
@@ -62,9 +62,9 @@ ivec2 closest_to(vec3 n, ivec2 pixel, ivec2 size, int channel)
 
 // The point of the map (pixels from its corner) that shows n (the map's axes), by Newton's method from a pixel near it; a
 // spot beyond the picture's edge is extrapolated. Around a panorama's poles, a few pixels cover all azimuths: there the
-// method may diverge and restarts from the closest pixel. nearly: true accepts that pixel's own point. Returns false if
-// there is no such point.
-bool found_from(ivec2 pixel, vec3 n, int channel, bool nearly, out vec2 point, out float pixel_angle)
+// method may diverge and restarts from the closest pixel. nearly: true accepts that pixel's own point. angles: the pixel angle
+// there, and the root of the solid angle. Returns false if there is no such point.
+bool found_from(ivec2 pixel, vec3 n, int channel, bool nearly, out vec2 point, out vec2 angles)
 {
     ivec2 size = textureSize(direction_map, 0).xy;
     bool astray = false;
@@ -78,9 +78,11 @@ bool found_from(ivec2 pixel, vec3 n, int channel, bool nearly, out vec2 point, o
             return false;
         vec2 move = vec2(dot(cross(off, down), across), dot(cross(right, off), across)) / area_square;
         point = vec2(pixel) + 0.5 + move;
-        // The pixel angle is defined in direction_map.h.
-        float longest = max(dot(right, right), dot(down, down));
-        pixel_angle = sqrt(max(sqrt(area_square), 0.25 * longest));
+        // The pixel angle is defined in direction_map.h. The solid angle is the mean over the star's spot, which reaches over
+        // a panorama's pole, where a pixel's own is 0.
+        float longest = max(dot(right, right), dot(down, down)), across_pole = STAR_DEVIATION * longest * sqrt(longest);
+        angles.x = sqrt(max(sqrt(area_square), 0.25 * longest));
+        angles.y = sqrt(sqrt(area_square + across_pole * across_pole));
         float far = max(abs(move.x), abs(move.y));
         if (far <= 0.75)
             return true;
@@ -103,14 +105,14 @@ bool found_from(ivec2 pixel, vec3 n, int channel, bool nearly, out vec2 point, o
 }
 
 // star.vert's find. way: the map's axes.
-bool find_in_map(vec3 way, int channel, bool second, out vec2 point, out float pixel_angle)
+bool find_in_map(vec3 way, int channel, bool second, out vec2 point, out vec2 angles)
 {
     uvec4 begin = texelFetch(inverse_map, ivec3(cell_of(way, textureSize(inverse_map, 0).x), channel), 0);
     if (second && begin[1] == 0xffffffffu)
         return false;
     for (int nearly = 0; nearly < 2; ++nearly)
         for (int i = 0; i < 4 && begin[i] != 0xffffffffu; ++i) {
-            if (!found_from(ivec2(begin[i] & 0xffffu, begin[i] >> 16), way, channel, nearly > 0, point, pixel_angle))
+            if (!found_from(ivec2(begin[i] & 0xffffu, begin[i] >> 16), way, channel, nearly > 0, point, angles))
                 continue;
             if (!second)
                 return true;
@@ -124,7 +126,7 @@ bool find_in_map(vec3 way, int channel, bool second, out vec2 point, out float p
                 ivec2 from = k == -2 ? ivec2((pixel.x + size.x / 2) % size.x, pixel.y)
                     : k == -1        ? size - 1 - pixel
                                      : ivec2(begin[k] & 0xffffu, begin[k] >> 16);
-                if (found_from(from, way, channel, false, point, pixel_angle)
+                if (found_from(from, way, channel, false, point, angles)
                     && max(abs(point.x - first.x), abs(point.y - first.y)) > 2.0 * STAR_RADIUS)
                     return true;
             }

@@ -9,21 +9,19 @@
 layout(constant_id = 25) const bool RANGE = false; // w: luminance before the curve that shows everything at once
 layout(constant_id = 9) const bool HALVES = false; // the picture has 16 bits a number
 
-layout(location = 0) flat in vec2 centre;
+layout(location = 0) flat in vec3 centre; // z: solid angle of a pixel
 layout(location = 1) flat in vec3 light;
 layout(location = 2) flat in vec4 glare;
 layout(location = 0) out vec4 shown;
 
 void main()
 {
-    vec2 off = gl_FragCoord.xy - centre;
+    vec2 off = gl_FragCoord.xy - centre.xy;
     float square = dot(off, off), inside = max(1.0 - square / (STAR_RADIUS * STAR_RADIUS), 0.0);
     inside *= inside;
     float part = inside * inside / STAR_SPOT * glare.w;
-    if (!RANGE && glare.y > 0.0) {
-        float pixel = radians(glare.x);
-        part += max(glare_at(square * glare.x * glare.x + glare.y) - glare.z, 0.0) * pixel * pixel;
-    }
+    if (!RANGE && glare.y > 0.0)
+        part += max(glare_at(square * glare.x * glare.x + glare.y) - glare.z, 0.0) * centre.z;
     shown = vec4(light * part, RANGE ? glare.y * part : 1.0);
     if (HALVES) // must stay finite where bright stars meet; that light is white
         shown.rgb = clamp(shown.rgb, vec3(-16000.0), vec3(16000.0));

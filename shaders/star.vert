@@ -21,7 +21,7 @@ layout(set = 1, binding = 0) uniform Constants { StarConstants turn; };
 layout(set = 1, binding = 1) readonly buffer Stars { StarEntry stars[]; };
 layout(set = 1, binding = 2) uniform BlackBodies { vec4 black_bodies[STAR_STEPS]; };
 
-layout(location = 0) flat out vec2 centre; // pixels of the target; METERING_SAMPLES: x: the angle of a pixel, radians
+layout(location = 0) flat out vec3 centre; // pixels of the target; z: the solid angle of a pixel. METERING_SAMPLES: x: its root
 layout(location = 1) flat out vec3 light;  // of the whole star, spread over the solid angle of a pixel
 layout(location = 2) flat out vec4 glare;  // x: degrees of a pixel; y: square of the least angle, 0: none; z: level of its end;
                                            // w: the part of the light in the spot: neither glare nor shown as a disc
@@ -106,13 +106,14 @@ float find_glare(vec2 point, int channel, float pixel_angle, float disc)
 
 // Finds the point of the viewport (pixels from its corner) that shows n (motion axes). second: the second of two places. Where
 // a panorama's ends meet, and beyond its poles, a spot that the picture's edge cuts continues elsewhere.
-bool find(vec3 n, int channel, bool second, out vec2 point, out float pixel_angle)
+// angles: the pixel angle there, and the root of a pixel's solid angle.
+bool find(vec3 n, int channel, bool second, out vec2 point, out vec2 angles)
 {
     vec3 way = vec3(dot(view.row0.xyz, n), dot(view.row1.xyz, n), dot(view.row2.xyz, n));
     if (MAP)
-        return find_in_map(way, channel, second, point, pixel_angle);
+        return find_in_map(way, channel, second, point, angles);
     point = way.xy / way.z;
-    pixel_angle = view.row0.w * way.z * sqrt(way.z); // n = way.z M (point, 1): the pixel lies 1 / way.z away
+    angles = vec2(view.row0.w * way.z * sqrt(way.z)); // n = way.z M (point, 1): the pixel lies 1 / way.z away
     return way.z > 0.0;
 }
 
@@ -139,15 +140,15 @@ void main()
 
     gl_Position = vec4(2.0, 2.0, 0.0, 1.0); // outside
     gl_PointSize = 1.0;
-    centre = vec2(0.0);
+    centre = vec3(0.0);
     light = vec3(0.0);
     glare = vec4(0.0);
-    float pixel_angle;
-    vec2 size = view.zenith.zw, point;
+    vec2 size = view.zenith.zw, point, angles;
     float reach = view.row2.w > 0.0 ? STAR_REACH : STAR_RADIUS;
-    if (!find(sight.n, channel, second, point, pixel_angle) || any(lessThan(point, vec2(-reach)))
+    if (!find(sight.n, channel, second, point, angles) || any(lessThan(point, vec2(-reach)))
         || any(greaterThan(point, size + reach)))
         return;
+    float pixel_angle = angles.x;
     vec3 from_eye = in_cube_axes(n, world_rest_frame()), from_place = from_eye; // of the cube map
     if (REPROJECT)
         from_place = reprojected(from_place, eye_offset(sight.n, world_rest_frame()), world_angle(sight, sight.n, pixel_angle), world_rest_frame());
@@ -159,7 +160,7 @@ void main()
     float disc = 0.0;
     bool is_sun = false; // whose glare the warp pass adds
     glare.w = 1.0;
-    light = starlight(star, sight) * (view.boost.z / (pixel_angle * pixel_angle));
+    light = starlight(star, sight) * (view.boost.z / (angles.y * angles.y));
 #ifdef WITH_GLOBES
     int own = star.direction.w < 0.0 ? int(-1.0 - star.direction.w) : -1;
     light *= left_by_globes(from_eye, own);
@@ -172,7 +173,7 @@ void main()
     if (METERING_SAMPLES) {
         vec2 place = vec2(mod(float(gl_VertexIndex), view.corner.x), floor(float(gl_VertexIndex) / view.corner.x)) + 0.5;
         gl_Position = vec4(place / view.corner.xy * 2.0 - 1.0, 0.0, 1.0);
-        centre = vec2(pixel_angle, 0.0);
+        centre = vec3(angles.y, 0.0, 0.0);
         if (LAYERED) // fewer pixels of the picture show this star
             centre.x *= sqrt(part_of(ivec2(clamp(point, vec2(0.0), size - 1.0) + view.origin.xy)));
         return;
@@ -188,6 +189,6 @@ void main()
         glare.y = max(luminance_of(light), 0.0);
         light *= factor;
     }
-    centre = point + view.origin.xy;
+    centre = vec3(point + view.origin.xy, angles.y * angles.y);
     gl_Position = vec4((point + STAR_REACH) / (size + 2.0 * STAR_REACH) * 2.0 - 1.0, 0.0, 1.0);
 }

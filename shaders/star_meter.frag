@@ -4,7 +4,7 @@
 // A star's luminance sample for the exposure: it has its spot's middle luminance, and a solid angle with which its light
 // is the star's.
 
-layout(location = 0) flat in vec2 pixel; // x: its angle, radians
+layout(location = 0) flat in vec3 pixel; // x: the root of its solid angle
 layout(location = 1) flat in vec3 light; // of the whole star, spread over the solid angle of a pixel
 layout(location = 2) flat in vec4 glare; // w: the part of the light in the spot
 layout(location = 0) out vec2 metered;   // as meter.frag's

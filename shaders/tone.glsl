@@ -35,6 +35,13 @@ FN rvec3 tone_map(rvec3 light)
     return max(colour, rvec3(0.0)) * (shown / max(most, real(1e-30)));
 }
 
+// The part of the light that is brighter than a screen's white, or than any other level. A screen shows the rest itself.
+FN rvec3 brighter_than(rvec3 light, real level)
+{
+    real peak = max(light.x, max(light.y, light.z));
+    return light * (max(peak - level, real(0.0)) / max(peak, real(1e-30)));
+}
+
 FN real luminance_of(rvec3 light) { return dot(light, rvec3(0.2126, 0.7152, 0.0722)); } // Rec. 709
 
 // The same where the order of luminances must stay. The curve above shows a colour by its brightest channel, so that a

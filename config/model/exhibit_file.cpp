@@ -92,7 +92,8 @@ Exposing read_exposing(const Place& place)
             "leaves nothing between min_ev, " + shown(exposure.min_ev) + ", and max_ev, " + shown(exposure.max_ev)
                 + "; a min_ev that is no greater is right");
     }
-    take(place, "bloom", exposure.bloom, {0, 1});
+    if (auto p = find_member(place, "bloom"))
+        exposure.bloom = number(*p, {0, 1});
     return exposure;
 }
 

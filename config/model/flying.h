@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string_view>
@@ -24,6 +25,13 @@ struct Boundary {
 /// A box along the world's axes around a thing. Scene units.
 struct AlignedBox {
     glm::dvec3 low{0}, high{0};
+};
+
+/// A ball that no visitor flies into: a planet's ground. Its middle moves along a polynomial of the world's time over `span`;
+/// scene units.
+struct Solid {
+    double radius = 0, span = 1;
+    std::array<glm::dvec3, 6> path{}; ///< coefficients, the constant first
 };
 
 /// The flight that a world is made for: straight ahead from its start, with the throttle held open.
@@ -67,6 +75,7 @@ struct Flying {
     double rapidity_jerk_per_s2 = 15; ///< greatest change of that gain
     std::optional<Boundary> boundary{}; ///< the world's, where visitors shall not get lost
     std::optional<Pace> pace{}; ///< the world's, where a flight through it shall last its planned time
+    std::vector<Solid> solids{}; ///< of the world
     Comfort comfort{};
 };
 

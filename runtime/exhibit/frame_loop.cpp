@@ -247,7 +247,7 @@ std::unique_ptr<WarmUp> FrameLoop::warm_up_in(const Quality& quality)
         return in_room([&] {
             return std::make_unique<WarmUp>(device_, context_.pipelines, context_.world, session_.layout, quality,
                 session_.programme.start, screens_.format(), session_.options.exposure.automatic,
-                session_.options.exposure.bloom);
+                bloom_of(session_.options.exposure, device_.on_processor()));
         });
     } catch (const NoRoom&) {
         throw;
@@ -317,7 +317,7 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
     frame_->move_head(controls.head);
     frame_->meter(session_.options.exposure.automatic || session_.range);
     frame_->range(curve_of(session_));
-    frame_->bloom(session_.options.exposure.bloom);
+    frame_->bloom(bloom_of(session_.options.exposure, device_.on_processor()));
     frame_->fade(glm::smoothstep(0.0, 1.0, session_.black));
     const bool by_hand = visitor_flies(session_); // a tour's own motion may roll
     const Flight& flight = session_.flight;

@@ -13,7 +13,7 @@ ReplayRenderer::ReplayRenderer(
     , start_ev_(start_ev)
     , comfort_(comfort)
 {
-    renderer_.frame().bloom(exposing.bloom);
+    renderer_.frame().bloom(bloom_of(exposing, renderer_.on_processor()));
     renderer_.frame().show(pattern);
 }
 

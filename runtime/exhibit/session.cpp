@@ -159,9 +159,8 @@ Flying rules_in(const ExhibitOptions& options, Flying rules, const Programme& pr
 {
     // A record's rules have those of its first world.
     const bool bounded = options.visiting || options.rules.boundary, paced = options.paced_flight || options.rules.pace;
-    if (!bounded && !paced)
-        return rules;
     const SceneFile scene = load_scene_file(programme.scene);
+    rules.solids = solid_globes(scene);
     if (bounded)
         rules.boundary = scene.boundary;
     rules.pace.reset();

@@ -147,8 +147,8 @@ void count_visit(Session& session, double length_s);
 std::uint64_t digest(const Session& session);
 /// A recorder of the exhibit's flight from its start on. Throws InputError as Recorder does.
 std::unique_ptr<Recorder> recorder_of(const ExhibitOptions& options, const Flying& rules);
-/// The rules in a programme's world, which has a boundary where nobody attends to the visitors, and a pace where the exhibit
-/// has one.
+/// The rules in a programme's world, which has its globes' grounds, a boundary where nobody attends to the visitors, and a
+/// pace where the exhibit has one.
 Flying rules_in(const ExhibitOptions& options, Flying rules, const Programme& programme);
 /// The head tracker of a layout; null where it has none.
 std::unique_ptr<HeadTracker> tracker_of(const Layout& layout);

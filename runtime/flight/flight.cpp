@@ -3,6 +3,7 @@
 #include "comfort.h"
 #include "pace.h"
 #include "pilot.h"
+#include "solids.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,6 +25,7 @@ SpeedLimits limits_of(const Flight& flight, const Flying& rules, double seconds_
     SpeedLimits limits;
     if (rules.boundary)
         limits.rapidity = rapidity_within(*rules.boundary, flight.ship, rules, unit_s);
+    limits.rapidity = std::min(limits.rapidity, rapidity_above(rules.solids, flight.ship, rules, unit_s));
     if (rules.pace)
         limits.gain = paced_gain(*rules.pace, flight.ship, unit_s);
     return limits;
@@ -138,7 +140,8 @@ double fly_tick(
     if (push.stop)
         flight.ship = stopped(flight.ship);
     const double dtau = tick_s / shown_unit_s(flight, seconds_per_time_unit);
-    flight.ship = fly(flight.ship, push.rapidity / dtau, push.turn, dtau);
+    const glm::dvec3 before = flight.ship.position.total();
+    flight.ship = kept_outside(rules.solids, before, fly(flight.ship, push.rapidity / dtau, push.turn, dtau));
     return glm::length(push.turn);
 }
 

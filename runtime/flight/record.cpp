@@ -40,7 +40,7 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
     [[maybe_unused]] const auto& [key_pressed, key_held] = static_cast<const Touches&>(c); // not kept: a record is one visit
     [[maybe_unused]] const auto& [commands] = static_cast<const RemoteCommands&>(c);
     [[maybe_unused]] const auto& [mode, max_gamma, turn_deg_per_s, roll_deg_per_s, turn_jerk_deg_per_s3, rapidity_per_s,
-        rapidity_jerk_per_s2, boundary, pace, comfort]
+        rapidity_jerk_per_s2, boundary, pace, comfort, solids]
         = f;
     [[maybe_unused]] const auto& [no_roll, level_horizon, turn_steps_deg, vignette] = f.comfort;
     [[maybe_unused]] const auto& [elevation_deg, clear_deg, soft_deg, darkness] = *vignette;
@@ -169,11 +169,27 @@ Pace read_pace(const Place& place)
     return pace;
 }
 
+std::vector<Solid> read_solids(const Place& place)
+{
+    std::vector<Solid> solids;
+    for (const Place& one : items(place, 0, 100, "solid balls")) {
+        reject_unknown_members(one, {"radius", "span", "path"});
+        Solid& solid = solids.emplace_back();
+        solid.radius = number(member(one, "radius"), {0, 1e15});
+        solid.span = number(member(one, "span"), {0, 1e15, true});
+        const std::vector<Place> path
+            = items(member(one, "path"), solid.path.size(), solid.path.size(), "points (a polynomial's coefficients)");
+        for (std::size_t k = 0; k < path.size(); ++k)
+            solid.path[k] = vec3(path[k], any_place);
+    }
+    return solids;
+}
+
 Flying read_rules(const Place& place)
 {
     reject_unknown_members(place,
         {"mode", "max_gamma", "turn_deg_per_s", "roll_deg_per_s", "turn_jerk_deg_per_s3", "rapidity_per_s",
-            "rapidity_jerk_per_s2", "boundary", "pace", "comfort"});
+            "rapidity_jerk_per_s2", "boundary", "pace", "solids", "comfort"});
     Flying rules;
     if (auto p = find_member(place, "comfort"))
         rules.comfort = read_comfort(*p);
@@ -185,6 +201,8 @@ Flying read_rules(const Place& place)
         take(*p, "centre", boundary.centre, any_place);
         take(*p, "radius", boundary.radius, {0, 1e15});
     }
+    if (auto p = find_member(place, "solids"))
+        rules.solids = read_solids(*p);
     rules.mode = chosen(member(place, "mode"), flight_modes);
     constexpr Range any{0, 1e9};
     take(place, "max_gamma", rules.max_gamma, {1, 1e9, true});
@@ -323,11 +341,18 @@ std::string text_of(const RecordHeader& header)
         for (const auto& [low, high] : rules.pace->things)
             pace["things"].push_back({low.x, low.y, low.z, high.x, high.y, high.z});
     }
+    for (const Solid& solid : rules.solids) {
+        Json& one = json["flying"]["solids"].emplace_back(Json{{"radius", solid.radius}, {"span", solid.span}});
+        for (const glm::dvec3& at : solid.path)
+            one["path"].push_back(components(at));
+    }
     json["flying"]["comfort"] = json_of(rules.comfort);
     if (json["flying"]["comfort"].empty())
         json["flying"].erase("comfort");
     json["exposure"] = {{"automatic", header.exposing.automatic}, {"min_ev", header.exposing.min_ev},
-        {"max_ev", header.exposing.max_ev}, {"bloom", header.exposing.bloom}};
+        {"max_ev", header.exposing.max_ev}};
+    if (header.exposing.bloom)
+        json["exposure"]["bloom"] = *header.exposing.bloom;
     if (header.exposing.mode != ExposureMode::eye)
         json["exposure"]["mode"] = name_of(header.exposing.mode);
     if (header.exposing.calm)

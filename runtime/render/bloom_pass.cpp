@@ -62,24 +62,24 @@ Target BloomPass::light() const
 
 void BloomPass::begin(vk::CommandBuffer commands) const { to_draw(commands, pictures_.front(), false); }
 
-void BloomPass::spread(vk::CommandBuffer commands) const
+void BloomPass::spread(vk::CommandBuffer commands, double above) const
 {
     to_read(commands, pictures_.front());
     for (std::size_t i = 1; i < pictures_.size(); ++i) {
         to_draw(commands, pictures_[i], false);
-        step(commands, i - 1, i, 0);
+        step(commands, i - 1, i, 0, above);
         to_read(commands, pictures_[i]);
     }
     // The sum of n smaller pictures counts n times, the picture itself once: each octave keeps the same share.
     for (std::size_t i = pictures_.size() - 1; i > 1; --i) {
         const double smaller = double(pictures_.size() - i);
         to_draw(commands, pictures_[i - 1], true);
-        step(commands, i, i - 1, smaller / (smaller + 1));
+        step(commands, i, i - 1, smaller / (smaller + 1), above);
         to_read(commands, pictures_[i - 1]);
     }
 }
 
-void BloomPass::step(vk::CommandBuffer commands, std::size_t from, std::size_t to, double part) const
+void BloomPass::step(vk::CommandBuffer commands, std::size_t from, std::size_t to, double part, double above) const
 {
     const vk::Extent2D &source = pictures_[from].extent, &target = pictures_[to].extent;
     const bool up = to < from;
@@ -88,10 +88,10 @@ void BloomPass::step(vk::CommandBuffer commands, std::size_t from, std::size_t t
     shared::BloomPush push{};
     push.step = glm::vec4(1.0f / target.width, 1.0f / target.height, 0, 0);
     push.texel = glm::vec4(1.0f / source.width, 1.0f / source.height, 0, 0);
-    push.part = glm::vec4(part, 0, 0, 0);
+    push.part = glm::vec4(part, above, 0, 0);
     device_.begin_rendering(commands, {{}, {{0, 0}, target}, 1, 0, colour});
     set_area(commands, {0, 0}, {int(target.width), int(target.height)});
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.bloom(up));
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.bloom(up, from == 0));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *sets_[from], {});
     commands.pushConstants<shared::BloomPush>(
         *pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, push);
@@ -99,11 +99,11 @@ void BloomPass::step(vk::CommandBuffer commands, std::size_t from, std::size_t t
     device_.end_rendering(commands);
 }
 
-void BloomPass::show(vk::CommandBuffer commands, glm::ivec2 corner, double part, bool range, vk::Format target) const
+void BloomPass::show(vk::CommandBuffer commands, glm::ivec2 corner, double part, double above, bool range, vk::Format target) const
 {
     shared::BloomPush push{};
     push.step = glm::vec4(1.0f / size_.x, 1.0f / size_.y, 0, 0);
-    push.part = glm::vec4(part, 0, corner);
+    push.part = glm::vec4(part, above, corner);
     set_area(commands, corner, size_);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.bloomed(range, target));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *sets_.front(), {});

@@ -15,16 +15,16 @@ public:
     /// The target that the viewport's light is drawn into; in eColorAttachmentOptimal after begin().
     Target light() const;
     void begin(vk::CommandBuffer commands) const;
-    /// Spreads the light over the copies. Call it outside any rendering.
-    void spread(vk::CommandBuffer commands) const;
-    /// Draws the light, `part` of it spread, inside the rendering of a target, with its top left pixel at `corner`.
+    /// Spreads the light that is brighter than a level over the copies. Call it outside any rendering.
+    void spread(vk::CommandBuffer commands, double above) const;
+    /// Draws the light, with `part` of what is brighter than that level spread, inside the rendering of a target, with its top left pixel at `corner`.
     /// range: the light went through the curve that shows everything at once.
-    void show(vk::CommandBuffer commands, glm::ivec2 corner, double part, bool range, vk::Format target) const;
+    void show(vk::CommandBuffer commands, glm::ivec2 corner, double part, double above, bool range, vk::Format target) const;
 
     vk::DeviceSize memory() const;
 
 private:
-    void step(vk::CommandBuffer commands, std::size_t from, std::size_t to, double part) const;
+    void step(vk::CommandBuffer commands, std::size_t from, std::size_t to, double part, double above) const;
 
     Device& device_;
     Pipelines& pipelines_;

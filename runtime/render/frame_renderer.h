@@ -57,7 +57,7 @@ public:
     void count_all_light(bool on) { counts_all_light_ = on; }
     void show(Pattern pattern) { state_.pattern = pattern; }
     /// part: share of the light that glows around bright things, 0 to 1. At 0 the pass takes no time and no memory.
-    void bloom(double part) { state_.bloom = part; }
+    void bloom(double part, double above = 1) { state_.bloom = part, state_.bloom_above = above; }
     /// part: of black over the finished picture, 0 to 1. At 0 the pass takes no time.
     void fade(double part) { state_.fade = part; }
     /// part: of the vignette that is seen, 0 to 1. At 0 the pass takes no time. It darkens the world alone: instruments and

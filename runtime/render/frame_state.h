@@ -23,7 +23,8 @@ struct FrameState {
     bool keeps_depth = false; ///< the cube map's depth is read after its pass
     bool repeatable = false; ///< equal shots have equal bytes, whatever was drawn before
     Pattern pattern = Pattern::none;
-    double bloom = 0; ///< the part of the light that glows around bright things, 0 to 1
+    double bloom = 0; ///< the part, 0 to 1, that glows around bright things
+    double bloom_above = 1; ///< of the light brighter than this; a screen's white is 1
     double fade = 0; ///< the part of black over the finished picture, 0 to 1
     Vignette vignette;
     double vignette_part = 0; ///< that is seen, 0 to 1

@@ -30,6 +30,7 @@ public:
     std::vector<Probed> probed(const Shot& shot);
 
     const Layout& layout() const { return layout_; }
+    bool on_processor() const { return device_.on_processor(); }
     FrameRenderer& frame() { return frame_; }
     Target target(std::size_t output) const;
 

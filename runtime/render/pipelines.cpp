@@ -322,14 +322,14 @@ vk::Pipeline Pipelines::star_meter(const WarpVariant& v)
         .points = true});
 }
 
-vk::Pipeline Pipelines::bloom(bool up)
+vk::Pipeline Pipelines::bloom(bool up, bool first)
 {
     return find_or_make({.name = "bloom pipeline",
         .vertex = screen_vert,
         .fragment = bloom_frag,
         .layout = *layouts.picture_layout,
         .target = {{light_format}},
-        .constants = {up},
+        .constants = {up, first},
         .blend = up});
 }
 

@@ -156,7 +156,8 @@ public:
     vk::Pipeline mip(vk::Format target); ///< MipChain's
     vk::Pipeline meter(const WarpVariant& variant);
     vk::Pipeline star_meter(const WarpVariant& variant);
-    vk::Pipeline bloom(bool up);
+    /// first: from the light itself.
+    vk::Pipeline bloom(bool up, bool first);
     /// range: the light went through the curve that shows everything at once.
     vk::Pipeline bloomed(bool range, vk::Format target);
     /// scale: with the colours of a scale beside its letters.

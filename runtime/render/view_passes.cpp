@@ -214,7 +214,7 @@ void ViewPasses::bloom_view(vk::CommandBuffer commands, const ViewState& view)
     linear.range = state_.range.has_value();
     draw_warp(commands, view, pipelines_.warp(linear, light.format), constants, {0, 0}, view.geometry().size);
     device_.end_rendering(commands);
-    view.bloom->spread(commands);
+    view.bloom->spread(commands, state_.bloom_above);
 }
 
 void ViewPasses::pattern_view(vk::CommandBuffer commands, const ViewState& view, vk::Format format)
@@ -262,7 +262,8 @@ void ViewPasses::warp_layer(vk::CommandBuffer commands, std::size_t output, std:
             if (state_.pattern != Pattern::none)
                 pattern_view(commands, view, target.format);
             else if (glows)
-                view.bloom->show(commands, view.geometry().corner, state_.bloom, state_.range.has_value(), target.format);
+                view.bloom->show(
+                    commands, view.geometry().corner, state_.bloom, state_.bloom_above, state_.range.has_value(), target.format);
             else
                 draw_lit(commands, view, target.format);
         }

@@ -1,9 +1,13 @@
 #include "surroundings.h"
 #include "config/json/error.h"
+#include "ephemeris.h"
 #include "gltf/parts.h"
+#include "stars.h"
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 
 namespace starbow {
@@ -102,7 +106,47 @@ std::vector<AlignedBox> things_at_rest(const SceneFile& scene)
         if (node.mesh >= 0 && !is_nothing(meshes[std::size_t(node.mesh)]))
             things.push_back(transformed(meshes[std::size_t(node.mesh)], world_from_local));
     }
+    for (const Solid& globe : solid_globes(scene))
+        things.push_back({globe.path[0] - globe.radius, globe.path[0] + globe.radius});
     return things.size() > most_things ? merged(things) : things;
+}
+
+std::vector<Solid> solid_globes(const SceneFile& scene)
+{
+    std::vector<Solid> solids;
+    if (!scene.globes)
+        return solids;
+    // Hills are lower, and the polynomial's error is smaller, than this part of a planet's radius.
+    constexpr double above_ground = 1.0005;
+    constexpr double days = 2;
+    const SolarSystem system = load_solar_system(scene.globes->file);
+    const WorldOrigin origin = world_origin(system, *scene.globes);
+    const glm::dmat3 turn = world_from_equatorial(scene.stars ? scene.stars->ahead_deg : glm::dvec2(0));
+    constexpr std::size_t count = std::tuple_size_v<decltype(Solid::path)>;
+    std::array<double, count> at{}; // Chebyshev nodes of 0 to 1
+    std::vector<std::array<glm::dvec3, count>> differences(system.globes.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        at[i] = 0.5 - 0.5 * std::cos(std::numbers::pi * (double(i) + 0.5) / count);
+        const std::vector<glm::dvec3> places = globe_places_m(system, origin.days + days * at[i]);
+        for (std::size_t globe = 0; globe < places.size(); ++globe)
+            differences[globe][i] = turn * ((places[globe] - origin.at(days * 86400 * at[i])) / scene.unit_m);
+    }
+    for (std::size_t globe = 0; globe < differences.size(); ++globe) {
+        auto& newton = differences[globe];
+        for (std::size_t order = 1; order < count; ++order)
+            for (std::size_t i = count; i-- > order;)
+                newton[i] = (newton[i] - newton[i - 1]) / (at[i] - at[i - order]);
+        Solid& solid = solids.emplace_back();
+        solid.radius = above_ground * system.globes[globe].radius_m / scene.unit_m;
+        solid.span = days * 86400 / scene.seconds_per_time_unit();
+        // Newton's form into powers, from the innermost bracket outwards.
+        for (std::size_t k = count; k-- > 0;) {
+            for (std::size_t power = count; power-- > 1;)
+                solid.path[power] = solid.path[power - 1] - at[k] * solid.path[power];
+            solid.path[0] = newton[k] - at[k] * solid.path[0];
+        }
+    }
+    return solids;
 }
 
 } // namespace starbow

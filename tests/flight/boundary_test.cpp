@@ -30,6 +30,8 @@ struct Pilot {
     {
         rules.mode = mode;
         rules.boundary = scene.boundary;
+        // So large a world that light crosses it in more than 100 seconds on board at that gamma needs a greater one.
+        rules.max_gamma = std::max(rules.max_gamma, scene.boundary->radius * scene.seconds_per_time_unit() / 10);
         flight = flight_at(scene.start, rules);
     }
     void frame(const Controls& controls)

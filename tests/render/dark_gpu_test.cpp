@@ -31,7 +31,7 @@ double texels(OffscreenRenderer& offscreen)
 void expect_the_same_picture(const Layout& layout, const Shot& shot, double bloom, const std::string& name)
 {
     OffscreenRenderer offscreen(device(), pipelines(), avenue().world, layout, unlimited(), false);
-    offscreen.frame().bloom(bloom);
+    offscreen.frame().bloom(bloom, 0);
     const auto pictures = offscreen.picture(shot);
     const double with = texels(offscreen);
     offscreen.frame().count_all_light(true);

@@ -430,7 +430,7 @@ TEST(Bloom, MovesLightAndMakesNone)
         layout.outputs[0].colour.gamma = 1; // bytes are proportional to light, and dithered: their sum is the light's sum
         OffscreenRenderer offscreen = renderer(world, layout, false);
         auto bytes = [&](double part) {
-            offscreen.frame().bloom(part);
+            offscreen.frame().bloom(part, 0);
             return offscreen.picture(shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1})).front();
         };
         auto sum = [&](const std::vector<std::uint8_t>& picture) {
@@ -482,7 +482,7 @@ TEST(Bloom, LeavesAnEvenViewAsItIs)
     for (const Projection& projection : {Projection(Planar{60}), Projection(Fisheye{180, 90})}) {
         OffscreenRenderer offscreen = renderer(world, one_view(projection, {128, 128}), false);
         const auto sharp = offscreen.picture(flown(1)).front();
-        offscreen.frame().bloom(0.4);
+        offscreen.frame().bloom(0.4, 0);
         const auto glowing = offscreen.picture(flown(1)).front();
         for (int i = 0; i < 128 * 128; ++i)
             for (int k = 0; k < 3; ++k) {
@@ -498,6 +498,31 @@ TEST(Bloom, LeavesAnEvenViewAsItIs)
     }
 }
 
+// A screen shows light up to its white by itself, so only what is brighter glows: as much as that part alone would.
+TEST(Bloom, OnlyWhatIsBrighterThanTheScreenGlows)
+{
+    const GpuWorld world = lamp_in_the_dark(); // of light 0.7
+    OffscreenRenderer offscreen = renderer(world, one_view(Planar{60}, {256, 256}), false);
+    const auto bytes = [&](double ev, double part, double above) {
+        offscreen.frame().bloom(part, above);
+        Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
+        shot.exposure_ev = ev;
+        return offscreen.picture(shot).front();
+    };
+    EXPECT_EQ(bytes(0, 0.5, 1), bytes(0, 0, 1));
+    // A lamp of light 11.2 has 10.2 above white; alone these are log2(10.2 / 0.7) EV.
+    const auto shown = bytes(4, 0.1, 1), alone = bytes(std::log2(10.2 / 0.7), 0.1, 0), sharp = bytes(4, 0, 1);
+    int around = 0;
+    for (std::size_t i = 0; i < shown.size(); i += 4)
+        if (sharp[i] == 0) {
+            ASSERT_NEAR(shown[i], alone[i], 2) << i / 4; // fp16's rounding, twice
+            around += shown[i] > 20;
+        } else {
+            ASSERT_NEAR(shown[i], sharp[i], 6) << i / 4;
+        }
+    EXPECT_GT(around, 2000);
+}
+
 TEST(Bloom, EndsAtTheViewportsEdge)
 {
     const GpuWorld world = lamp_in_the_dark();
@@ -505,7 +530,7 @@ TEST(Bloom, EndsAtTheViewportsEdge)
     layout.outputs[0].viewports = {{.rect = {0, 0, 0.5, 1}, .projection = Planar{10}},
         {.rect = {0.5, 0, 0.5, 1}, .projection = Planar{60, {}, {90, 0, 0}}}};
     OffscreenRenderer offscreen = renderer(world, layout, false);
-    offscreen.frame().bloom(1);
+    offscreen.frame().bloom(1, 0);
     const auto bytes = offscreen.picture(shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1})).front();
     for (int i = 0; i < 256 * 128; ++i)
         for (int k = 0; k < 3; ++k) {

@@ -15,8 +15,7 @@ namespace {
 
 std::filesystem::path scene_file()
 {
-    const auto at = testing::source_dir() / "config/scenes/solar-system.json";
-    return std::filesystem::exists(at) ? at : testing::source_dir() / "scenes/solar-system/solar-system.json";
+    return testing::source_dir() / "config/scenes/solar-system.json";
 }
 
 /// The time of most pictures, in the scene's seconds: after the eclipse, midnight over Europe and Africa.

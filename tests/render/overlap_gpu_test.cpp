@@ -130,7 +130,7 @@ TEST(Overlap, AnOpaqueInsetAndItsSurroundingsArePicturesOfTheirOwn)
         std::function<void(FrameRenderer&)> with;
     };
     const Case cases[] = {{"stars", nullptr, [](FrameRenderer&) {}}, {"head-up display", &panel, [](FrameRenderer&) {}},
-        {"glow", nullptr, [](FrameRenderer& frame) { frame.bloom(0.4); }},
+        {"glow", nullptr, [](FrameRenderer& frame) { frame.bloom(0.4, 0); }},
         {"overlay", nullptr,
             [&](FrameRenderer& frame) {
                 frame.measure(Measuring{.over = {Overlay::ring, {}, scale}});

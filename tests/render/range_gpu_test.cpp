@@ -246,9 +246,9 @@ TEST(RangePicture, GlowSpreadsTheShownLight)
         return sum / (0.75 * double(picture.size()));
     };
     const Picture without = ranged(offscreen, shot).front();
-    offscreen.frame().bloom(1e-4);
+    offscreen.frame().bloom(1e-4, 0);
     const Picture least = ranged(offscreen, shot).front();
-    offscreen.frame().bloom(0.3);
+    offscreen.frame().bloom(0.3, 0);
     const Picture strong = ranged(offscreen, shot).front();
     int off = 0;
     for (std::size_t i = 0; i < without.size(); ++i)

@@ -143,7 +143,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
                             ->check(CLI::IsMember({"eye", "range"}))
                             ->capture_default_str();
     CLI::Option* bloom
-        = command->add_option("--bloom", options->bloom, "The share of the light that glows around bright things, 0 to 1")
+        = command->add_option("--bloom", options->bloom, "The share of the light brighter than the screen's white that glows around it, 0 to 1")
               ->check(CLI::Range(0.0, 1.0))
               ->capture_default_str();
     CLI::Option* spectra = add_spectra(*command, options->spectra);
