@@ -80,7 +80,7 @@ bool found_from(ivec2 pixel, vec3 n, int channel, bool nearly, out vec2 point, o
         point = vec2(pixel) + 0.5 + move;
         // The pixel angle is defined in direction_map.h. The solid angle is the mean over the star's spot, which reaches over
         // a panorama's pole, where a pixel's own is 0.
-        float longest = max(dot(right, right), dot(down, down)), across_pole = STAR_DEVIATION * longest * sqrt(longest);
+        float longest = max(dot(right, right), dot(down, down)), across_pole = STAR_BEYOND_POLE * longest * sqrt(longest);
         angles.x = sqrt(max(sqrt(area_square), 0.25 * longest));
         angles.y = sqrt(sqrt(area_square + across_pole * across_pole));
         float far = max(abs(move.x), abs(move.y));

@@ -40,7 +40,8 @@
     769 // 12 octaves: to 2 million K; beyond, a black body's visible light grows linearly with its temperature
 #define STAR_RADIUS 2.0 // radius of a star's spot, pixels
 #define STAR_SPOT (3.14159265 * STAR_RADIUS * STAR_RADIUS / 5.0) // the integral of (1 - r^2 / R^2)^4, pixels
-#define STAR_DEVIATION 0.577 // of the light of a spot along one axis, pixels: STAR_RADIUS / sqrt(12)
+#define STAR_BEYOND_POLE 0.18 // pixels: a spot reaches over a pole by STAR_RADIUS / sqrt(12), and a whole sphere's rim in a
+                              // circle narrows by a pi-th of that
 #define STAR_REACH 96.0 // greatest radius of a star's glare, pixels: a device draws points of twice the size
 #define GLARE_LEAST 0.1 // degrees; nearer, light is the star's own spot, as is all light within a pixel
 #define GLARE_MOST 3.0 // degrees; farther, glare is left out

@@ -27,8 +27,8 @@ struct AlignedBox {
     glm::dvec3 low{0}, high{0};
 };
 
-/// A ball that no visitor flies into: a planet's ground. Its middle moves along a polynomial of the world's time over `span`;
-/// scene units.
+/// A ball that no visitor flies into: a planet's ground. Its middle moves along a polynomial of the world's time over
+/// `span`; scene units.
 struct Solid {
     double radius = 0, span = 1;
     std::array<glm::dvec3, 6> path{}; ///< coefficients, the constant first

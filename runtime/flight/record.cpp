@@ -349,8 +349,8 @@ std::string text_of(const RecordHeader& header)
     json["flying"]["comfort"] = json_of(rules.comfort);
     if (json["flying"]["comfort"].empty())
         json["flying"].erase("comfort");
-    json["exposure"] = {{"automatic", header.exposing.automatic}, {"min_ev", header.exposing.min_ev},
-        {"max_ev", header.exposing.max_ev}};
+    json["exposure"]
+        = {{"automatic", header.exposing.automatic}, {"min_ev", header.exposing.min_ev}, {"max_ev", header.exposing.max_ev}};
     if (header.exposing.bloom)
         json["exposure"]["bloom"] = *header.exposing.bloom;
     if (header.exposing.mode != ExposureMode::eye)

@@ -99,7 +99,8 @@ void BloomPass::step(vk::CommandBuffer commands, std::size_t from, std::size_t t
     device_.end_rendering(commands);
 }
 
-void BloomPass::show(vk::CommandBuffer commands, glm::ivec2 corner, double part, double above, bool range, vk::Format target) const
+void BloomPass::show(
+    vk::CommandBuffer commands, glm::ivec2 corner, double part, double above, bool range, vk::Format target) const
 {
     shared::BloomPush push{};
     push.step = glm::vec4(1.0f / size_.x, 1.0f / size_.y, 0, 0);

@@ -17,8 +17,8 @@ public:
     void begin(vk::CommandBuffer commands) const;
     /// Spreads the light that is brighter than a level over the copies. Call it outside any rendering.
     void spread(vk::CommandBuffer commands, double above) const;
-    /// Draws the light, with `part` of what is brighter than that level spread, inside the rendering of a target, with its top left pixel at `corner`.
-    /// range: the light went through the curve that shows everything at once.
+    /// Draws the light, with `part` of what is brighter than that level spread, inside the rendering of a target, with its
+    /// top left pixel at `corner`. range: the light went through the curve that shows everything at once.
     void show(vk::CommandBuffer commands, glm::ivec2 corner, double part, double above, bool range, vk::Format target) const;
 
     vk::DeviceSize memory() const;

@@ -262,8 +262,8 @@ void ViewPasses::warp_layer(vk::CommandBuffer commands, std::size_t output, std:
             if (state_.pattern != Pattern::none)
                 pattern_view(commands, view, target.format);
             else if (glows)
-                view.bloom->show(
-                    commands, view.geometry().corner, state_.bloom, state_.bloom_above, state_.range.has_value(), target.format);
+                view.bloom->show(commands, view.geometry().corner, state_.bloom, state_.bloom_above,
+                    state_.range.has_value(), target.format);
             else
                 draw_lit(commands, view, target.format);
         }

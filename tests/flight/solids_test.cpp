@@ -26,8 +26,7 @@ double height(const std::vector<Solid>& solids, const Ship& ship)
 {
     double least = 1e300;
     for (const Solid& solid : solids)
-        least = std::min(least,
-            glm::distance(place_of(solid, ship.time.total()), ship.position.total()) / solid.radius - 1);
+        least = std::min(least, glm::distance(place_of(solid, ship.time.total()), ship.position.total()) / solid.radius - 1);
     return least;
 }
 

@@ -13,10 +13,7 @@
 namespace starbow::gpu_test::globes_gpu_test {
 namespace {
 
-std::filesystem::path scene_file()
-{
-    return testing::source_dir() / "config/scenes/solar-system.json";
-}
+std::filesystem::path scene_file() { return testing::source_dir() / "config/scenes/solar-system.json"; }
 
 /// The time of most pictures, in the scene's seconds: after the eclipse, midnight over Europe and Africa.
 constexpr double later = 6 * 3600;

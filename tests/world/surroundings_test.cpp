@@ -1,5 +1,7 @@
 // The boxes around a world's resting things, against the whole world as it is drawn.
 #include "config/model/shipped.h"
+#include "runtime/world/ephemeris.h"
+#include "runtime/world/stars.h"
 #include "runtime/world/surroundings.h"
 #include "runtime/world/world.h"
 #include "tests/support/files.h"
@@ -36,6 +38,16 @@ TEST(SurroundingsTest, EveryRestingVertexIsInABoxAndEveryBoxHasOneOnEachSide)
         const World world = load_world(scene);
         constexpr double rounding = 1e-4;
         std::vector<AlignedBox> touched(things.size(), {glm::dvec3(1e300), glm::dvec3(-1e300)});
+        const auto touch = [&](const glm::dvec3& at) {
+            bool inside = false;
+            for (std::size_t k = 0; k < things.size(); ++k)
+                if (glm::all(glm::greaterThan(at, things[k].low - rounding * (1.0 + glm::abs(at))))
+                    && glm::all(glm::lessThan(at, things[k].high + rounding * (1.0 + glm::abs(at))))) {
+                    inside = true;
+                    touched[k].low = glm::min(touched[k].low, at), touched[k].high = glm::max(touched[k].high, at);
+                }
+            return inside;
+        };
         for (const Instance& instance : world.instances) {
             if (instance.motion >= 0 || moves(world, scene, instance.node))
                 continue;
@@ -44,15 +56,20 @@ TEST(SurroundingsTest, EveryRestingVertexIsInABoxAndEveryBoxHasOneOnEachSide)
                 const Vertex& vertex = world.vertices[std::size_t(
                     std::int64_t(world.indices[primitive.first_index + i]) + primitive.vertex_offset)];
                 const glm::dvec3 at = instance.frame_from_local * glm::dvec4(glm::dvec3(vertex.position), 1);
-                bool inside = false;
-                for (std::size_t k = 0; k < things.size(); ++k)
-                    if (glm::all(glm::greaterThan(at, things[k].low - rounding * (1.0 + glm::abs(at))))
-                        && glm::all(glm::lessThan(at, things[k].high + rounding * (1.0 + glm::abs(at))))) {
-                        inside = true;
-                        touched[k].low = glm::min(touched[k].low, at), touched[k].high = glm::max(touched[k].high, at);
-                    }
-                ASSERT_TRUE(inside) << at.x << " " << at.y << " " << at.z;
+                ASSERT_TRUE(touch(at)) << at.x << " " << at.y << " " << at.z;
             }
+        }
+        if (world.globes) { // whose places at the scene's time 0 are the ephemeris's
+            const WorldOrigin origin = world_origin(world.globes->system, scene.globes.value());
+            const std::vector<glm::dvec3> places = globe_places_m(world.globes->system, origin.days);
+            for (std::size_t i = 0; i < places.size(); ++i)
+                for (int axis = 0; axis < 6; ++axis) {
+                    glm::dvec3 way(0);
+                    way[axis % 3] = axis < 3 ? 1 : -1;
+                    EXPECT_TRUE(touch((world_from_equatorial(scene.stars->ahead_deg) * (places[i] - origin.place_m)
+                                          + way * world.globes->system.globes[i].radius_m)
+                        / scene.unit_m));
+                }
         }
         int loose = 0;
         for (std::size_t k = 0; k < things.size(); ++k)
