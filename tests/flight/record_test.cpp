@@ -120,6 +120,9 @@ RecordHeader some_header()
     header.rules.boundary = {{0.1, 0, 1.0 / 3}, 1e12};
     header.rules.comfort = {.no_roll = true, .level_horizon = true, .vignette = Vignette{-0.1, 1.0 / 3, 7, 0.7}};
     header.rules.pace = {1.0 / 7, 0.3, {{{-1, -0.1, 0}, {1, 2, 1.0 / 3}}, {{5, 5, 5}, {6, 6, 6}}}};
+    header.rules.solids = {{.radius = 0.7, .span = 86400}, {.radius = 1.0 / 3, .span = 5}};
+    for (std::size_t k = 0; k < header.rules.solids[1].path.size(); ++k)
+        header.rules.solids[1].path[k] = glm::dvec3(1, -0.1, 1.0 / 3) / (1.0 + double(k));
     return header;
 }
 
@@ -201,6 +204,10 @@ TEST(Record, TheHeaderIsReadBackToTheBit)
     ASSERT_EQ(read.rules.pace->things.size(), 2u);
     EXPECT_EQ(read.rules.pace->things[0].high, header.rules.pace->things[0].high);
     EXPECT_EQ(read.rules.pace->things[1].low, header.rules.pace->things[1].low);
+    ASSERT_EQ(read.rules.solids.size(), 2u);
+    EXPECT_EQ(read.rules.solids[1].radius, header.rules.solids[1].radius);
+    EXPECT_EQ(read.rules.solids[1].span, header.rules.solids[1].span);
+    EXPECT_EQ(read.rules.solids[1].path, header.rules.solids[1].path);
     ASSERT_TRUE(read.rules.boundary);
     EXPECT_EQ(read.rules.boundary->centre, header.rules.boundary->centre);
     EXPECT_EQ(read.rules.boundary->radius, header.rules.boundary->radius);
