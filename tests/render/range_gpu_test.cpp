@@ -115,7 +115,8 @@ INSTANTIATE_TEST_SUITE_P(Layouts, RangeOn, ::testing::Values("desk", "wall3", "s
 
 std::string dome_scene(const std::string& name)
 {
-    return name == "voyage" ? "scenes/voyage/voyage.json" : shipped_file("scenes", name).string();
+    return name == "voyage" ? (testing::source_dir() / "scenes/voyage/voyage.json").string()
+                            : shipped_file("scenes", name).string();
 }
 
 /// The part of the lit solid angle of a fisheye picture that shows: 5 of 255 or more in a channel, three steps above what
