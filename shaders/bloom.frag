@@ -4,8 +4,8 @@
 #include "physics/real.glsl"
 #include "tone.glsl"
 // One step of the glow: to half the size, or back to twice the size and mixed with the present picture. The first step takes
-// the light that is brighter than a level. Each step's
-// weights add up to 1, so that no light is created (filters of Bjorge, "Bandwidth-efficient rendering", 2015).
+// the light that is brighter than a level. Each step's weights add up to 1, so that no light is created (filters of Bjorge,
+// "Bandwidth-efficient rendering", 2015).
 
 layout(constant_id = 0) const bool UP = false;
 

@@ -21,12 +21,12 @@ double rapidity_within(const Boundary& boundary, const Ship& ship, const Flying&
     const double room = edge * boundary.radius - glm::length(from);
     if (room < 0 && glm::dot(from, ship.ship_from_cockpit * glm::dvec3(0, 0, -1)) < 0)
         return std::numeric_limits<double>::infinity();
-    return rapidity_to_stop(std::max(0.0, room), rules, seconds_per_time_unit);
+    return rapidity_to_stop(room, rules, seconds_per_time_unit);
 }
 
 double rapidity_to_stop(double room, const Flying& rules, double seconds_per_time_unit)
 {
-    return std::acosh(1 + followed_part * rules.rapidity_per_s * room * seconds_per_time_unit);
+    return std::acosh(1 + followed_part * rules.rapidity_per_s * std::max(0.0, room) * seconds_per_time_unit);
 }
 
 bool leaves(const Boundary& boundary, const Ship& ship)

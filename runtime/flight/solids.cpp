@@ -26,7 +26,7 @@ double rapidity_above(std::span<const Solid> solids, const Ship& ship, const Fly
         const double along = glm::dot(to, way);
         const double half_chord_squared = solid.radius * solid.radius - (glm::dot(to, to) - along * along);
         if (along > 0 && half_chord_squared > 0)
-            least = std::min(least, std::max(0.0, along - std::sqrt(half_chord_squared)));
+            least = std::min(least, along - std::sqrt(half_chord_squared));
     }
     return rapidity_to_stop(least, rules, seconds_per_time_unit);
 }

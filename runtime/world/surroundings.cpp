@@ -116,7 +116,7 @@ std::vector<Solid> solid_globes(const SceneFile& scene)
     std::vector<Solid> solids;
     if (!scene.globes)
         return solids;
-    // Hills are lower, and the polynomial's error is smaller, than this part of a planet's radius.
+    // Globes have no hills, and the polynomial's error is smaller than this part of a planet's radius.
     constexpr double above_ground = 1.0005;
     constexpr double days = 2;
     const SolarSystem system = load_solar_system(scene.globes->file);
