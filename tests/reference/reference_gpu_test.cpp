@@ -63,7 +63,8 @@ TEST(LivePicture, ConvergesToTheReferenceInEveryShippedLayout)
         static const std::set<std::string> some = {"desk", "dome", "headset", "cave5", "mirror", "stereo"};
         if (!starbow::testing::all_cases() && !some.contains(file.stem()))
             continue;
-        const Layout layout = small_layout(file, 128);
+        // A mirror's rim shows so much in a pixel that the light of a picture of 128 is 1.2 % too much, of 192 0.3 %.
+        const Layout layout = small_layout(file, file.stem() == "mirror" ? 192 : 128);
         std::vector<Bytes> truth;
         for (std::size_t i = 0; i < layout.outputs.size(); ++i)
             truth.push_back(shown(reference(avenue_by_rays().input(), layout, shot, i, {.samples = 8})));
@@ -77,7 +78,8 @@ TEST(LivePicture, ConvergesToTheReferenceInEveryShippedLayout)
                 ASSERT_EQ(pictures[i].size(), truth[i].size());
                 const std::string name = file.stem().string() + ", " + layout.outputs[i].name;
                 const double now = psnr(pictures[i], truth[i]);
-                std::printf("%s: %.2f texels along a pixel: %.2f dB\n", name.c_str(), texels, now);
+                std::printf("%s: %.2f texels along a pixel: %.2f dB, light %+.2f %%\n", name.c_str(), texels, now,
+                    100 * (mean_light(pictures[i]) / mean_light(truth[i]) - 1));
                 EXPECT_GT(now, before[i] + 2) << name << ", " << texels << " texels along a pixel";
                 before[i] = now;
                 EXPECT_NEAR(mean_light(pictures[i]), mean_light(truth[i]), 0.02 * mean_light(truth[i]) + 1e-4) << name;

@@ -3,6 +3,7 @@
 #include "config/model/angles.h"
 #include "config/model/shipped.h"
 #include "displays/compile/direction_map.h"
+#include "runtime/light/srgb.h"
 #include "shaders/physics/physics.h"
 #include "tests/support/small_world.h"
 #include <functional>
@@ -439,10 +440,14 @@ TEST(Picture, ALargeTextureKeepsItsRowsAndMips)
         OffscreenRenderer offscreen = renderer(world, one_view(Planar{60}, {100, 100}));
         const Numbers numbers(offscreen, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
         for (int band = 0; band < bands; ++band) {
-            const double grey = (30 + 28 * band) / 255.0, light = std::pow((grey + 0.055) / 1.055, 2.4);
+            const double grey = 30 + 28 * band, light = light_of_srgb(grey / 255);
+            // A device may decode a byte as if it were half a step more or less: so allow Direct3D's rules, which GPUs are
+            // built by. In software textures hold half floats.
+            const double decoding
+                = device().on_processor() ? 0 : light_of_srgb((grey + 0.5) / 255) - light_of_srgb(grey / 255);
             const double edge = 50 / std::tan(glm::radians(30.0)) / 2; // of the square, in pixels from the middle
             const int row = int(50 - edge + (band + 0.5) * 2 * edge / bands);
-            EXPECT_TRUE(near_colour(numbers.light(row * 100 + 50), dvec3(light), 0.002))
+            EXPECT_TRUE(near_colour(numbers.light(row * 100 + 50), dvec3(light), 0.002 + std::sqrt(3) * decoding))
                 << "band " << band << ", " << filter << ": " << numbers.light(row * 100 + 50).y << " for " << light;
         }
     }

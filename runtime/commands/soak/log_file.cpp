@@ -16,9 +16,10 @@ namespace {
 constexpr const char* columns
     = "visit,frames,seconds,resident_bytes,heap_bytes,files,threads,driver_pieces,driver_bytes,temporary_files";
 
-std::string head_of(const std::string& use, long seed)
+std::string head_of(const std::string& use, long seed, long repeat)
 {
-    return "# starbow soak, " + use + ", seed " + std::to_string(seed);
+    return "# starbow soak, " + use + ", seed " + std::to_string(seed)
+        + (repeat > 0 ? ", the same visitors after " + std::to_string(repeat) + " visits" : "");
 }
 
 struct Quantity {
@@ -45,10 +46,10 @@ double median_of(std::span<const SoakSample> samples, std::size_t SoakSample::*v
 
 } // namespace
 
-SoakLog::SoakLog(const std::filesystem::path& file, const std::string& use, long seed)
+SoakLog::SoakLog(const std::filesystem::path& file, const std::string& use, long seed, long repeat)
     : file_(file)
 {
-    const std::string head = head_of(use, seed);
+    const std::string head = head_of(use, seed, repeat);
     std::istringstream stream(RegularFile(file).read_all(std::size_t(64) << 20));
     std::string line;
     if (!std::getline(stream, line)) {

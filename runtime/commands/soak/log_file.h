@@ -24,8 +24,9 @@ struct SoakResult {
 /// The samples of a soak, in a CSV file that outlives the process.
 class SoakLog {
 public:
-    /// Reads the file if it is there. Throws InputError for a file of another kind, another use or another seed.
-    SoakLog(const std::filesystem::path& file, const std::string& use, long seed);
+    /// Reads the file if it is there. Throws InputError for a file of another kind, another use, another seed or
+    /// another number of visits after which the same visitors come again (0: never).
+    SoakLog(const std::filesystem::path& file, const std::string& use, long seed, long repeat);
 
     /// The visit after the last sample, 0 without one.
     long next_visit() const;

@@ -28,7 +28,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct SoakOptions {
-    long visits = 300, seed = 1, settled = 1000;
+    long visits = 300, seed = 1, settled = 1000, repeat = 0;
     int devices = 0;
     std::string as = use_names[0], scene = "avenue", tour = "first-minute";
     std::string log = "out/soak.csv";
@@ -172,13 +172,16 @@ private:
             end();
     }
 
+    /// The visit's number, which begins anew where the same visitors come again.
+    long kind_of_visit() const { return options_.repeat > 0 ? visit_ % options_.repeat : visit_; }
+
     void begin()
     {
-        visitor_ = std::make_unique<SeededVisitor>(use_, std::uint64_t(options_.seed), visit_, choices_);
+        visitor_ = std::make_unique<SeededVisitor>(use_, std::uint64_t(options_.seed), kind_of_visit(), choices_);
         left_ = visitor_->frames(), waited_ = rested_ = 0, over_ = false;
         woken_ = use_ == Use::visitors ? 0 : waking_frames;
         if (use_ == Use::reloads)
-            folder_.save(visit_ * (turn / 2)); // the other layouts and the first one in turn
+            folder_.save(kind_of_visit() * (turn / 2)); // the other layouts and the first one in turn
         else if (use_ == Use::visitors && (visit_ % (turn / 2) == 0 || unsaved_))
             save_or_later();
     }
@@ -188,7 +191,7 @@ private:
     {
         try {
             unsaved_ = true;
-            folder_.save(visit_);
+            folder_.save(kind_of_visit());
             unsaved_ = false;
             saved_ = frames_ > 0; // the first one is there before the exhibit
         } catch (const InputError&) {
@@ -236,7 +239,7 @@ int soak(const SoakOptions& options)
     const Words words = words_in("en");
     const Programme programme
         = use_of(options.as) == Use::tour ? programme_of_tour(options.tour, words) : programme_of_scene(options.scene);
-    SoakLog log(options.log, options.as, options.seed);
+    SoakLog log(options.log, options.as, options.seed, options.repeat);
     if (log.next_visit() >= options.visits)
         std::printf("All %ld visits of %s are over\n", options.visits, options.log.c_str());
     catch_interrupts();
@@ -295,6 +298,13 @@ void add_soak(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--tour", options->tour, "Name or file of the tour that nobody touches")->capture_default_str();
     command->add_option("--seed", options->seed, "Another seed makes other visitors")
         ->check(whole_number(0, 1000000000))
+        ->capture_default_str();
+    command
+        ->add_option("--repeat", options->repeat,
+            "After so many visits the same visitors come again, and the comparison is of like with like: memory depends on "
+            "the "
+            "worlds that were shown last. 400 visits are compared; 0: all visitors are others")
+        ->check(whole_number(0, 100000000))
         ->capture_default_str();
     command
         ->add_option(
