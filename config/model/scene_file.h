@@ -80,6 +80,7 @@ struct SceneFile {
     std::vector<Goal> goals; ///< for visitors, one after the other
     std::optional<PlannedFlight> planned; ///< for exhibits with a pace
     Shot start; ///< the visitor's start; its `scene` is this file's name
+    std::vector<std::string> notes{}; ///< said once when its world is loaded
 
     /// The radiance of the Milky Way's white, over the scene's; 0 where there is none.
     double milky_way() const

@@ -1,6 +1,9 @@
 #include "shipped.h"
 #include "config/json/error.h"
+#include "file_kind.h"
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -8,7 +11,21 @@ namespace starbow {
 namespace fs = std::filesystem;
 namespace {
 
-bool is_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".json"); }
+bool is_path(const std::string& name)
+{
+    return name.find('/') != std::string::npos || name.ends_with(".json") || name.ends_with(".glb")
+        || name.ends_with(".gltf");
+}
+
+/// The kind of the files in a folder of config/; nullopt for those that are not told apart.
+std::optional<FileKind> kind_in(const std::string& folder)
+{
+    static const std::map<std::string, FileKind> kinds{{"scenes", FileKind::scene}, {"layouts", FileKind::layout},
+        {"tours", FileKind::tour}, {"shots", FileKind::shot}, {"exhibits", FileKind::exhibit},
+        {"qualities", FileKind::quality}, {"words", FileKind::words}};
+    const auto kind = kinds.find(folder);
+    return kind == kinds.end() ? std::nullopt : std::optional(kind->second);
+}
 
 } // namespace
 
@@ -85,8 +102,11 @@ std::vector<std::string> shipped_names(const std::string& kind)
 fs::path shipped_file(const std::string& kind, const std::string& name)
 {
     std::error_code error;
-    if (is_path(name))
+    if (is_path(name)) {
+        if (const std::optional<FileKind> wanted = kind_in(kind))
+            reject_other_kind(name, *wanted);
         return name;
+    }
     const std::vector<fs::path> folders = folders_of(kind);
     for (const fs::path& folder : folders)
         if (const fs::path file = folder / (name + ".json"); fs::is_regular_file(file, error))

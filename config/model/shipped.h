@@ -29,7 +29,7 @@ std::vector<Profile> known_profiles(const std::filesystem::path& exhibits = {});
 
 /// A config file by path, or by the name of one of the site's or a shipped one: find("layouts", "dome") is
 /// layouts/dome.json in site(), or else config/layouts/dome.json.
-/// Throws InputError that lists the shipped names.
+/// Throws InputError that lists the shipped names, or for a file that is of another kind.
 std::filesystem::path shipped_file(const std::string& kind, const std::string& name);
 
 /// The names of the site's and the shipped files of a kind, sorted: those by which shipped_file finds them.

@@ -13,6 +13,7 @@
 #include "runtime/hud/hud.h"
 #include "runtime/render/render_context.h"
 #include "version.h"
+#include "runtime/world/open_scene.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
@@ -353,7 +354,7 @@ void examine_files(Report& report)
     kind("exhibits", [](const fs::path& file) { load_exhibit(file); });
     kind("layouts", [](const fs::path& file) { load_layout(file); });
     kind("scenes", [](const fs::path& file) {
-        const SceneFile scene = load_scene_file(file);
+        const SceneFile scene = open_scene(file);
         if (!fs::exists(scene.gltf))
             throw InputError(file.string(), "/gltf", scene.gltf.string() + " is not there; a glTF file is right");
     });

@@ -11,7 +11,7 @@
 #include "runtime/commands/options/quality.h"
 #include "runtime/exhibit/exhibit.h"
 #include "runtime/exhibit/outputs.h"
-#include "runtime/flight/record_files.h"
+#include "runtime/operation/record_files.h"
 #include "runtime/flight/replay.h"
 #include "runtime/operation/ends.h"
 #include "runtime/operation/last_language.h"

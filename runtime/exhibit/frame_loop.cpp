@@ -1,7 +1,7 @@
 #include "frame_loop.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
-#include "runtime/flight/record_files.h"
+#include "runtime/operation/record_files.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/progress.h"
 #include "runtime/operation/trace.h"

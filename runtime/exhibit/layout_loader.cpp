@@ -1,7 +1,7 @@
 #include "layout_loader.h"
 #include "config/json/error.h"
 #include "config/model/adjust.h"
-#include "runtime/flight/record_files.h"
+#include "runtime/operation/record_files.h"
 #include <chrono>
 #include <condition_variable>
 #include <mutex>

@@ -1,15 +1,16 @@
 #include "programme.h"
 #include "config/model/scene_file.h"
 #include "config/model/shipped.h"
-#include "runtime/flight/record_files.h"
+#include "runtime/operation/record_files.h"
 #include "runtime/flight/shown_record.h"
+#include "runtime/world/open_scene.h"
 
 namespace starbow {
 
 Programme programme_of_scene(const std::string& scene)
 {
     const std::filesystem::path file = shipped_file("scenes", scene);
-    return {.scene = file, .start = load_scene_file(file).start};
+    return {.scene = file, .start = open_scene(file).start};
 }
 
 Programme programme_of_shot(const std::string& shot)

@@ -3,12 +3,13 @@
 #include "config/model/scene_file.h"
 #include "menu_pages.h"
 #include "runtime/flight/pace.h"
-#include "runtime/flight/record_files.h"
+#include "runtime/operation/record_files.h"
 #include "runtime/flight/ship.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/messages.h"
 #include "runtime/operation/vitals.h"
 #include "runtime/render/render_context.h"
+#include "runtime/world/open_scene.h"
 #include "runtime/world/surroundings.h"
 #include <algorithm>
 #include <array>
@@ -159,7 +160,7 @@ Flying rules_in(const ExhibitOptions& options, Flying rules, const Programme& pr
 {
     // A record's rules have those of its first world.
     const bool bounded = options.visiting || options.rules.boundary, paced = options.paced_flight || options.rules.pace;
-    const SceneFile scene = load_scene_file(programme.scene);
+    const SceneFile scene = open_scene(programme.scene);
     rules.solids = solid_globes(scene);
     if (bounded)
         rules.boundary = scene.boundary;
@@ -213,7 +214,7 @@ std::optional<Guide> guide_of(const Programme& programme, const Flying& rules, b
 {
     if (!programme.tour)
         return {};
-    return Guide(*programme.tour, rules, load_scene_file(programme.scene).seconds_per_time_unit(), visitors);
+    return Guide(*programme.tour, rules, open_scene(programme.scene).seconds_per_time_unit(), visitors);
 }
 
 std::optional<Governor> governor_of(const ExhibitOptions& options)

@@ -1,5 +1,8 @@
 #pragma once
+#include <algorithm>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace starbow {
 
@@ -9,6 +12,22 @@ inline std::string escaped_html(const std::string& text)
     std::string out;
     for (char c : text)
         out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
+    return out;
+}
+
+/// A PNG file's bytes as an image's source, so that a page is one file.
+inline std::string png_source(const std::vector<unsigned char>& png)
+{
+    static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string out = "data:image/png;base64,";
+    for (std::size_t i = 0; i < png.size(); i += 3) {
+        const std::size_t left = std::min<std::size_t>(png.size() - i, 3);
+        std::uint32_t bits = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            bits = bits << 8 | (k < left ? png[i + k] : 0u);
+        for (std::size_t k = 0; k < 4; ++k)
+            out += k <= left ? digits[bits >> (18 - 6 * k) & 63] : '=';
+    }
     return out;
 }
 

@@ -73,9 +73,9 @@ void check_ending(const std::filesystem::path& file, const std::string& ending)
         throw InputError(file.string(), "", "does not end in " + ending + "; a name that does is right");
 }
 
-void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::vector<std::uint8_t>& rgba)
+std::vector<unsigned char> png_of(glm::ivec2 size, const std::vector<std::uint8_t>& rgba)
 {
-    require(rgba.size() == pixels(size) * 4, "write_png: bytes", rgba.size(), pixels(size) * 4);
+    require(rgba.size() == pixels(size) * 4, "png_of: bytes", rgba.size(), pixels(size) * 4);
     Bytes rgb;
     rgb.reserve(pixels(size) * 3);
     for (std::size_t i = 0; i < rgba.size(); i += 4)
@@ -86,8 +86,13 @@ void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::ve
         static_cast<Bytes*>(to)->insert(static_cast<Bytes*>(to)->end(), from, from + count);
     };
     if (!stbi_write_png_to_func(append, &bytes, size.x, size.y, 3, rgb.data(), size.x * 3))
-        refuse_writing(file, ENOMEM);
-    write_whole(file, bytes);
+        throw std::bad_alloc();
+    return bytes;
+}
+
+void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::vector<std::uint8_t>& rgba)
+{
+    write_whole(file, png_of(size, rgba));
 }
 
 void write_exr(const std::filesystem::path& file, glm::ivec2 size, const Channels& channels)

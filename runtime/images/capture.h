@@ -22,6 +22,9 @@ void check_free(const std::filesystem::path& file, bool force);
 /// Throws InputError unless the file's name ends in `ending`, such as ".png", in capital or small letters.
 void check_ending(const std::filesystem::path& file, const std::string& ending);
 
+/// A PNG file's bytes of RGBA8 rows from the top, alpha dropped.
+std::vector<unsigned char> png_of(glm::ivec2 size, const std::vector<std::uint8_t>& rgba);
+
 /// Writes RGBA8 rows from the top as PNG, alpha dropped. Written beside and renamed: a failure leaves no half file.
 /// Throws InputError where the place can't be written.
 void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::vector<std::uint8_t>& rgba);

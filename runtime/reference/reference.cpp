@@ -8,6 +8,7 @@
 #include "overlap.h"
 #include "runtime/light/colour.h"
 #include "runtime/light/srgb.h"
+#include "runtime/world/open_scene.h"
 #include "runtime/world/moving.h"
 #include "runtime/world/worldline.h"
 #include "star_spots.h"
@@ -543,7 +544,7 @@ double tabled(const std::vector<glm::dvec3>& table, double light, int channel)
 
 ReferenceWorld open_reference_world(const std::filesystem::path& file)
 {
-    ReferenceWorld opened{load_scene_file(file), {}, {}};
+    ReferenceWorld opened{open_scene(file), {}, {}};
     opened.world = load_world(opened.scene);
     check_speeds(opened.world, opened.scene);
     place_bodies(opened.world, opened.scene);

@@ -1,5 +1,6 @@
 #include "render_context.h"
 #include "config/model/shipped.h"
+#include "runtime/world/open_scene.h"
 #include "runtime/world/detail.h"
 #include <cstdlib>
 
@@ -7,7 +8,7 @@ namespace starbow {
 
 LoadedScene load_scene(const std::filesystem::path& file)
 {
-    SceneFile scene = load_scene_file(file);
+    SceneFile scene = open_scene(file);
     World world = load_world(scene);
     add_detail_levels(world);
     std::vector<Star> stars;

@@ -244,7 +244,7 @@ bool jumps_within(const World& world, int index, const Stretch& stretch)
 
 } // namespace
 
-void check_speeds(const World& world, const SceneFile& scene)
+std::optional<FastestMotion> fastest_motion(const World& world)
 {
     std::map<std::uint32_t, Hull> of_primitive;
     std::map<int, Hull> of_joint;
@@ -259,7 +259,7 @@ void check_speeds(const World& world, const SceneFile& scene)
             of_joint[motion.joint].add(glm::dvec3(motion.joint_from_local * glm::dvec4(point, 1)));
     }
     const std::size_t most = std::clamp<std::size_t>(1'000'000 / std::max<std::size_t>(of_joint.size(), 1), 256, 8192);
-    const double unit_s = scene.seconds_per_time_unit();
+    std::optional<FastestMotion> fastest;
     for (const auto& [joint, hull] : of_joint)
         for (Stretch stretch : stretches(world, joint, most)) {
             if (jumps_within(world, joint, stretch))
@@ -270,20 +270,27 @@ void check_speeds(const World& world, const SceneFile& scene)
             const glm::dmat4 before = pose(world, joint, stretch.begin_s), after = pose(world, joint, stretch.end_s);
             for (const glm::dvec3& point : hull.points()) {
                 const double way = glm::length(glm::dvec3((after - before) * glm::dvec4(point, 1)));
-                const double speed = way / (stretch.end_s - stretch.begin_s) * unit_s;
-                if (speed > most_own_speed * (1 + 1e-6)) {
-                    char text[500];
-                    const int node = world.joints[std::size_t(joint)].node;
-                    std::snprintf(text, sizeof text,
-                        "(\"%.60s\") moves at %.3g of the scene's speed of light where it is fastest, %.3g s after its own "
-                        "time 0;"
-                        " at most %.3g is right, by a slower animation, or by a smaller \"unit_m\" or a larger "
-                        "\"light_speed_m_s\" in the scene",
-                        world.nodes[std::size_t(node)].name.c_str(), speed, stretch.begin_s, most_own_speed);
-                    throw InputError(scene.gltf.string(), "/nodes/" + std::to_string(node), text);
-                }
+                const double speed = way / (stretch.end_s - stretch.begin_s);
+                if (!fastest || speed > fastest->per_s)
+                    fastest = {speed, world.joints[std::size_t(joint)].node, stretch.begin_s};
             }
         }
+    return fastest;
+}
+
+void check_speeds(const World& world, const SceneFile& scene)
+{
+    const std::optional<FastestMotion> fastest = fastest_motion(world);
+    const double speed = fastest ? fastest->per_s * scene.seconds_per_time_unit() : 0;
+    if (speed <= most_own_speed * (1 + 1e-6))
+        return;
+    char text[500];
+    std::snprintf(text, sizeof text,
+        "(\"%.60s\") moves at %.3g of the scene's speed of light where it is fastest, %.3g s after its own time 0; at most "
+        "%.3g "
+        "is right, by a slower animation, or by a smaller \"unit_m\" or a larger \"light_speed_m_s\" in the scene",
+        world.nodes[std::size_t(fastest->node)].name.c_str(), speed, fastest->own_s, most_own_speed);
+    throw InputError(scene.gltf.string(), "/nodes/" + std::to_string(fastest->node), text);
 }
 
 } // namespace starbow

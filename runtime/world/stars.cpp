@@ -1,8 +1,8 @@
 #include "stars.h"
-#include "ephemeris.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include "config/model/angles.h"
+#include "ephemeris.h"
 #include "runtime/light/spectrum.h"
 #include <algorithm>
 #include <charconv>

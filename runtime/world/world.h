@@ -152,7 +152,8 @@ struct Lamp {
 /// The Sun, planets and moons, with their maps.
 struct Globes {
     SolarSystem system;
-    std::vector<Texture> maps; ///< one for each globe; empty where it has none. All of one size, but that of the globe with air
+    std::vector<Texture>
+        maps; ///< one for each globe; empty where it has none. All of one size, but that of the globe with air
     Texture sky; ///< above that globe: red: clouds, green: the root of its lamps' radiance
     std::vector<glm::dvec4> parts; ///< for each globe the mean parts of its four kinds
     double clouds = 0; ///< and of clouds

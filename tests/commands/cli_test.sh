@@ -295,6 +295,21 @@ done
 printf '{ "outputs": [ { "name": "a", "viewports": [ { "projection": { "type": "wall", "lower_left_m": [-1, 0, -2], "lower_right_m": [1, 0, -2], "upper_left_m": [-1, 1.125, -2] } } ] } ] }' > "$folder/wall.json"
 if "$program" check "$folder/wall.json" --svg "$folder/wall.svg" | grep -q 'wall, 2.000 x 1.125 m'; then passed=$((passed + 1)); else fail "check does not print a wall's size to the millimetre"; fi
 
+# `check` shows a world that has no scene file, and writes a scene for it that draws; a file of another kind is named.
+cp "$(dirname "$0")/../../scenes/light-clock/light-clock.glb" "$folder/my.glb"
+said=$("$program" check "$folder/my.glb" --page "$folder/pages/my.html" --write "$folder/pages/my.json" 2>&1)
+if [[ $? = 0 && $said == *"triangles: "*"a frame of 800 x 600: "*"it has no scene file"* ]] && [ "$(grep -c 'data:image/png' "$folder/pages/my.html")" = 3 ] && grep -q '</svg>' "$folder/pages/my.html"; then passed=$((passed + 1)); else fail "check of a glTF: $said"; fi
+printf '{ "scene": "pages/my.json", "position": [0, 0, 5], "look": [0, 0, -1] }' > "$folder/own-shot.json"
+said=$("$program" render --shot "$folder/own-shot.json" --size 64x48 --out "$folder/own" 2>&1) && passed=$((passed + 1)) || fail "the written scene is not drawn: $said"
+printf '{ "scene": "my.glb", "position": [0, 0, 5], "look": [0, 0, -1] }' > "$folder/bare-shot.json"
+said=$("$program" render --shot "$folder/bare-shot.json" --size 64x48 --out "$folder/own" 2>&1)
+if [[ $? = 0 && $said == *"it has no scene file"* ]]; then passed=$((passed + 1)); else fail "a shot in a glTF: $said"; fi
+begins_with "$folder/pages/my.json: " check "$folder/my.glb" --page "$folder/never.html" --write "$folder/pages/my.json"
+begins_with "--write is for a glTF file without a scene" check "$folder/pages/my.json" --page "$folder/never.html" --write "$folder/never.json"
+begins_with "$folder/wall.json: is a layout; a scene is right here" run --scene "$folder/wall.json"
+begins_with "$folder/my.glb: is a glTF world; a layout is right here" run --layout "$folder/my.glb"
+[ ! -e "$folder/never.html" ] && [ ! -e "$folder/never.json" ] && passed=$((passed + 1)) || fail "a refused check of a world has written something"
+
 # Without a display server the GPUs are listed too.
 said=$(env -u DISPLAY -u WAYLAND_DISPLAY "$program" displays 2>&1)
 if [ $? = 0 ] && [[ $said == *"GPU "*": is used"*"no display server"* ]]; then passed=$((passed + 1)); else fail "displays: $said"; fi

@@ -1,7 +1,7 @@
 // Records: lines are read back to the bit, a replayed flight is the same to the bit, and wrong files are refused.
 #include "config/model/shipped.h"
 #include "runtime/flight/history.h"
-#include "runtime/flight/record_files.h"
+#include "runtime/operation/record_files.h"
 #include "runtime/flight/record_replay.h"
 #include "runtime/flight/recorder.h"
 #include "runtime/flight/replay.h"

@@ -1,4 +1,5 @@
 #include "runtime/world/moving.h"
+#include "runtime/world/open_scene.h"
 #include "tests/support/gltf_fixture.h"
 #include <cstdlib>
 #include <iostream>
@@ -21,6 +22,8 @@ Doc rich()
 {
     Doc doc = triangle_doc();
     Json& first = doc.json["meshes"][0]["primitives"][0];
+    doc.json["accessors"][0]["min"] = {0, 0, 0}, doc.json["accessors"][0]["max"] = {2, 1, 0};
+    doc.json["cameras"] = {{{"type", "perspective"}}};
     first["attributes"]["TEXCOORD_0"] = doc.accessor<std::uint16_t>({0, 0, 65535, 0, 0, 65535}, "VEC2", true);
     first["attributes"]["COLOR_0"] = doc.accessor<float>({0, 0, 0, 1, 1, 1, 1, 0, 1}, "VEC3");
     first["material"] = 0;
@@ -36,6 +39,7 @@ Doc rich()
         {{"mode", 5}, {"indices", strip}, {"attributes", {{"POSITION", sparse}, {"NORMAL", normals}}}, {"material", 1}});
     doc.show({{"mode", 6}, {"attributes", {{"POSITION", 0}}}});
     doc.json["nodes"][1]["scale"] = {-1, 2, 1};
+    doc.json["nodes"][1]["camera"] = 0;
     doc.json["nodes"].push_back({{"children", {0, 4}}, {"rotation", {0, 0.6, 0, 0.8}}, {"translation", {1, 2, 3}}});
     doc.json["nodes"].push_back({{"mesh", 1}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}}});
     doc.json["scenes"][0]["nodes"] = {3, 1, 2};
@@ -211,11 +215,26 @@ TEST_F(WorldFuzzTest, DamagedFilesLoadOrAreRefused)
     const char* count_text = std::getenv("STARBOW_FUZZ_COUNT");
     const auto count = std::uint32_t(count_text ? std::atol(count_text) : 3000);
     MemoryLimit limit(rlim_t(2) << 30);
-    std::uint32_t loaded = 0, fast = 0;
+    std::uint32_t loaded = 0, fast = 0, opened = 0;
     std::string file = (folder / "world.gltf").string();
     for (std::uint32_t n = 0; n < count; ++n) {
         SCOPED_TRACE("mutation " + std::to_string(n));
         write("world.gltf", mutated(n));
+        try {
+            const SceneFile scene = open_scene(file);
+            ASSERT_LT(glm::length(scene.start.position), 1e33);
+            ASSERT_NEAR(glm::length(scene.start.ship_from_cockpit), 1, 1e-9);
+            ASSERT_TRUE(scene.light_speed_m_s > 0 && scene.light_speed_m_s <= 299792458);
+            if (n % 16 == 0) {
+                write("scene.json", scene_text(scene, folder));
+                ASSERT_EQ(load_scene_file(folder / "scene.json").light_speed_m_s, scene.light_speed_m_s);
+            }
+            ++opened;
+        } catch (const InputError& error) {
+            ASSERT_TRUE(std::string(error.what()).starts_with(file + ":")) << error.what();
+        } catch (const std::exception& error) {
+            FAIL() << "neither opened nor refused: " << error.what();
+        }
         try {
             World world = load_world(file);
             expect_valid(world);
@@ -235,6 +254,7 @@ TEST_F(WorldFuzzTest, DamagedFilesLoadOrAreRefused)
     }
     // Otherwise nearly all damage would fail at the loader's first check.
     EXPECT_GT(loaded, count / 20);
+    EXPECT_GT(opened, count / 10);
     std::cout << loaded << " of " << count << " damaged files loaded (" << fast << " too fast), the others were refused\n";
 }
 

@@ -293,7 +293,7 @@ TEST_F(WorldMeshTest, UnsupportedFeaturesGiveOneWarningEach)
         (std::vector<std::string>{"extension \"KHR_lights_punctual\" is not supported",
             "extension \"EXT_mesh_gpu_instancing\" is not supported", "morph targets: meshes are drawn as they are stored",
             "animations of morph targets are not supported", "animations of other things than nodes are not supported",
-            "skins: meshes are drawn as they are stored", "cameras are not used"}));
+            "skins: meshes are drawn as they are stored"}));
 }
 
 TEST_F(WorldMeshTest, BuffersMayBeFilesInsideTheFolder)

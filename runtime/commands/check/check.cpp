@@ -2,6 +2,7 @@
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include "config/model/angles.h"
+#include "config/model/file_kind.h"
 #include "config/model/shipped.h"
 #include "displays/check/floor_plan.h"
 #include "displays/check/floor_plan_table.h"
@@ -12,9 +13,11 @@
 #include "runtime/commands/commands.h"
 #include "runtime/images/capture.h"
 #include "runtime/world/ephemeris.h"
+#include "runtime/world/open_scene.h"
 #include "runtime/world/spectral_errors.h"
 #include "runtime/world/stars.h"
 #include "runtime/world/worldline.h"
+#include "world_sheet.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
@@ -27,7 +30,7 @@ namespace {
 constexpr double most_difference = 3, most_luminance = 0.03;
 
 struct CheckOptions {
-    std::string layout, svg, scene;
+    std::string file, svg, scene, write, page;
     FlashOptions flashes;
 };
 
@@ -61,7 +64,7 @@ ViewRegion compiled_region(const Layout& layout, std::vector<std::string>& mesh_
 
 int check(const CheckOptions& options)
 {
-    const std::filesystem::path layout_file = shipped_file("layouts", options.layout);
+    const std::filesystem::path layout_file = shipped_file("layouts", options.file);
     const Layout layout = load_layout(layout_file);
     const std::filesystem::path file = options.svg.empty() ? layout.name + "-plan.svg" : options.svg;
     check_not_read(file, {layout_file});
@@ -110,7 +113,7 @@ void print_globes(const SceneFile& scene, const Globes& globes)
 /// How the live picture represents the scene's light, and how far its colours are off at worst.
 int check_scene(const std::string& name)
 {
-    const SceneFile scene = load_scene_file(shipped_file("scenes", name));
+    const SceneFile scene = open_scene(shipped_file("scenes", name));
     World world = load_world(scene);
     if (world.globes)
         print_globes(scene, *world.globes);
@@ -137,20 +140,21 @@ void add_check(CLI::App& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<CheckOptions>();
     CLI::App* command = app.add_subcommand("check",
-        "Read a layout, print what each viewport shows, and draw the floor plan; or a scene, and say how exact its light "
-        "is; or a tour or a flight, and count its flashes.");
-    CLI::Option* layout
-        = command->add_option("FILE", options->layout, "A layout file, or the name of one in config/layouts");
+        "Read a layout, print what each viewport shows, and draw the floor plan; or a world of your own, and show it; or a "
+        "scene, and say how exact its light is; or a tour or a flight, and count its flashes.");
+    CLI::Option* file = command->add_option("FILE", options->file,
+        "A layout file, or the name of one in config/layouts: its viewports and its floor plan. Or a scene file or a glTF "
+        "world (.glb, .gltf): its size, its cost, what is drawn otherwise than it says, and a page with a plan and stills");
     CLI::Option* scene = command->add_option("--scene", options->scene,
         "A scene file, or the name of one in config/scenes: how its light is represented, the worst error of a colour, and "
         "the places "
         "of its globes");
-    scene->excludes(layout);
+    scene->excludes(file);
     CLI::Option* flashes = command->add_option("--flashes", options->flashes.film,
         "A tour file, the name of one in config/tours, or a record of starbow run --record (.jsonl): the flashes that an "
         "eye "
         "sees, by WCAG 2.3.1; exit status 1 where there are more than three in a second");
-    flashes->excludes(layout)->excludes(scene);
+    flashes->excludes(file)->excludes(scene);
     command
         ->add_option("--layout", options->flashes.layout,
             "With --flashes: a layout file, or the name of one in config/layouts [desk; for a record its own]")
@@ -167,15 +171,27 @@ void add_check(CLI::App& app, std::function<int()>& chosen)
         ->needs(flashes);
     command->add_option("--svg", options->svg, "The drawing; without it LAYOUT-plan.svg in the current folder")
         ->excludes(flashes);
-    command->footer("Examples:\n  starbow check dome --svg out/dome.svg\n  starbow check --scene chart\n"
+    command
+        ->add_option("--write", options->write,
+            "With a glTF world: write a scene file with what is suggested for it, for you to change")
+        ->needs(file);
+    command->add_option("--page", options->page, "With a world: the page; without it NAME-world.html in the current folder")
+        ->needs(file);
+    command->footer("Examples:\n  starbow check dome --svg out/dome.svg\n  starbow check my.glb --write my.json\n  starbow "
+                    "check --scene chart\n"
                     "  starbow check --flashes first-minute --layout dome --out out/flashes.png");
-    command->callback([options, layout, scene, flashes, &chosen] {
-        if (layout->empty() && scene->empty() && flashes->empty())
+    command->callback([options, file, scene, flashes, &chosen] {
+        if (file->empty() && scene->empty() && flashes->empty())
             throw CLI::RequiredError("FILE, --scene or --flashes");
         chosen = [options] {
             if (!options->flashes.film.empty())
                 return check_flashes(options->flashes);
-            return options->scene.empty() ? check(*options) : check_scene(options->scene);
+            if (!options->scene.empty())
+                return check_scene(options->scene);
+            const std::optional<FileKind> kind = kind_of_file(options->file);
+            return kind == FileKind::scene || kind == FileKind::gltf
+                ? check_world(options->file, options->page, options->write)
+                : check(*options);
         };
     });
 }

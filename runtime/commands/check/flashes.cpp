@@ -8,14 +8,15 @@
 #include "runtime/commands/interrupt.h"
 #include "runtime/exhibit/replay_renderer.h"
 #include "runtime/exhibit/tour_renderer.h"
-#include "runtime/flight/record_files.h"
 #include "runtime/flight/replay.h"
 #include "runtime/flight/tour_film.h"
 #include "runtime/images/capture.h"
 #include "runtime/light/srgb.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/progress.h"
+#include "runtime/operation/record_files.h"
 #include "runtime/render/render_context.h"
+#include "runtime/world/open_scene.h"
 #include <cstdio>
 #include <functional>
 #include <unistd.h>
@@ -204,7 +205,7 @@ int measure_tour(const FlashOptions& options)
     const Film film{tour.file.stem().string(), scene_of(tour),
         seen_layout(
             load_layout(shipped_file("layouts", options.layout.empty() ? "desk" : options.layout)), pixel_deg * degree)};
-    const Show show{tour, {}, load_scene_file(film.scene).seconds_per_time_unit(), false};
+    const Show show{tour, {}, open_scene(film.scene).seconds_per_time_unit(), false};
     return measure(options, film, [&](OffscreenRenderer& renderer, const SceneFile& scene, const auto& take) {
         TourFilm frames(show, frames_per_s);
         TourRenderer pictures(renderer, show, scene, words);

@@ -1,6 +1,7 @@
 #include "explain.h"
 #include "runtime/commands/median.h"
 #include "runtime/render/pass_timer.h"
+#include "runtime/world/open_scene.h"
 #include "runtime/world/detail.h"
 #include <cmath>
 #include <cstdio>
@@ -236,7 +237,7 @@ double cost_of(const Part& part, const Made& made, RenderContext& context, MadeF
 
 void explain(const Trial& trial, const Device::Options& options)
 {
-    Made made{{}, load_scene_file(trial.scene), {}, trial.layout, trial.shots[0].second, trial.standard};
+    Made made{{}, open_scene(trial.scene), {}, trial.layout, trial.shots[0].second, trial.standard};
     made.world = load_world(made.scene);
     add_detail_levels(made.world);
     if (made.scene.stars)

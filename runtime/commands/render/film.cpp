@@ -3,8 +3,9 @@
 #include "config/json/reader.h"
 #include "config/model/scene_file.h"
 #include "runtime/commands/interrupt.h"
-#include "runtime/flight/record_files.h"
+#include "runtime/operation/record_files.h"
 #include "runtime/images/capture.h"
+#include "runtime/world/open_scene.h"
 #include <cstdio>
 #include <unistd.h>
 #include <utility>
@@ -31,7 +32,7 @@ std::string line_of(nlohmann::ordered_json json, const FilmOptions& options, con
     json["frames"] = frames;
     json["frames_per_s"] = options.frames_per_s;
     json["words"] = shown_digest(digest_of({words.file}));
-    json["scene"] = shown_digest(digest_of({scene, load_scene_file(scene).gltf}));
+    json["scene"] = shown_digest(digest_of({scene, open_scene(scene).gltf}));
     json["layout"] = shown_digest(digest_of(files_of(layout)));
     for (const Output& output : layout.outputs)
         json["sizes"].push_back(std::to_string(output.size.x) + "x" + std::to_string(output.size.y));

@@ -4,7 +4,7 @@
 #include "config/model/shipped.h"
 #include "runtime/commands/options/size.h"
 #include "runtime/exhibit/replay_renderer.h"
-#include "runtime/flight/record_files.h"
+#include "runtime/operation/record_files.h"
 #include "runtime/flight/replay.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/progress.h"

@@ -5,6 +5,7 @@
 #include "runtime/exhibit/tour_renderer.h"
 #include "runtime/flight/tour_film.h"
 #include "runtime/render/render_context.h"
+#include "runtime/world/open_scene.h"
 
 namespace starbow {
 namespace {
@@ -46,7 +47,7 @@ int render_tour(const TourOptions& options)
         for (Output& output : layout.outputs)
             output.size = parse_size(options.size);
     check_film(options.film, layout);
-    const Show show{tour, {}, load_scene_file(scene).seconds_per_time_unit(), false};
+    const Show show{tour, {}, open_scene(scene).seconds_per_time_unit(), false};
     TourFilm states(show, options.film.frames_per_s);
     RenderContext context(scene, device_options(false));
     Filming film(options.film, layout, scene, words, states.frames(), context.device.name(),

@@ -191,27 +191,61 @@ fs::path resolve_inside(const fs::path& folder, const std::string& uri, const Sp
     return place;
 }
 
-} // namespace
-
-GltfFile read_gltf_file(const fs::path& file)
+/// The file's name and folder, without any content.
+GltfFile named(const fs::path& file)
 {
     GltfFile out;
     out.name = file.string();
     std::replace_if(
         out.name.begin(), out.name.end(), [](unsigned char c) { return c < ' '; }, '?');
+    std::error_code error;
+    const fs::path real = fs::canonical(file, error);
+    if (!error)
+        out.folder = real.parent_path();
+    return out;
+}
+
+} // namespace
+
+GltfFile read_gltf_file(const fs::path& file)
+{
+    GltfFile out = named(file);
     Bytes bytes;
     if (std::string problem = read_bytes(file, out.bytes_left, bytes); !problem.empty())
         throw InputError(out.name, "", problem);
     out.bytes_left -= bytes.size();
-    std::error_code error;
-    fs::path real = fs::canonical(file, error);
-    if (error)
-        throw InputError(out.name, "", "cannot be found: " + error.message());
-    out.folder = real.parent_path();
-
-    out.is_glb = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+    if (out.folder.empty())
+        throw InputError(out.name, "", "cannot be found; it was there a moment ago");
+    out.is_glb = begins_glb({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     std::string json = out.is_glb ? split_glb(bytes, out) : std::string(bytes.begin(), bytes.end());
     Bytes().swap(bytes);
+    out.json = parse_json(out, json);
+    return out;
+}
+
+GltfFile read_gltf_json(const fs::path& path)
+{
+    GltfFile out = named(path);
+    RegularFile file(path);
+    constexpr std::size_t header = 20; // the file's and the first chunk's
+    std::string json(header, '\0');
+    json.resize(file.read({json.data(), header}));
+    out.is_glb = begins_glb(json);
+    if (out.is_glb && json.size() == header) {
+        const Bytes bytes(json.begin(), json.end());
+        if (little32(bytes, 16) != 0x4E4F534A)
+            throw InputError(out.name, "byte 16", "the first chunk is not JSON; GLB requires it");
+        const std::size_t length = little32(bytes, 12);
+        if (length > GltfLimits::json_bytes || length > file.size() - header)
+            throw InputError(out.name, "byte 12",
+                "a chunk of " + std::to_string(length) + " bytes; the file has " + std::to_string(file.size() - header)
+                    + " more");
+        json.resize(length);
+        json.resize(file.read({json.data(), length}));
+    } else
+        json += file.read_all(GltfLimits::json_bytes);
+    if (!file.fault().empty())
+        throw InputError(out.name, "", file.fault() + "; a .gltf or .glb file is right");
     out.json = parse_json(out, json);
     return out;
 }

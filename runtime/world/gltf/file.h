@@ -1,6 +1,7 @@
 #pragma once
 #include "json.h"
 #include <filesystem>
+#include <string_view>
 
 namespace starbow {
 
@@ -39,6 +40,12 @@ struct GltfFile {
 
 /// Reads a .gltf or .glb file. The content decides between the two, not the file's name. Throws InputError.
 GltfFile read_gltf_file(const std::filesystem::path& file);
+
+/// The same, but of a GLB only its JSON is read, and `bin` stays empty.
+GltfFile read_gltf_json(const std::filesystem::path& file);
+
+/// True for the beginning of a GLB file, whose first four bytes say so.
+inline bool begins_glb(std::string_view bytes) { return bytes.starts_with("glTF"); }
 
 /// The bytes behind a URI: base64 `data:`, or a path that stays inside the file's folder. Throws InputError at `spot`.
 Bytes read_uri(GltfFile& file, const Spot& spot);

@@ -38,12 +38,11 @@ void guard_extensions(const Spot& root, GuardedGltf& out)
     });
 }
 
-/// Notes the lists that a world without skeletons, seen by the ship's own eye, does not use.
+/// Notes the lists that a world without skeletons does not use.
 void note_unused_lists(const Spot& root, GuardedGltf& out)
 {
-    for (auto [key, what] : {std::pair{"skins", "skins: meshes are drawn as they are stored"}, {"cameras", "cameras"}})
-        if (count_of(root, key) > 0)
-            note_once(out.notes, std::string(what) + (key == std::string("cameras") ? " are not used" : ""));
+    if (count_of(root, "skins") > 0)
+        note_once(out.notes, "skins: meshes are drawn as they are stored");
 }
 
 } // namespace

@@ -87,7 +87,7 @@ void guard_nodes(const Spot& root, GuardedGltf& out)
         if (node.has("mesh"))
             written.mesh = int(index_into(node["mesh"], "mesh", count_of(root, "meshes")));
         if (node.has("camera"))
-            index_into(node["camera"], "camera", count_of(root, "cameras"));
+            written.camera = int(index_into(node["camera"], "camera", count_of(root, "cameras")));
         if (node.has("skin"))
             index_into(node["skin"], "skin", count_of(root, "skins"));
         if (node.has("children")) {

@@ -4,6 +4,7 @@
 #include "config/json/whole_file.h"
 #include "config/model/scene_file.h"
 #include "config/model/shipped.h"
+#include "runtime/world/open_scene.h"
 #include <array>
 
 namespace starbow {
@@ -13,7 +14,7 @@ namespace {
 /// No file of a scene or a layout may be larger (runtime/world/gltf/file.h).
 constexpr std::uintmax_t most_bytes = std::uintmax_t(1) << 30;
 
-std::uint64_t digest_of_scene(const fs::path& scene) { return digest_of({scene, load_scene_file(scene).gltf}); }
+std::uint64_t digest_of_scene(const fs::path& scene) { return digest_of({scene, open_scene(scene).gltf}); }
 
 /// Names a shipped file by its name, which holds in any checkout, and other files by their whole path.
 std::string name_of(const std::string& kind, const fs::path& file)
@@ -68,7 +69,7 @@ RecordHeader header_of(const fs::path& scene, const Layout& layout, const Shot& 
         .scene_digest = digest_of_scene(scene),
         .layout_digest = digest_of(files_of(layout)),
         .pattern = pattern,
-        .seconds_per_time_unit = load_scene_file(scene).seconds_per_time_unit(),
+        .seconds_per_time_unit = open_scene(scene).seconds_per_time_unit(),
         .start = start,
         .rules = rules,
         .exposing = exposing};
@@ -79,7 +80,7 @@ Flown find_flown(const fs::path& record, const RecordHeader& header, const std::
     const std::string file = one_line(record.string());
     Flown flown{
         shipped_file("scenes", header.scene), load_layout(shipped_file("layouts", layout.empty() ? header.layout : layout))};
-    const double unit = load_scene_file(flown.scene).seconds_per_time_unit();
+    const double unit = open_scene(flown.scene).seconds_per_time_unit();
     if (unit != header.seconds_per_time_unit)
         throw InputError(file + ":1", "/seconds_per_time_unit",
             shown(header.seconds_per_time_unit) + " is not the scene's any more, which has " + shown(unit) + " ("

@@ -1,7 +1,7 @@
 #pragma once
 #include "config/model/layout.h"
 #include "config/model/log_kinds.h"
-#include "record.h"
+#include "runtime/flight/record.h"
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -9,9 +9,30 @@
 
 namespace starbow {
 
+namespace {
+
+/// Whether anything in the world has light of its own, or throws some on it.
+bool has_light(const World& world, const SceneFile& scene)
+{
+    const auto black = [](const glm::dvec3& colour) { return !(colour.r > 0 || colour.g > 0 || colour.b > 0); };
+    const bool sky
+        = !black(scene.sky.zenith) || !black(scene.sky.horizon) || !black(scene.sky.nadir) || scene.sky.temperature_K > 0;
+    return !scene.lights.empty() || !black(scene.ambient) || sky || scene.stars || scene.globes
+        || std::ranges::any_of(world.materials, [&](const Material& material) {
+               return material.unlit || !black(material.emissive) || (material.temperature_K > 0 && material.emissivity > 0);
+           });
+}
+
+} // namespace
+
 World load_world(const SceneFile& scene)
 {
     World world = load_world(scene.gltf);
+    world.notes.insert(world.notes.begin(), scene.notes.begin(), scene.notes.end());
+    if (!has_light(world, scene))
+        world.notes.insert(world.notes.begin(),
+            "nothing in this world shines, and every picture of it is black: \"lights\", \"ambient\" or a \"sky\" in "
+                + scene.file + " are right; starbow check " + one_line(scene.gltf.string()) + " suggests some");
     if (scene.globes) {
         world.globes = load_globes(scene.globes->file);
         const std::vector<Globe>& globes = world.globes->system.globes;

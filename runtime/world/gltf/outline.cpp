@@ -1,0 +1,137 @@
+#include "runtime/world/outline.h"
+#include "parts.h"
+#include <algorithm>
+
+namespace starbow {
+namespace {
+
+/// The bounds that an accessor of positions states; nullopt without any. Quantized ones are stated as they are stored
+/// (KHR_mesh_quantization).
+std::optional<AlignedBox> stated_bounds(const Spot& root, std::size_t accessor)
+{
+    const Spot spot = root["accessors"][accessor];
+    if (!object(spot).has("min") || !spot.has("max"))
+        return {};
+    const auto low = numbers(spot["min"], 3, -too_far, too_far), high = numbers(spot["max"], 3, -too_far, too_far);
+    double scale = 1;
+    if (spot.has("normalized") && boolean(spot["normalized"]))
+        switch (integer(spot["componentType"], 5120, 5126)) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            scale = 127;
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            scale = 255;
+            break;
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            scale = 32767;
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            scale = 65535;
+            break;
+        default:
+            break;
+        }
+    return AlignedBox{glm::dvec3(low[0], low[1], low[2]) / scale, glm::dvec3(high[0], high[1], high[2]) / scale};
+}
+
+std::optional<AlignedBox> bounds_of_mesh(const Spot& root, std::size_t mesh)
+{
+    std::optional<AlignedBox> all;
+    const Spot primitives = root["meshes"][mesh]["primitives"];
+    for (std::size_t i = 0; i < list(primitives).size(); ++i) {
+        const Spot attributes = primitives[i]["attributes"];
+        if (!object(attributes).has("POSITION"))
+            continue;
+        const auto at = index_into(attributes["POSITION"], "accessor", count_of(root, "accessors"));
+        if (const std::optional<AlignedBox> box = stated_bounds(root, std::size_t(at)))
+            all = all ? AlignedBox{glm::min(all->low, box->low), glm::max(all->high, box->high)} : *box;
+    }
+    return all;
+}
+
+AlignedBox transformed(const AlignedBox& box, const glm::dmat4& transform)
+{
+    AlignedBox out{glm::dvec3(transform * glm::dvec4(box.low, 1)), glm::dvec3(transform * glm::dvec4(box.low, 1))};
+    for (int corner = 1; corner < 8; ++corner) {
+        const glm::dvec3 at(
+            corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y, corner & 4 ? box.high.z : box.low.z);
+        const glm::dvec3 there = transform * glm::dvec4(at, 1);
+        out = {glm::min(out.low, there), glm::max(out.high, there)};
+    }
+    return out;
+}
+
+double across(const AlignedBox& box) { return glm::distance(box.low, box.high); }
+
+AlignedBox around(const AlignedBox& a, const AlignedBox& b) { return {glm::min(a.low, b.low), glm::max(a.high, b.high)}; }
+
+/// So many times as far across as all smaller things together.
+constexpr double backdrop = 3;
+/// A backdrop so flat is a ground.
+constexpr double flat = 0.1;
+
+} // namespace
+
+Middle middle_of(std::vector<AlignedBox> things)
+{
+    if (things.empty())
+        return {};
+    std::ranges::sort(things, {}, across);
+    std::vector<AlignedBox> inner{things[0]}; // around each thing and all smaller ones
+    for (std::size_t i = 1; i < things.size(); ++i)
+        inner.push_back(around(inner.back(), things[i]));
+    std::size_t last = things.size() - 1;
+    while (last > 0 && across(inner[last - 1]) > 0 && across(things[last]) > backdrop * across(inner[last - 1]))
+        --last;
+    Middle middle{inner[last], inner[last].low.y};
+    for (std::size_t i = last + 1; i < things.size(); ++i) {
+        const glm::dvec3 size = things[i].high - things[i].low;
+        if (size.y < flat * std::max(size.x, size.z) && things[i].high.y < 0.5 * (middle.box.low.y + middle.box.high.y))
+            middle.floor = std::max(middle.floor, things[i].high.y);
+    }
+    return middle;
+}
+
+Outline read_outline(const std::filesystem::path& path)
+{
+    const GltfFile file = read_gltf_json(path);
+    const Spot root{file.json, "", file.name};
+    object(root);
+    GuardedGltf guarded;
+    guard_nodes(root, guarded);
+    const tinygltf::Model& model = guarded.model;
+    std::vector<std::optional<AlignedBox>> meshes;
+    for (std::size_t mesh = 0; mesh < count_of(root, "meshes"); ++mesh)
+        meshes.push_back(bounds_of_mesh(root, mesh));
+    Outline outline;
+    outline.moves = count_of(root, "animations") > 0
+        || std::ranges::any_of(guarded.spins, [](const std::optional<Spin>& spin) { return spin.has_value(); });
+    struct Open {
+        int node;
+        glm::dmat4 world_from_parent;
+    };
+    std::vector<Open> open;
+    const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& world_from_parent) {
+        for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) // the first one is visited first
+            open.push_back({*node, world_from_parent});
+    };
+    push(root_nodes(model), glm::dmat4(1));
+    while (!open.empty()) {
+        const Open at = open.back();
+        open.pop_back();
+        const tinygltf::Node& node = model.nodes[std::size_t(at.node)];
+        const glm::dmat4 world_from_local = at.world_from_parent * local_transform(node);
+        const bool finite = glm::length(world_from_local[0]) < too_far && glm::length(world_from_local[1]) < too_far
+            && glm::length(world_from_local[2]) < too_far && glm::length(world_from_local[3]) < too_far;
+        if (!finite)
+            continue; // loading refuses it
+        push(node.children, world_from_local);
+        if (node.camera >= 0 && !outline.camera)
+            outline.camera = world_from_local;
+        if (node.mesh >= 0 && meshes[std::size_t(node.mesh)])
+            outline.things.push_back(transformed(*meshes[std::size_t(node.mesh)], world_from_local));
+    }
+    return outline;
+}
+
+} // namespace starbow

@@ -1,0 +1,146 @@
+#include "open_scene.h"
+#include "config/json/error.h"
+#include "config/json/reader.h"
+#include "config/model/file_kind.h"
+#include "moving.h"
+#include "outline.h"
+#include "world.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+namespace starbow {
+namespace {
+
+/// 1, 2 or 5 times a power of ten: the nearest by ratio.
+double round_number(double x)
+{
+    const double power = std::pow(10, std::floor(std::log10(x)));
+    const std::array steps{1.0, 2.0, 5.0, 10.0};
+    return power * *std::ranges::min_element(steps, {}, [&](double step) { return std::abs(std::log(step * power / x)); });
+}
+
+bool is_gltf(const std::filesystem::path& file) { return kind_of_file(file) == FileKind::gltf; }
+
+std::string digits(double x)
+{
+    std::ostringstream out;
+    out.precision(3);
+    out << x;
+    return out.str();
+}
+
+constexpr double crossing_s = 10; ///< light's time through a world without a scene file
+constexpr double real_light_speed_m_s = 299792458;
+
+/// The start at a camera; nullopt for one whose axes are no directions.
+std::optional<Shot> at_camera(const glm::dmat4& world_from_camera)
+{
+    const glm::dvec3 look(-world_from_camera[2]), up(world_from_camera[1]);
+    const double square = glm::length(look) * glm::length(up);
+    if (!(square > 1e-60 && glm::length(glm::cross(look, up)) > 1e-6 * square))
+        return {};
+    Shot start;
+    start.position = glm::dvec3(world_from_camera[3]);
+    start.ship_from_cockpit = orientation(look, up);
+    return start;
+}
+
+/// The least round speed of light at which the file's own animations are slow enough for it.
+double least_light_speed(const std::filesystem::path& gltf)
+{
+    const std::optional<FastestMotion> fastest = fastest_motion(load_world(gltf));
+    const double least = fastest ? fastest->per_s / most_own_speed : 0;
+    double speed = least > 0 ? round_number(least) : 0;
+    return speed < least ? round_number(2 * speed) : speed;
+}
+
+} // namespace
+
+Shot overview(const AlignedBox& box, double floor, const glm::dvec3& away)
+{
+    const glm::dvec3 centre = 0.5 * (box.low + box.high), size = box.high - box.low;
+    const glm::dquat turned = orientation(-away, {0, 1, 0});
+    const glm::dmat3 axes = glm::mat3_cast(turned);
+    // A corner is in view where its angles from straight ahead are smaller than these: of a picture of 60 degrees by 75.
+    const glm::dvec2 most(std::tan(glm::radians(30.0)), std::tan(glm::radians(23.0)));
+    double distance = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 at = 0.5 * size * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        const glm::dvec3 seen = glm::transpose(axes) * at; // right, up, back
+        distance = std::max({distance, seen.z + std::abs(seen.x) / most.x, seen.z + std::abs(seen.y) / most.y});
+    }
+    Shot shot;
+    shot.position = centre + std::max(distance, 1e-9) * axes[2];
+    shot.position.y = std::max(shot.position.y, floor + 0.02 * glm::length(size));
+    shot.ship_from_cockpit = orientation(centre - shot.position, {0, 1, 0});
+    return shot;
+}
+
+SceneFile open_scene(const std::filesystem::path& file)
+{
+    return is_gltf(file) ? scene_around(file) : load_scene_file(file);
+}
+
+SceneFile scene_around(const std::filesystem::path& gltf)
+{
+    const Outline outline = read_outline(gltf);
+    const Middle middle = middle_of(outline.things);
+    SceneFile scene;
+    scene.name = gltf.stem().string();
+    scene.file = one_line(gltf.string());
+    scene.gltf = gltf;
+    scene.unit_m = 1;
+    const double size = std::max(middle.across(), 1e-3);
+    scene.light_speed_m_s = std::min(round_number(size / crossing_s), real_light_speed_m_s);
+    const double slowest = outline.moves ? least_light_speed(gltf) : 0;
+    if (slowest > scene.light_speed_m_s)
+        scene.light_speed_m_s = std::min(slowest, real_light_speed_m_s);
+    std::optional<Shot> camera;
+    if (outline.camera)
+        camera = at_camera(*outline.camera);
+    // A little to the right and above.
+    scene.start = camera.value_or(overview(middle.box, middle.floor, {0.35, 0.28, 1}));
+    scene.start.scene = scene.name;
+    // A sun over the left shoulder of whoever looks from the start, so that forms have a light and a dark side.
+    const glm::dmat3 axes = glm::mat3_cast(scene.start.ship_from_cockpit);
+    const glm::dvec3 level(axes[2].x, 0, axes[2].z);
+    const glm::dvec3 back = glm::length(level) > 1e-3 ? glm::normalize(level) : glm::dvec3(0, 0, 1);
+    scene.lights = {
+        DirectionalLight{glm::normalize(0.6 * back - 0.6 * glm::cross(glm::dvec3(0, 1, 0), back) + glm::dvec3(0, 0.75, 0)),
+            glm::dvec3(0.95, 0.89, 0.79), {}}};
+    scene.ambient = {0.24, 0.26, 0.30};
+    scene.sky = {.zenith = {0.07, 0.14, 0.30}, .horizon = {0.42, 0.48, 0.55}, .nadir = {0.15, 0.14, 0.12}};
+    scene.notes.push_back("it has no scene file: a unit is taken as 1 m, and light flies " + digits(scene.light_speed_m_s)
+        + " m/s and crosses the world's " + digits(size) + " m in " + digits(size / scene.light_speed_m_s)
+        + (slowest > 0 && slowest == scene.light_speed_m_s ? " s, for its animations may not be faster than a fifth of it"
+                                                           : " s")
+        + "; starbow check " + scene.file + " --write " + scene.name + ".json writes both for you to change");
+    return scene;
+}
+
+std::string scene_text(const SceneFile& scene, const std::filesystem::path& folder)
+{
+    std::error_code error;
+    const std::filesystem::path gltf = std::filesystem::relative(scene.gltf, folder.empty() ? "." : folder, error);
+    const auto list = [](const glm::dvec3& v) { return nlohmann::json{v.x, v.y, v.z}.dump(); };
+    const auto& sun = std::get<DirectionalLight>(scene.lights.at(0));
+    const glm::dmat3 axes = glm::mat3_cast(scene.start.ship_from_cockpit);
+    std::ostringstream out;
+    out << "// Suggested from the bounds of the glTF file; docs/scenes.md tells each member.\n{\n"
+        << "    \"gltf\": " << nlohmann::json(error ? scene.gltf.string() : gltf.string()).dump() << ",\n"
+        << "    \"unit_m\": " << shown(scene.unit_m) << ", // a unit of the file in metres\n"
+        << "    \"light_speed_m_s\": " << shown(scene.light_speed_m_s)
+        << ", // slower light makes the effects stronger at the same speed\n"
+        << "    \"sky\": { \"zenith\": " << list(scene.sky.zenith) << ", \"horizon\": " << list(scene.sky.horizon)
+        << ", \"nadir\": " << list(scene.sky.nadir) << " },\n"
+        << "    \"ambient\": " << list(scene.ambient)
+        << ",\n    \"lights\": [\n        { \"type\": \"directional\", \"towards\": " << list(sun.towards)
+        << ", \"radiance\": " << list(sun.radiance)
+        << " }\n    ],\n    \"start\": { \"position\": " << list(scene.start.position) << ", \"look\": " << list(-axes[2])
+        << ", \"up\": " << list(axes[1]) << " }\n}\n";
+    return out.str();
+}
+
+} // namespace starbow

@@ -1,0 +1,29 @@
+#pragma once
+#include "config/model/flying.h"
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace starbow {
+
+/// A glTF file as seen from afar. Lengths are the file's.
+struct Outline {
+    std::vector<AlignedBox> things; ///< one around each mesh of each node of the file's scene, animated ones at their time 0
+    std::optional<glm::dmat4> camera; ///< world_from_camera of the scene's first camera, which looks along its -z
+    bool moves = false; ///< it has animations, or nodes that spin
+};
+
+/// What a world is about, without its backdrops: a ground to the horizon, or a sphere painted as a sky. A backdrop is three
+/// times as far across as all smaller things together.
+struct Middle {
+    AlignedBox box{glm::dvec3(-1), glm::dvec3(1)};
+    double floor = -1; ///< the height of the ground below it
+    double across() const { return glm::distance(box.low, box.high); }
+};
+Middle middle_of(std::vector<AlignedBox> things);
+
+/// Reads the outline from the file's JSON alone, by the bounds that it states of its positions: buffers and pictures stay
+/// closed, so that a file of a gigabyte takes as long as its JSON. Throws InputError.
+Outline read_outline(const std::filesystem::path& file);
+
+} // namespace starbow
