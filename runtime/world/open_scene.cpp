@@ -56,6 +56,45 @@ double least_light_speed(const std::filesystem::path& gltf)
     return speed < least ? round_number(2 * speed) : speed;
 }
 
+/// The most lamps of a scene.
+constexpr std::size_t most_lamps = 8;
+
+/// The file's own lamps, as bright together at the world's middle as the suggested sun; the brightest there first. In
+/// glTF lamps have lux and candela, here a white surface that faces all of them is as bright as the picture's white.
+std::vector<Light> lights_of(const Outline& outline, const Middle& middle)
+{
+    const glm::dvec3 centre = 0.5 * (middle.box.low + middle.box.high);
+    struct Lit {
+        double lux;
+        Light light;
+    };
+    std::vector<Lit> lit;
+    for (const OutlineLamp& lamp : outline.lamps) {
+        const glm::dvec3 place(lamp.world_from_lamp[3]), back(lamp.world_from_lamp[2]);
+        const double luminance = glm::dot(lamp.colour, glm::dvec3(0.2126, 0.7152, 0.0722));
+        const double distance = std::max(glm::distance(place, centre), 1e-3 * middle.across());
+        const double lux = luminance * lamp.intensity / (lamp.directional ? 1 : distance * distance);
+        if (!(lux > 0) || !(glm::length(back) > 1e-30))
+            continue;
+        const glm::dvec3 radiance = lamp.colour / luminance * lux;
+        lit.push_back({lux,
+            lamp.directional ? Light(DirectionalLight{glm::normalize(back), radiance, {}})
+                             : Light(PointLight{place, distance, radiance, {}})});
+    }
+    std::ranges::sort(lit, std::greater(), &Lit::lux);
+    if (lit.size() > most_lamps)
+        lit.resize(most_lamps);
+    double sum = 0;
+    for (const Lit& one : lit)
+        sum += one.lux;
+    std::vector<Light> lights;
+    for (Lit& one : lit) {
+        std::visit([&](auto& light) { light.radiance /= sum; }, one.light);
+        lights.push_back(std::move(one.light));
+    }
+    return lights;
+}
+
 } // namespace
 
 Shot overview(const AlignedBox& box, double floor, const glm::dvec3& away)
@@ -110,6 +149,14 @@ SceneFile scene_around(const std::filesystem::path& gltf)
     scene.lights = {
         DirectionalLight{glm::normalize(0.6 * back - 0.6 * glm::cross(glm::dvec3(0, 1, 0), back) + glm::dvec3(0, 0.75, 0)),
             glm::dvec3(0.95, 0.89, 0.79), {}}};
+    if (std::vector<Light> own = lights_of(outline, middle); !own.empty()) {
+        scene.lights = std::move(own);
+        if (outline.spots)
+            scene.notes.push_back("spot lamps shine to all sides");
+        if (outline.lamps.size() > scene.lights.size())
+            scene.notes.push_back("of its " + std::to_string(outline.lamps.size()) + " lamps "
+                + std::to_string(scene.lights.size()) + " shine: the brightest at its middle");
+    }
     scene.ambient = {0.24, 0.26, 0.30};
     scene.sky = {.zenith = {0.07, 0.14, 0.30}, .horizon = {0.42, 0.48, 0.55}, .nadir = {0.15, 0.14, 0.12}};
     scene.notes.push_back("it has no scene file: a unit is taken as 1 m, and light flies " + digits(scene.light_speed_m_s)
@@ -125,7 +172,6 @@ std::string scene_text(const SceneFile& scene, const std::filesystem::path& fold
     std::error_code error;
     const std::filesystem::path gltf = std::filesystem::relative(scene.gltf, folder.empty() ? "." : folder, error);
     const auto list = [](const glm::dvec3& v) { return nlohmann::json{v.x, v.y, v.z}.dump(); };
-    const auto& sun = std::get<DirectionalLight>(scene.lights.at(0));
     const glm::dmat3 axes = glm::mat3_cast(scene.start.ship_from_cockpit);
     std::ostringstream out;
     out << "// Suggested from the bounds of the glTF file; docs/scenes.md tells each member.\n{\n"
@@ -135,10 +181,17 @@ std::string scene_text(const SceneFile& scene, const std::filesystem::path& fold
         << ", // slower light makes the effects stronger at the same speed\n"
         << "    \"sky\": { \"zenith\": " << list(scene.sky.zenith) << ", \"horizon\": " << list(scene.sky.horizon)
         << ", \"nadir\": " << list(scene.sky.nadir) << " },\n"
-        << "    \"ambient\": " << list(scene.ambient)
-        << ",\n    \"lights\": [\n        { \"type\": \"directional\", \"towards\": " << list(sun.towards)
-        << ", \"radiance\": " << list(sun.radiance)
-        << " }\n    ],\n    \"start\": { \"position\": " << list(scene.start.position) << ", \"look\": " << list(-axes[2])
+        << "    \"ambient\": " << list(scene.ambient) << ",\n    \"lights\": [";
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        out << (i > 0 ? ",\n        " : "\n        ");
+        if (const auto* far = std::get_if<DirectionalLight>(&scene.lights[i]))
+            out << "{ \"type\": \"directional\", \"towards\": " << list(far->towards)
+                << ", \"radiance\": " << list(far->radiance) << " }";
+        else if (const auto* near = std::get_if<PointLight>(&scene.lights[i]))
+            out << "{ \"type\": \"point\", \"position\": " << list(near->position)
+                << ", \"distance\": " << shown(near->distance) << ", \"radiance\": " << list(near->radiance) << " }";
+    }
+    out << "\n    ],\n    \"start\": { \"position\": " << list(scene.start.position) << ", \"look\": " << list(-axes[2])
         << ", \"up\": " << list(axes[1]) << " }\n}\n";
     return out.str();
 }

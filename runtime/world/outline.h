@@ -6,10 +6,20 @@
 
 namespace starbow {
 
+/// A lamp of the file (KHR_lights_punctual). A spot shines to all sides here.
+struct OutlineLamp {
+    bool directional = false;
+    glm::dvec3 colour{1}; ///< Rec. 709 linear
+    double intensity = 1; ///< lux of a directional one, candela of the others
+    glm::dmat4 world_from_lamp{1}; ///< it stands at the origin and shines along its -z
+};
+
 /// A glTF file as seen from afar. Lengths are the file's.
 struct Outline {
     std::vector<AlignedBox> things; ///< one around each mesh of each node of the file's scene, animated ones at their time 0
     std::optional<glm::dmat4> camera; ///< world_from_camera of the scene's first camera, which looks along its -z
+    std::vector<OutlineLamp> lamps;
+    bool spots = false; ///< some of them are spots
     bool moves = false; ///< it has animations, or nodes that spin
 };
 
@@ -23,7 +33,8 @@ struct Middle {
 Middle middle_of(std::vector<AlignedBox> things);
 
 /// Reads the outline from the file's JSON alone, by the bounds that it states of its positions: buffers and pictures stay
-/// closed, so that a file of a gigabyte takes as long as its JSON. Throws InputError.
+/// closed, so that a file of a gigabyte takes as long as its JSON; but for meshes in many places (EXT_mesh_gpu_instancing).
+/// Throws InputError.
 Outline read_outline(const std::filesystem::path& file);
 
 } // namespace starbow

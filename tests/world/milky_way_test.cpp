@@ -164,7 +164,7 @@ TEST(MilkyWay, AWrongPanoramaIsRefused)
     EXPECT_NE(wrong("missing.png").find("missing.png: does not exist; a PNG or JPEG of the whole sky"), std::string::npos)
         << wrong("missing.png");
     write_text("text.png", "no picture");
-    EXPECT_NE(wrong("text.png").find("text.png: is neither PNG nor JPEG; one of those two is right"), std::string::npos)
+    EXPECT_NE(wrong("text.png").find("text.png: is neither PNG, JPEG nor WebP; one of those is right"), std::string::npos)
         << wrong("text.png");
     write_text("square.png", warp_test::png(4, 4, 3, std::vector<unsigned char>(48, 9)));
     EXPECT_NE(wrong("square.png")

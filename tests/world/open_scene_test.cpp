@@ -166,6 +166,34 @@ TEST_F(OpenSceneTest, LightIsFasterThanTheAnimations)
     EXPECT_NO_THROW(check_speeds(load_world(scene), scene));
 }
 
+TEST_F(OpenSceneTest, TheFilesOwnLampsShine)
+{
+    Doc doc = cube_on_a_ground();
+    // Straight down, 2 lux; 8 cd from 4 m beside the middle, 0.5 lux there; and a dark one.
+    doc.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}, {"intensity", 2}},
+        {{"type", "spot"}, {"intensity", 8}, {"color", {1, 0, 0}}}, {{"type", "point"}, {"intensity", 0}}};
+    const auto lamp = [](int index) { return Json{{"KHR_lights_punctual", {{"light", index}}}}; };
+    for (const Json& node : {Json{{"extensions", lamp(0)}, {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}},
+             Json{{"extensions", lamp(1)}, {"translation", {4, 1, 0}}}, Json{{"extensions", lamp(2)}}})
+        doc.json["scenes"][0]["nodes"].push_back(doc.put("nodes", node));
+    const SceneFile scene = open_scene(write("lamps.gltf", doc.text()));
+    ASSERT_EQ(scene.lights.size(), 2u);
+    const auto& far = std::get<DirectionalLight>(scene.lights[0]);
+    const auto& near = std::get<PointLight>(scene.lights[1]);
+    EXPECT_LT(glm::distance(far.towards, glm::dvec3(0, 1, 0)), 1e-9);
+    EXPECT_NEAR(near.distance, 4, 1e-9);
+    EXPECT_LT(glm::distance(near.position, glm::dvec3(4, 1, 0)), 1e-9);
+    // Their ratio is that of 2 lux to 0.2126 * 8 / 16 lux; red keeps its hue, and its luminance is its part.
+    const glm::dvec3 weights(0.2126, 0.7152, 0.0722);
+    EXPECT_NEAR(glm::dot(far.radiance, weights) / glm::dot(near.radiance, weights), 2 / (0.2126 * 0.5), 1e-9);
+    EXPECT_NEAR(glm::dot(far.radiance + near.radiance, weights), 1, 1e-9);
+    EXPECT_EQ(near.radiance.g, 0);
+    EXPECT_EQ(scene.notes.size(), 3u); // no scene file, spots, one lamp is dark
+    const SceneFile again = load_scene_file(write("lamps.json", scene_text(scene, folder)));
+    ASSERT_EQ(again.lights.size(), 2u);
+    EXPECT_EQ(std::get<PointLight>(again.lights[1]).radiance, near.radiance);
+}
+
 TEST_F(OpenSceneTest, AWorldWithoutLightIsSaidToBeBlack)
 {
     write("cube.gltf", cube_on_a_ground().text());

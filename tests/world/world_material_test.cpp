@@ -239,7 +239,7 @@ TEST_F(WorldMaterialTest, UnsupportedTexturesGiveAWarning)
     EXPECT_EQ(world.notes,
         (std::vector<std::string>{"metallic-roughness textures: surfaces are matt", "metallic surfaces are drawn matt",
             "normal maps are not used", "occlusion maps are not used",
-            "textures without a PNG or JPEG image: their surfaces are plain"}));
+            "textures without a PNG, JPEG or WebP image: their surfaces are plain"}));
 }
 
 TEST_F(WorldMaterialTest, PrimitivesWithoutMaterialGetTheDefault)

@@ -278,7 +278,7 @@ TEST_F(WorldMeshTest, UnsupportedFeaturesGiveOneWarningEach)
 {
     Doc doc = triangle_doc();
     doc.json["extensionsUsed"]
-        = {"KHR_lights_punctual", "KHR_materials_unlit", "EXT_mesh_gpu_instancing", "KHR_lights_punctual"};
+        = {"KHR_lights_punctual", "KHR_materials_unlit", "EXT_other", "KHR_materials_clearcoat", "KHR_lights_punctual"};
     doc.json["cameras"] = {{{"type", "perspective"}}, {{"type", "perspective"}}};
     doc.json["skins"] = {{{"joints", {0}}}};
     const int times = doc.accessor<float>({0, 1}, "SCALAR"), weights = doc.accessor<float>({0, 1}, "SCALAR");
@@ -290,10 +290,10 @@ TEST_F(WorldMeshTest, UnsupportedFeaturesGiveOneWarningEach)
     doc.json["nodes"][0]["skin"] = 0;
     doc.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
     EXPECT_EQ(load(doc).notes,
-        (std::vector<std::string>{"extension \"KHR_lights_punctual\" is not supported",
-            "extension \"EXT_mesh_gpu_instancing\" is not supported", "morph targets: meshes are drawn as they are stored",
-            "animations of morph targets are not supported", "animations of other things than nodes are not supported",
-            "skins: meshes are drawn as they are stored"}));
+        (std::vector<std::string>{"lamps of the file (KHR_lights_punctual) shine where no scene file names its own lights",
+            "extension \"EXT_other\" is not supported", "clear coats: the surface below is drawn",
+            "morph targets: meshes are drawn as they are stored", "animations of morph targets are not supported",
+            "animations of other things than nodes are not supported", "skins: meshes are drawn as they are stored"}));
 }
 
 TEST_F(WorldMeshTest, BuffersMayBeFilesInsideTheFolder)

@@ -1,12 +1,27 @@
 #include "guard.h"
+#include "compressed.h"
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace starbow {
 namespace {
 
 constexpr std::array supported_extensions
-    = {"KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_mesh_quantization"};
+    = {"KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_mesh_quantization",
+        "EXT_meshopt_compression", "KHR_draco_mesh_compression", "EXT_texture_webp", "EXT_mesh_gpu_instancing"};
+
+/// Extensions without which a world is drawn nearly as it is meant, each with its stand-in.
+constexpr std::array<std::pair<const char*, const char*>, 10> stand_ins{
+    {{"KHR_materials_clearcoat", "clear coats: the surface below is drawn"},
+        {"KHR_materials_transmission", "transmission: such surfaces are drawn opaque"},
+        {"KHR_materials_volume", "volumes: such surfaces are drawn opaque"},
+        {"KHR_materials_specular", "specular factors: surfaces are matt"},
+        {"KHR_materials_ior", "indices of refraction: surfaces are matt"},
+        {"KHR_materials_sheen", "sheen: surfaces are matt"}, {"KHR_materials_iridescence", "iridescence: surfaces are matt"},
+        {"KHR_materials_anisotropy", "anisotropy: surfaces are matt"},
+        {"KHR_materials_variants", "variants: the first look is drawn"},
+        {"KHR_lights_punctual", "lamps of the file (KHR_lights_punctual) shine where no scene file names its own lights"}}};
 
 void guard_asset(const Spot& root)
 {
@@ -29,13 +44,29 @@ void guard_extensions(const Spot& root, GuardedGltf& out)
             if (std::string name = text(all[i]); std::ranges::find(supported_extensions, name) == supported_extensions.end())
                 unsupported(all[i], in_quotes(name));
     };
-    each("extensionsRequired", [](const Spot& spot, const std::string& name) {
-        spot.fail("requires the extension " + name + ", which is not supported; export the world without it");
+    const auto stand_in = [](const Spot& spot) {
+        const auto one = std::ranges::find(stand_ins, text(spot), [](const auto& each) { return std::string(each.first); });
+        return one == stand_ins.end() ? nullptr : one->second;
+    };
+    each("extensionsRequired", [&](const Spot& spot, const std::string& name) {
+        if (text(spot) == "KHR_texture_basisu")
+            spot.fail(
+                "requires KTX2 textures (KHR_texture_basisu), which are not read; PNG, JPEG or WebP textures are right");
+        if (!stand_in(spot))
+            spot.fail("requires the extension " + name + ", which is not supported; export the world without it");
     });
-    each("extensionsUsed", [&](const Spot&, const std::string& name) {
+    each("extensionsUsed", [&](const Spot& spot, const std::string& name) {
         if (out.notes.size() < 100)
-            note_once(out.notes, "extension " + name + " is not supported");
+            note_once(out.notes, stand_in(spot) ? stand_in(spot) : "extension " + name + " is not supported");
     });
+}
+
+/// The extension EXT_meshopt_compression of a buffer or a view; nullopt without it.
+std::optional<Spot> meshopt_of(const Spot& spot)
+{
+    if (!spot.has("extensions") || !object(spot["extensions"]).has("EXT_meshopt_compression"))
+        return {};
+    return object(spot["extensions"]["EXT_meshopt_compression"]);
 }
 
 /// Notes the lists that a world without skeletons does not use.
@@ -62,6 +93,9 @@ void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
     guard_list(root, "buffers", buffers, [&](const Spot& buffer, tinygltf::Buffer& written) {
         auto length = std::size_t(integer(buffer["byteLength"], 1, most));
         Bytes& bytes = written.data;
+        if (const std::optional<Spot> packing = meshopt_of(buffer);
+            packing && packing->has("fallback") && boolean((*packing)["fallback"]))
+            return; // every view of it is packed elsewhere
         if (buffer.has("uri"))
             bytes = read_uri(file, buffer["uri"]);
         else if (file.has_bin && buffers.empty())
@@ -72,8 +106,10 @@ void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
             buffer["byteLength"].fail("is " + std::to_string(length) + "; the buffer has " + std::to_string(bytes.size()));
         bytes.resize(length);
     });
-    guard_list(root, "bufferViews", out.model.bufferViews, [&](const Spot& view, tinygltf::BufferView& written) {
-        auto buffer = index_into(view["buffer"], "buffer", buffers.size());
+    const std::size_t stated = buffers.size();
+    /// The part of a buffer that an object with buffer, byteOffset and byteLength names.
+    const auto part_of = [&](const Spot& view, tinygltf::BufferView& written) {
+        auto buffer = index_into(view["buffer"], "buffer", stated);
         auto offset = integer_or(view, "byteOffset", 0, 0, most);
         auto length = integer(view["byteLength"], 1, most);
         auto held = std::int64_t(buffers[std::size_t(buffer)].data.size());
@@ -82,6 +118,21 @@ void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
         written.buffer = int(buffer);
         written.byteOffset = std::size_t(offset);
         written.byteLength = std::size_t(length);
+    };
+    guard_list(root, "bufferViews", out.model.bufferViews, [&](const Spot& view, tinygltf::BufferView& written) {
+        if (const std::optional<Spot> packed = meshopt_of(view)) {
+            part_of(object(*packed), written);
+            const Bytes& from = buffers[std::size_t(written.buffer)].data;
+            Bytes unpacked = unpack_meshopt(*packed, std::span(from).subspan(written.byteOffset, written.byteLength));
+            if (unpacked.size() > file.bytes_left)
+                packed->fail("unpacks to more bytes than a file may have");
+            file.bytes_left -= unpacked.size();
+            written.buffer = int(buffers.size());
+            written.byteOffset = 0;
+            written.byteLength = unpacked.size();
+            buffers.emplace_back().data = std::move(unpacked);
+        } else
+            part_of(view, written);
         if (view.has("byteStride")) {
             auto stride = integer(view["byteStride"], 4, 252);
             if (stride % 4 != 0)
@@ -89,6 +140,7 @@ void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
             written.byteStride = std::size_t(stride);
         }
     });
+    out.stated_views = out.model.bufferViews.size();
 }
 
 GuardedGltf guard_gltf(const std::filesystem::path& path)

@@ -9,6 +9,12 @@ namespace starbow {
 
 constexpr double too_far = 1e30; ///< beyond it a float's square, and so a length, is infinite
 
+/// A node's mesh in many places (EXT_mesh_gpu_instancing): accessors of equal count, -1 for those without one.
+struct Instancing {
+    int translations = -1, rotations = -1, scales = -1;
+    std::size_t count = 0;
+};
+
 /// A glTF file in which every reference, range, type and path has been checked.
 ///
 /// The types of `model` are tinygltf's; its parser stays unused. The parser is built for files that keep the rules: it opens
@@ -22,6 +28,9 @@ struct GuardedGltf {
     std::vector<std::span<const std::uint8_t>> images;
     std::vector<Material> surfaces; ///< by the file's materials: the members from their extras, the rest not set
     std::vector<std::optional<Spin>> spins; ///< one for each node in the file
+    std::vector<std::optional<Instancing>> instancing; ///< one for each node in the file
+    /// Numbers of those in the file; unpacked ones come after them.
+    std::size_t stated_views = 0, stated_accessors = 0;
     std::vector<std::string> notes; ///< everything left out, each once
 };
 

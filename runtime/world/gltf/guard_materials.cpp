@@ -29,6 +29,11 @@ void guard_textures(const Spot& root, GuardedGltf& out)
     guard_list(root, "textures", out.model.textures, [&](const Spot& texture, tinygltf::Texture& written) {
         if (texture.has("source"))
             written.source = int(index_into(texture["source"], "image", count_of(root, "images")));
+        if (texture.has("extensions") && object(texture["extensions"]).has("EXT_texture_webp")) {
+            const Spot webp = object(texture["extensions"]["EXT_texture_webp"]);
+            if (webp.has("source"))
+                written.source = int(index_into(webp["source"], "image", count_of(root, "images")));
+        }
         if (texture.has("sampler"))
             written.sampler = int(index_into(texture["sampler"], "sampler", count_of(root, "samplers")));
     });

@@ -1,3 +1,4 @@
+#include "compressed.h"
 #include "guard.h"
 #include <algorithm>
 #include <array>
@@ -89,7 +90,8 @@ void guard_sparse(
     to.values.byteOffset = int(integer_or(values, "byteOffset", 0, 0, most_offset));
 }
 
-void guard_accessor(const Spot& accessor, tinygltf::Accessor& written, const Views& views)
+/// packed: the file has meshes in other forms, whose accessors only state their counts.
+void guard_accessor(const Spot& accessor, tinygltf::Accessor& written, const Views& views, bool packed)
 {
     auto component = component_bytes(accessor["componentType"]);
     const Shape& shape = shape_of(accessor["type"]);
@@ -103,7 +105,7 @@ void guard_accessor(const Spot& accessor, tinygltf::Accessor& written, const Vie
     if (accessor.has("bufferView")) {
         written.bufferView = view_holding(accessor, views, count, element, true);
         written.byteOffset = std::size_t(integer_or(accessor, "byteOffset", 0, 0, most_offset));
-    } else if (count > std::int64_t(GltfLimits::zeros))
+    } else if (!packed && count > std::int64_t(GltfLimits::zeros))
         accessor["count"].fail("is " + std::to_string(count) + "; without a bufferView at most "
             + std::to_string(GltfLimits::zeros) + " are allowed");
     if (accessor.has("sparse"))
@@ -130,11 +132,10 @@ const Legal* legal_for(const std::string& attribute)
     return attribute.starts_with("TEXCOORD_") ? &uv : nullptr;
 }
 
-using Accessors = std::vector<tinygltf::Accessor>;
-
-const tinygltf::Accessor& checked_accessor(const Spot& spot, const Accessors& accessors, const Legal& legal)
+const tinygltf::Accessor& checked_accessor(const Spot& spot, const GuardedGltf& out, const Legal& legal)
 {
-    const tinygltf::Accessor& accessor = accessors[std::size_t(index_into(spot, "accessor", accessors.size()))];
+    const tinygltf::Accessor& accessor
+        = out.model.accessors[std::size_t(index_into(spot, "accessor", out.stated_accessors))];
     if (std::ranges::find(legal.types, accessor.type) == legal.types.end()
         || std::ranges::find(legal.components, accessor.componentType) == legal.components.end())
         spot.fail("names accessor " + spot.json.dump() + " of type " + type_name(accessor) + " and component type "
@@ -159,7 +160,6 @@ void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, Guarde
     static const Legal indices{{TINYGLTF_TYPE_SCALAR},
         {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
             TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT}};
-    const Accessors& accessors = out.model.accessors;
     written.mode = int(integer_or(primitive, "mode", TINYGLTF_MODE_TRIANGLES, 0, 6));
     Spot attributes = primitive["attributes"];
     std::size_t vertices = 0;
@@ -168,10 +168,10 @@ void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, Guarde
         Spot spot = attributes[name];
         if (!legal) {
             // Starbow does not read tangents, joints, further colours or application-specific attributes.
-            index_into(spot, "accessor", accessors.size());
+            index_into(spot, "accessor", out.stated_accessors);
             continue;
         }
-        auto count = checked_accessor(spot, accessors, *legal).count;
+        auto count = checked_accessor(spot, out, *legal).count;
         if (vertices != 0 && count != vertices)
             spot.fail("has " + std::to_string(count) + " elements; the other attributes have " + std::to_string(vertices));
         vertices = count;
@@ -184,9 +184,13 @@ void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, Guarde
         written.material = int(index_into(primitive["material"], "material", out.model.materials.size()));
     if (primitive.has("targets"))
         note_once(out.notes, "morph targets: meshes are drawn as they are stored");
-    if (primitive.has("indices")) {
+    if (primitive.has("extensions") && object(primitive["extensions"]).has("KHR_draco_mesh_compression")) {
+        if (written.mode != TINYGLTF_MODE_TRIANGLES)
+            primitive["mode"].fail("is packed; packed meshes are lists of triangles here");
+        unpack_draco(primitive["extensions"]["KHR_draco_mesh_compression"], written, out);
+    } else if (primitive.has("indices")) {
         Spot spot = primitive["indices"];
-        const tinygltf::Accessor& accessor = checked_accessor(spot, accessors, indices);
+        const tinygltf::Accessor& accessor = checked_accessor(spot, out, indices);
         if (accessor.bufferView < 0)
             spot.fail("names accessor " + spot.json.dump() + ", which has no bufferView; indices need one");
         check_count(spot, written.mode, accessor.count);
@@ -204,9 +208,14 @@ std::string type_name(const tinygltf::Accessor& accessor)
 
 void guard_accessors(const Spot& root, GuardedGltf& out)
 {
+    bool packed = false;
+    if (root.has("extensionsUsed"))
+        for (std::size_t i = 0; i < list(root["extensionsUsed"], 0).size(); ++i)
+            packed |= text(root["extensionsUsed"][i]) == "KHR_draco_mesh_compression";
     guard_list(root, "accessors", out.model.accessors, [&](const Spot& accessor, tinygltf::Accessor& written) {
-        guard_accessor(accessor, written, out.model.bufferViews);
+        guard_accessor(accessor, written, out.model.bufferViews, packed);
     });
+    out.stated_accessors = out.model.accessors.size();
 }
 
 void guard_meshes(const Spot& root, GuardedGltf& out)

@@ -1,4 +1,5 @@
 #include "guard.h"
+#include <tuple>
 
 namespace starbow {
 namespace {
@@ -51,6 +52,34 @@ std::optional<Spin> guard_spin(const Spot& node)
     return out;
 }
 
+std::optional<Instancing> guard_instancing(const Spot& node, const Spot& root)
+{
+    if (!node.has("extensions") || !object(node["extensions"]).has("EXT_mesh_gpu_instancing"))
+        return {};
+    const Spot attributes = object(node["extensions"]["EXT_mesh_gpu_instancing"])["attributes"];
+    Instancing instancing;
+    for (const auto& [name, to, type] : {std::tuple{"TRANSLATION", &instancing.translations, "VEC3"},
+             {"ROTATION", &instancing.rotations, "VEC4"}, {"SCALE", &instancing.scales, "VEC3"}}) {
+        if (!object(attributes).has(name))
+            continue;
+        const Spot spot = attributes[name];
+        *to = int(index_into(spot, "accessor", count_of(root, "accessors")));
+        const Spot accessor = object(root["accessors"][std::size_t(*to)]);
+        if (text(accessor["type"]) != type)
+            spot.fail("names accessor " + spot.json.dump() + " of type " + in_quotes(text(accessor["type"])) + "; " + name
+                + " has " + type);
+        const auto count = std::size_t(integer(accessor["count"], 1, 0xffffffff));
+        if (instancing.count != 0 && count != instancing.count)
+            spot.fail(
+                "has " + std::to_string(count) + " elements; the other attributes have " + std::to_string(instancing.count));
+        instancing.count = count;
+    }
+    if (instancing.count > GltfLimits::instances)
+        attributes.fail("have " + std::to_string(instancing.count) + " instances; at most "
+            + std::to_string(GltfLimits::instances) + " are allowed");
+    return instancing.count > 0 ? std::optional(instancing) : std::nullopt;
+}
+
 /// Checks the specification's strict trees: each node has at most one parent, and the children form no cycle.
 void check_trees(const Spot& nodes, const std::vector<std::int64_t>& parent)
 {
@@ -82,6 +111,7 @@ void guard_nodes(const Spot& root, GuardedGltf& out)
     guard_list(root, "nodes", written_nodes, [&](const Spot& node, tinygltf::Node& written) {
         guard_transform(node, written);
         out.spins.push_back(guard_spin(node));
+        out.instancing.push_back(guard_instancing(node, root));
         if (node.has("name"))
             written.name = text(node["name"]);
         if (node.has("mesh"))

@@ -17,6 +17,35 @@ const std::vector<std::uint32_t>& primitives_of(WorldBuild& build, int mesh, std
     return known->second;
 }
 
+/// The places of a node's mesh in its own frame: one, or those of EXT_mesh_gpu_instancing.
+std::vector<glm::dmat4> places_of(WorldBuild& build, int node)
+{
+    const std::optional<Instancing>& instancing = build.file.instancing[std::size_t(node)];
+    if (!instancing)
+        return {glm::dmat4(1)};
+    std::vector<glm::dmat4> places(instancing->count, glm::dmat4(1));
+    const auto each = [&](int accessor, auto apply) {
+        if (accessor < 0)
+            return;
+        const Elements elements = open(build, accessor);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            apply(places[i], [&](int which) { return elements.component(i, which); });
+    };
+    each(instancing->rotations, [&](glm::dmat4& place, auto part) {
+        const glm::dquat turn(part(3), part(0), part(1), part(2));
+        const double length = glm::length(turn);
+        if (!(length > 0.9 && length < 1.1))
+            build.fail("/nodes/" + std::to_string(node), "has an instance whose rotation is no unit quaternion");
+        place = glm::mat4_cast(turn / length);
+    });
+    each(instancing->scales, [](glm::dmat4& place, auto part) {
+        for (int i = 0; i < 3; ++i)
+            place[i] *= part(i);
+    });
+    each(instancing->translations, [](glm::dmat4& place, auto part) { place[3] = {part(0), part(1), part(2), 1}; });
+    return places;
+}
+
 /// Adds an animated node's instances.
 void add_moving(WorldBuild& build, int node, const Motion& motion, const std::vector<std::uint32_t>& primitives)
 {
@@ -46,6 +75,34 @@ void add_moving(WorldBuild& build, int node, const Motion& motion, const std::ve
     }
 }
 
+void refuse_far(WorldBuild& build, int node, const glm::dmat4& transform)
+{
+    for (int column = 0; column < 4; ++column)
+        if (!(glm::length(transform[column]) < too_far))
+            build.fail(
+                "/nodes/" + std::to_string(node), "with its parents' transforms leads beyond 1e30; should stay below");
+}
+
+/// Adds a still node's instances.
+void add_still(WorldBuild& build, int node, const glm::dmat4& world_from_local, const std::vector<std::uint32_t>& primitives)
+{
+    refuse_far(build, node, world_from_local);
+    const double determinant = glm::determinant(glm::dmat3(world_from_local));
+    if (determinant == 0) {
+        note_once(build.world.notes, "nodes scaled to nothing are not drawn");
+        return;
+    }
+    for (std::uint32_t primitive : primitives) {
+        if (build.world.instances.size() >= GltfLimits::instances)
+            build.fail("/nodes/" + std::to_string(node),
+                "brings the world above " + std::to_string(GltfLimits::instances) + " instances; use fewer");
+        // A mirrored node reverses the triangles' orientation. Reversing the corners here spares the renderer a second
+        // case.
+        build.world.instances.push_back(
+            {world_from_local, determinant < 0 ? turned_primitive(build, primitive) : primitive, node});
+    }
+}
+
 void add_instances(WorldBuild& build)
 {
     struct Visit {
@@ -70,10 +127,7 @@ void add_instances(WorldBuild& build)
         build.world.nodes[std::size_t(index)].parent = parent;
         const auto& node = build.model.nodes[std::size_t(index)];
         glm::dmat4 world_from_local = world_from_parent * local_transform(node);
-        std::string place = "/nodes/" + std::to_string(index);
-        for (int column = 0; column < 4; ++column)
-            if (!(glm::length(world_from_local[column]) < 1e30))
-                build.fail(place, "with its parents' transforms leads beyond 1e30; should stay below");
+        refuse_far(build, index, world_from_local);
         if (build.node_tracks.contains(index) || build.file.spins[std::size_t(index)]) {
             joint = add_joint(build, index, joint, joint_from_parent);
             joint_from_parent = glm::dmat4(1);
@@ -83,24 +137,14 @@ void add_instances(WorldBuild& build)
         if (node.mesh < 0)
             continue;
         if (joint >= 0) {
-            const Motion motion{joint, joint_from_parent};
-            add_moving(build, index, motion, primitives_of(build, node.mesh, made));
+            for (const glm::dmat4& at : places_of(build, index)) {
+                refuse_far(build, index, joint_from_parent * at);
+                add_moving(build, index, {joint, joint_from_parent * at}, primitives_of(build, node.mesh, made));
+            }
             continue;
         }
-        double determinant = glm::determinant(glm::dmat3(world_from_local));
-        if (determinant == 0) {
-            note_once(build.world.notes, "nodes scaled to nothing are not drawn");
-            continue;
-        }
-        for (std::uint32_t primitive : primitives_of(build, node.mesh, made)) {
-            if (build.world.instances.size() >= GltfLimits::instances)
-                build.fail(
-                    place, "brings the world above " + std::to_string(GltfLimits::instances) + " instances; use fewer");
-            // A mirrored node reverses the triangles' orientation. Reversing the corners here spares the renderer a
-            // second case.
-            build.world.instances.push_back(
-                {world_from_local, determinant < 0 ? turned_primitive(build, primitive) : primitive, index});
-        }
+        for (const glm::dmat4& at : places_of(build, index))
+            add_still(build, index, world_from_local * at, primitives_of(build, node.mesh, made));
     }
 }
 

@@ -49,6 +49,40 @@ std::optional<AlignedBox> bounds_of_mesh(const Spot& root, std::size_t mesh)
     return all;
 }
 
+/// The file's lamps by their index, before they have a place.
+std::vector<OutlineLamp> lamps_of(const Spot& root, bool& spots)
+{
+    std::vector<OutlineLamp> lamps;
+    if (!root.has("extensions") || !object(root["extensions"]).has("KHR_lights_punctual"))
+        return lamps;
+    const Spot all = object(root["extensions"]["KHR_lights_punctual"])["lights"];
+    for (std::size_t i = 0; i < list(all).size(); ++i) {
+        const Spot lamp = object(all[i]);
+        OutlineLamp& to = lamps.emplace_back();
+        const std::string type = text(lamp["type"]);
+        to.directional = type == "directional";
+        spots |= type == "spot";
+        if (!to.directional && type != "point" && type != "spot")
+            lamp["type"].fail("is " + in_quotes(type) + "; should be directional, point or spot");
+        if (lamp.has("color")) {
+            const auto colour = numbers(lamp["color"], 3, 0, 1e6);
+            to.colour = {colour[0], colour[1], colour[2]};
+        }
+        if (lamp.has("intensity"))
+            to.intensity = number(lamp["intensity"], 0, 1e12);
+    }
+    return lamps;
+}
+
+/// The lamp that a node carries; -1: none.
+int lamp_of(const Spot& root, std::size_t node, std::size_t lamps)
+{
+    const Spot spot = root["nodes"][node];
+    if (!spot.has("extensions") || !object(spot["extensions"]).has("KHR_lights_punctual"))
+        return -1;
+    return int(index_into(object(spot["extensions"]["KHR_lights_punctual"])["light"], "light", lamps));
+}
+
 AlignedBox transformed(const AlignedBox& box, const glm::dmat4& transform)
 {
     AlignedBox out{glm::dvec3(transform * glm::dvec4(box.low, 1)), glm::dvec3(transform * glm::dvec4(box.low, 1))};
@@ -104,6 +138,8 @@ Outline read_outline(const std::filesystem::path& path)
     for (std::size_t mesh = 0; mesh < count_of(root, "meshes"); ++mesh)
         meshes.push_back(bounds_of_mesh(root, mesh));
     Outline outline;
+    const std::vector<OutlineLamp> lamps = lamps_of(root, outline.spots);
+    const bool in_many_places = std::ranges::any_of(guarded.instancing, [](const auto& each) { return each.has_value(); });
     outline.moves = count_of(root, "animations") > 0
         || std::ranges::any_of(guarded.spins, [](const std::optional<Spin>& spin) { return spin.has_value(); });
     struct Open {
@@ -128,8 +164,19 @@ Outline read_outline(const std::filesystem::path& path)
         push(node.children, world_from_local);
         if (node.camera >= 0 && !outline.camera)
             outline.camera = world_from_local;
-        if (node.mesh >= 0 && meshes[std::size_t(node.mesh)])
+        if (const int lamp = lamp_of(root, std::size_t(at.node), lamps.size()); lamp >= 0) {
+            outline.lamps.push_back(lamps[std::size_t(lamp)]);
+            outline.lamps.back().world_from_lamp = world_from_local;
+        }
+        if (!in_many_places && node.mesh >= 0 && meshes[std::size_t(node.mesh)])
             outline.things.push_back(transformed(*meshes[std::size_t(node.mesh)], world_from_local));
+    }
+    if (in_many_places) {
+        const World world = load_world(path);
+        for (const Instance& instance : world.instances) {
+            const Primitive& primitive = world.primitives[instance.primitive];
+            outline.things.push_back(transformed({primitive.low, primitive.high}, instance.frame_from_local));
+        }
     }
     return outline;
 }

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 #include <stb/stb_image.h>
+#include <webp/decode.h>
 
 namespace starbow {
 namespace {
@@ -15,15 +16,23 @@ constexpr std::size_t pixels_per_byte = 8300;
 /// A progressive JPEG is decoded once for each scan; encoders write about ten.
 constexpr std::ptrdiff_t jpeg_scans = 100;
 
+bool is_webp(std::span<const std::uint8_t> bytes)
+{
+    return bytes.size() > 12 && std::memcmp(bytes.data(), "RIFF", 4) == 0 && std::memcmp(bytes.data() + 8, "WEBP", 4) == 0;
+}
+
 std::string suspicion(std::span<const std::uint8_t> bytes, int& width, int& height)
 {
     static constexpr std::uint8_t png[] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10}, jpeg[] = {0xff, 0xd8, 0xff};
     auto starts
         = [&](auto& magic) { return bytes.size() > sizeof magic && std::memcmp(bytes.data(), magic, sizeof magic) == 0; };
     int channels = 0;
-    if (!starts(png) && !starts(jpeg))
-        return "is neither PNG nor JPEG; one of those two is right";
-    if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels)) {
+    if (is_webp(bytes)) {
+        if (!WebPGetInfo(bytes.data(), bytes.size(), &width, &height))
+            return "has a broken header; should be a WebP";
+    } else if (!starts(png) && !starts(jpeg))
+        return "is neither PNG, JPEG nor WebP; one of those is right";
+    else if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels)) {
         // The library also fails at sizes beyond its own limits; a PNG's header says what they are.
         const auto word = [&](std::size_t at) {
             return std::int64_t(bytes[at]) << 24 | bytes[at + 1] << 16 | bytes[at + 2] << 8 | bytes[at + 3];
@@ -40,7 +49,8 @@ std::string suspicion(std::span<const std::uint8_t> bytes, int& width, int& heig
         || std::size_t(width) * std::size_t(height) > GltfLimits::texture_pixels)
         return size + "at most " + std::to_string(GltfLimits::texture_side) + " a side and "
             + std::to_string(GltfLimits::texture_pixels) + " in all are allowed";
-    if (std::size_t(width) * std::size_t(height) / pixels_per_byte > bytes.size())
+    // A WebP of one colour takes a few bytes, whatever its size.
+    if (!is_webp(bytes) && std::size_t(width) * std::size_t(height) / pixels_per_byte > bytes.size())
         return size + "its " + std::to_string(bytes.size()) + " bytes cannot hold so many";
     static constexpr std::uint8_t scan[] = {0xff, 0xda};
     std::ptrdiff_t scans = 0;
@@ -93,6 +103,8 @@ glm::ivec2 image_size(std::span<const std::uint8_t> bytes)
 {
     glm::ivec2 size(0);
     int channels = 0;
+    if (is_webp(bytes))
+        return WebPGetInfo(bytes.data(), bytes.size(), &size.x, &size.y) ? size : glm::ivec2(0);
     return stbi_info_from_memory(bytes.data(), int(bytes.size()), &size.x, &size.y, &channels) ? size : glm::ivec2(0);
 }
 
@@ -172,7 +184,7 @@ struct TextureShelf {
     {
         const auto& texture = build.model.textures[std::size_t(gltf_texture)];
         if (texture.source < 0) {
-            note_once(build.world.notes, "textures without a PNG or JPEG image: their surfaces are plain");
+            note_once(build.world.notes, "textures without a PNG, JPEG or WebP image: their surfaces are plain");
             return -1;
         }
         Sampler sampler = sampler_of(build.model, texture.sampler);
@@ -295,11 +307,14 @@ Texture decode_image(const std::string& file, const std::string& place, std::spa
     if (std::string problem = suspicion(bytes, from.size.x, from.size.y); !problem.empty())
         throw InputError(file, place, problem);
     // The image's own channels: a grey one takes a quarter of the memory until it is small.
-    std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> decoded(
-        stbi_load_from_memory(bytes.data(), int(bytes.size()), &from.size.x, &from.size.y, &from.channels, 0),
-        &stbi_image_free);
+    const bool webp = is_webp(bytes);
+    std::unique_ptr<std::uint8_t, void (*)(void*)> decoded(webp
+            ? WebPDecodeRGBA(bytes.data(), bytes.size(), &from.size.x, &from.size.y)
+            : stbi_load_from_memory(bytes.data(), int(bytes.size()), &from.size.x, &from.size.y, &from.channels, 0),
+        webp ? WebPFree : stbi_image_free);
     if (!decoded)
-        throw InputError(file, place, "cannot be decoded: " + std::string(stbi_failure_reason()));
+        throw InputError(file, place,
+            webp ? "cannot be decoded; a whole WebP is right" : "cannot be decoded: " + std::string(stbi_failure_reason()));
     from.values = decoded.get();
     Texture out;
     out.size = glm::max(from.size >> halvings, 1);

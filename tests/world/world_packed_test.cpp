@@ -1,0 +1,257 @@
+// Worlds in packed forms, each against the same world in plain glTF: meshes by Draco and meshoptimizer, WebP pictures, and
+// one mesh in many places.
+#include "config/json/error.h"
+#include "tests/support/gltf_fixture.h"
+#include <draco/compression/encode.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <meshoptimizer.h>
+#include <random>
+#include <webp/encode.h>
+
+namespace starbow::gltf_test::world_packed_test {
+namespace {
+
+using WorldPackedTest = GltfTest;
+
+/// A wavy sheet of side x side vertices.
+struct Sheet {
+    std::vector<float> positions, normals, uv;
+    std::vector<std::uint32_t> indices;
+
+    explicit Sheet(int side)
+    {
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                positions.insert(positions.end(), {float(x), float(std::sin(0.7 * x + 0.3 * y)), float(y)});
+                const glm::vec3 normal
+                    = glm::normalize(glm::vec3(-0.7 * std::cos(0.7 * x + 0.3 * y), 1, -0.3 * std::cos(0.7 * x + 0.3 * y)));
+                normals.insert(normals.end(), {normal.x, normal.y, normal.z});
+                uv.insert(uv.end(), {float(x) / side, float(y) / side});
+            }
+        for (int y = 0; y + 1 < side; ++y)
+            for (int x = 0; x + 1 < side; ++x) {
+                const auto at = [&](int i, int j) { return std::uint32_t((y + j) * side + x + i); };
+                indices.insert(indices.end(), {at(0, 0), at(0, 1), at(1, 0), at(1, 0), at(0, 1), at(1, 1)});
+            }
+    }
+    std::size_t count() const { return positions.size() / 3; }
+};
+
+Doc plain(const Sheet& sheet)
+{
+    Doc doc;
+    const int positions = doc.accessor<float>(sheet.positions, "VEC3"), normals = doc.accessor<float>(sheet.normals, "VEC3"),
+              uv = doc.accessor<float>(sheet.uv, "VEC2"), indices = doc.accessor<std::uint32_t>(sheet.indices, "SCALAR");
+    doc.show({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uv}}}, {"indices", indices}});
+    return doc;
+}
+
+/// The corners of all triangles in drawing order, whatever the vertices' order.
+std::vector<Vertex> corners(const World& world)
+{
+    std::vector<Vertex> out;
+    for (const Instance& instance : world.instances) {
+        const Primitive& primitive = world.primitives[instance.primitive];
+        for (std::uint32_t i = 0; i < primitive.index_count; ++i)
+            out.push_back(world.vertices[world.indices[primitive.first_index + i] + std::uint32_t(primitive.vertex_offset)]);
+    }
+    return out;
+}
+
+/// by: the greatest difference of a position; normals and coordinates may differ by a hundredth.
+void expect_same(const World& a, const World& b, double by)
+{
+    const auto one = corners(a), other = corners(b);
+    ASSERT_EQ(one.size(), other.size());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        ASSERT_LT(glm::distance(one[i].position, other[i].position), by) << i;
+        ASSERT_LT(glm::distance(one[i].normal, other[i].normal), 0.02) << i;
+        ASSERT_LT(glm::distance(one[i].uv, other[i].uv), 0.01) << i;
+    }
+}
+
+/// The sheet as a view of EXT_meshopt_compression for each accessor.
+Doc by_meshopt(const Sheet& sheet)
+{
+    Doc doc = plain(sheet);
+    const int fallback
+        = doc.put("buffers", {{"byteLength", 1 << 20}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
+    Bytes packed_all;
+    const auto pack = [&](int accessor, const Bytes& packed, std::size_t stride, std::size_t count, const char* mode,
+                          const char* filter) {
+        const int view = doc.view(packed);
+        Json& to = doc.json["bufferViews"][std::size_t(view)];
+        const Json from = to;
+        to["extensions"]["EXT_meshopt_compression"]
+            = {{"buffer", from.value("buffer", 0)}, {"byteOffset", from.value("byteOffset", 0)},
+                {"byteLength", packed.size()}, {"byteStride", stride}, {"count", count}, {"mode", mode}, {"filter", filter}};
+        to["buffer"] = fallback, to["byteOffset"] = 0, to["byteLength"] = stride * count;
+        if (std::string(mode) == "ATTRIBUTES")
+            to["byteStride"] = stride;
+        doc.json["accessors"][std::size_t(accessor)]["bufferView"] = view;
+        doc.json["accessors"][std::size_t(accessor)].erase("byteOffset");
+    };
+    const auto attributes = [&](const auto& values, std::size_t stride) {
+        Bytes packed(meshopt_encodeVertexBufferBound(sheet.count(), stride));
+        packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), values.data(), sheet.count(), stride));
+        return packed;
+    };
+    pack(0, attributes(sheet.positions, 12), 12, sheet.count(), "ATTRIBUTES", "NONE");
+    // Normals by their octahedron in eight bits.
+    std::vector<float> four;
+    for (std::size_t i = 0; i < sheet.count(); ++i)
+        four.insert(four.end(), {sheet.normals[3 * i], sheet.normals[3 * i + 1], sheet.normals[3 * i + 2], 0});
+    std::vector<std::int8_t> octahedra(4 * sheet.count());
+    meshopt_encodeFilterOct(octahedra.data(), sheet.count(), 4, 8, four.data());
+    pack(1, attributes(octahedra, 4), 4, sheet.count(), "ATTRIBUTES", "OCTAHEDRAL");
+    doc.json["accessors"][1]["componentType"] = 5120, doc.json["accessors"][1]["normalized"] = true;
+    std::vector<std::uint32_t> exponents(2 * sheet.count());
+    meshopt_encodeFilterExp(exponents.data(), sheet.count(), 8, 15, sheet.uv.data());
+    pack(2, attributes(exponents, 8), 8, sheet.count(), "ATTRIBUTES", "EXPONENTIAL");
+    Bytes packed(meshopt_encodeIndexBufferBound(sheet.indices.size(), sheet.count()));
+    packed.resize(meshopt_encodeIndexBuffer(packed.data(), packed.size(), sheet.indices.data(), sheet.indices.size()));
+    pack(3, packed, 4, sheet.indices.size(), "TRIANGLES", "NONE");
+    doc.json["extensionsRequired"] = {"EXT_meshopt_compression", "KHR_mesh_quantization"};
+    return doc;
+}
+
+Doc by_draco(const Sheet& sheet)
+{
+    draco::Mesh mesh;
+    mesh.set_num_points(std::uint32_t(sheet.count()));
+    const auto add = [&](draco::GeometryAttribute::Type type, const std::vector<float>& values, int components) {
+        draco::GeometryAttribute attribute;
+        attribute.Init(type, nullptr, std::int8_t(components), draco::DT_FLOAT32, false, 4 * components, 0);
+        const int id = mesh.AddAttribute(attribute, true, std::uint32_t(sheet.count()));
+        for (std::uint32_t i = 0; i < sheet.count(); ++i)
+            mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &values[i * std::size_t(components)]);
+        return int(mesh.attribute(id)->unique_id());
+    };
+    const int positions = add(draco::GeometryAttribute::POSITION, sheet.positions, 3),
+              normals = add(draco::GeometryAttribute::NORMAL, sheet.normals, 3),
+              uv = add(draco::GeometryAttribute::TEX_COORD, sheet.uv, 2);
+    for (std::size_t i = 0; i < sheet.indices.size(); i += 3)
+        mesh.AddFace({draco::PointIndex(sheet.indices[i]), draco::PointIndex(sheet.indices[i + 1]),
+            draco::PointIndex(sheet.indices[i + 2])});
+    draco::Encoder encoder;
+    encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING); // keeps the triangles' order
+    encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 16);
+    encoder.SetAttributeQuantization(draco::GeometryAttribute::NORMAL, 10);
+    encoder.SetAttributeQuantization(draco::GeometryAttribute::TEX_COORD, 12);
+    draco::EncoderBuffer buffer;
+    EXPECT_TRUE(encoder.EncodeMeshToBuffer(mesh, &buffer).ok());
+    Doc doc = plain(sheet);
+    const int view = doc.view(Bytes(buffer.data(), buffer.data() + buffer.size()));
+    doc.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]
+        = {{"bufferView", view}, {"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uv}}}};
+    for (Json& accessor : doc.json["accessors"])
+        accessor.erase("bufferView");
+    doc.json["extensionsUsed"] = doc.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    return doc;
+}
+
+TEST_F(WorldPackedTest, MeshoptIsThePlainMesh)
+{
+    const Sheet sheet(20);
+    expect_same(load(by_meshopt(sheet)), load(plain(sheet)), 1e-7);
+}
+
+TEST_F(WorldPackedTest, DracoIsThePlainMesh)
+{
+    const Sheet sheet(20);
+    expect_same(load(by_draco(sheet)), load(plain(sheet)), 20.0 / (1 << 15));
+}
+
+TEST_F(WorldPackedTest, FaultsOfPackedMeshesAreNamed)
+{
+    const Sheet sheet(8);
+    const auto said = [&](Doc doc, const std::string& at, const Json& value) {
+        doc.json[Json::json_pointer(at)] = value;
+        return complaint(doc);
+    };
+    const Doc meshopt = by_meshopt(sheet), draco = by_draco(sheet);
+    const std::string first = "/bufferViews/4/extensions/EXT_meshopt_compression";
+    EXPECT_TRUE(said(meshopt, first + "/mode", "OTHER").starts_with(first + "/mode: is \"OTHER\""));
+    EXPECT_TRUE(said(meshopt, first + "/byteStride", 6).starts_with(first + "/byteStride: is 6"));
+    EXPECT_TRUE(said(meshopt, first + "/count", 65).starts_with(first + ": cannot be decoded"));
+    EXPECT_TRUE(said(meshopt, first + "/count", 40000000).starts_with(first + "/count: is 40000000"));
+    EXPECT_TRUE(said(meshopt, first + "/filter", "QUATERNION").starts_with(first + "/filter: is QUATERNION"));
+    EXPECT_TRUE(said(meshopt, first + "/byteLength", 1 << 24).starts_with(first + ": ends at byte"));
+    const std::string packed = "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression";
+    EXPECT_TRUE(
+        said(draco, packed + "/attributes/POSITION", 77).starts_with(packed + "/attributes/POSITION: names attribute 77"));
+    EXPECT_TRUE(said(draco, packed + "/bufferView", 0).starts_with(packed + ": cannot be decoded"));
+    EXPECT_TRUE(said(draco, packed + "/bufferView", 99).starts_with(packed + "/bufferView"));
+}
+
+TEST_F(WorldPackedTest, WebpIsThePicture)
+{
+    constexpr int width = 5, height = 3;
+    Bytes rgba;
+    std::mt19937 random(1);
+    for (int i = 0; i < width * height; ++i)
+        rgba.insert(rgba.end(),
+            {std::uint8_t(random()), std::uint8_t(random()), std::uint8_t(random()), std::uint8_t(random() | 1)});
+    std::uint8_t* encoded = nullptr;
+    const std::size_t size = WebPEncodeLosslessRGBA(rgba.data(), width, height, 4 * width, &encoded);
+    ASSERT_GT(size, 0u);
+    const Bytes webp(encoded, encoded + size);
+    WebPFree(encoded);
+    Doc doc = triangle_doc();
+    doc.json["images"] = {{{"uri", png_uri()}}, {{"bufferView", doc.view(webp)}, {"mimeType", "image/webp"}}};
+    doc.json["textures"] = {{{"source", 0}, {"extensions", {{"EXT_texture_webp", {{"source", 1}}}}}}};
+    doc.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    doc.json["meshes"][0]["primitives"][0]["material"] = 0;
+    doc.json["extensionsRequired"] = {"EXT_texture_webp"};
+    const World world = load(doc);
+    ASSERT_EQ(world.textures.size(), 1u);
+    EXPECT_EQ(world.textures[0].size, glm::ivec2(width, height));
+    EXPECT_EQ(world.textures[0].rgba, rgba);
+    // Half of it is refused.
+    doc.json["bufferViews"].back()["byteLength"] = size / 2;
+    EXPECT_TRUE(complaint(doc).starts_with("/images/1: ")) << complaint(doc);
+}
+
+TEST_F(WorldPackedTest, ManyPlacesAreThoseOfAsManyNodes)
+{
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    std::vector<float> places, turns, sizes;
+    Doc nodes = triangle_doc();
+    const int mesh = nodes.json["nodes"][0]["mesh"];
+    Json children = Json::array();
+    for (int i = 0; i < 50; ++i) {
+        const glm::quat turn = glm::normalize(glm::quat(uniform(random), uniform(random), uniform(random), uniform(random)));
+        const glm::vec3 place(10 * uniform(random), uniform(random), uniform(random)),
+            size(1, 2 + uniform(random), i % 5 == 0 ? -1 : 1);
+        places.insert(places.end(), {place.x, place.y, place.z});
+        turns.insert(turns.end(), {turn.x, turn.y, turn.z, turn.w});
+        sizes.insert(sizes.end(), {size.x, size.y, size.z});
+        children.push_back(nodes.put("nodes",
+            {{"mesh", mesh}, {"translation", {place.x, place.y, place.z}}, {"rotation", {turn.x, turn.y, turn.z, turn.w}},
+                {"scale", {size.x, size.y, size.z}}}));
+    }
+    nodes.json["nodes"][0] = {{"children", children}, {"translation", {1, 2, 3}}, {"scale", {2, 2, 2}}};
+    Doc many = triangle_doc();
+    const int t = many.accessor<float>(places, "VEC3"), r = many.accessor<float>(turns, "VEC4"),
+              s = many.accessor<float>(sizes, "VEC3");
+    many.json["nodes"][0]["translation"] = {1, 2, 3}, many.json["nodes"][0]["scale"] = {2, 2, 2};
+    many.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]
+        = {{"TRANSLATION", t}, {"ROTATION", r}, {"SCALE", s}};
+    const World one = load(many), other = load(nodes);
+    ASSERT_EQ(one.instances.size(), 50u);
+    ASSERT_EQ(other.instances.size(), 50u);
+    for (std::size_t i = 0; i < 50; ++i) {
+        for (int column = 0; column < 4; ++column)
+            EXPECT_LT(
+                glm::distance(one.instances[i].frame_from_local[column], other.instances[i].frame_from_local[column]), 1e-6);
+        EXPECT_EQ(one.instances[i].primitive, other.instances[i].primitive);
+        EXPECT_EQ(one.instances[i].node, 0);
+    }
+    many.json["accessors"][std::size_t(r)]["count"] = 49;
+    EXPECT_NE(complaint(many).find("has 49 elements; the other attributes have 50"), std::string::npos) << complaint(many);
+}
+
+} // namespace
+} // namespace starbow::gltf_test::world_packed_test
