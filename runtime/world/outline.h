@@ -33,7 +33,8 @@ struct Middle {
 Middle middle_of(std::vector<AlignedBox> things);
 
 /// Reads the outline from the file's JSON alone, by the bounds that it states of its positions: buffers and pictures stay
-/// closed, so that a file of a gigabyte takes as long as its JSON; but for meshes in many places (EXT_mesh_gpu_instancing).
+/// closed, so that a file of a gigabyte takes as long as its JSON; but for skins and for meshes in many
+/// places (EXT_mesh_gpu_instancing), whose bounds are not stated.
 /// Throws InputError.
 Outline read_outline(const std::filesystem::path& file);
 

@@ -79,6 +79,20 @@ Doc rich()
     doc.json["nodes"][4]["extras"] = {{"starbow", {{"spin", {{"axis", {0, 1, 0}}, {"turns_per_s", 0.5}}}}}};
     doc.json["materials"][1]["extras"]["starbow"]
         = "{\"emission\": {\"table\": [[400, 1], [500, 2]]}, \"blink\": {\"period_s\": 2, \"on\": 0.25}}";
+    // A skin on two joints, a morph target, and a mesh in two places.
+    Json& skinned = doc.json["meshes"][1]["primitives"][0];
+    skinned["attributes"]["JOINTS_0"] = doc.accessor<std::uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}, "VEC4");
+    skinned["attributes"]["WEIGHTS_0"] = doc.accessor<float>({1, 0, 0, 0, 1, 0, 0, 0, 0.5, 0.5, 0, 0}, "VEC4");
+    const int inverse = doc.accessor<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1}, "MAT4");
+    doc.json["accessors"][std::size_t(inverse)]["count"] = 1;
+    doc.json["skins"] = {{{"joints", {0}}, {"inverseBindMatrices", inverse}}, {{"joints", {3, 4}}}};
+    doc.json["nodes"][1]["skin"] = 1;
+    doc.json["meshes"][0]["primitives"][0]["targets"]
+        = {{{"POSITION", doc.accessor<float>({0, 1, 0, 0, 1, 0, 0, 1, 0}, "VEC3")}}};
+    doc.json["meshes"][0]["weights"] = {0.5};
+    doc.json["nodes"][2]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]
+        = {{"TRANSLATION", doc.accessor<float>({0, 0, 0, 5, 0, 0}, "VEC3")},
+            {"SCALE", doc.accessor<float>({1, 1, 1, 2, 2, 2}, "VEC3")}};
     doc.json["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_emissive_strength", "KHR_x"};
     doc.json["extensionsRequired"] = {"KHR_texture_transform"};
     return doc;

@@ -185,6 +185,42 @@ TEST_F(WorldPackedTest, FaultsOfPackedMeshesAreNamed)
     EXPECT_TRUE(said(draco, packed + "/bufferView", 99).starts_with(packed + "/bufferView"));
 }
 
+/// STARBOW_FUZZ_COUNT sets the number of mutations; the first ones are always the same.
+TEST_F(WorldPackedTest, DamagedPackedMeshesLoadOrAreRefused)
+{
+    const char* count_text = std::getenv("STARBOW_FUZZ_COUNT");
+    const int count = count_text ? int(std::atol(count_text)) : 600;
+    const Sheet sheet(6);
+    const std::vector<Doc> seeds{by_meshopt(sheet), by_draco(sheet)};
+    int loaded = 0;
+    for (int n = 0; n < count; ++n) {
+        SCOPED_TRACE("mutation " + std::to_string(n));
+        std::mt19937 random{std::uint32_t(n)};
+        Doc doc = seeds[std::size_t(n % 2)];
+        // Any byte may be another one, and any whole number of the packing.
+        for (std::size_t flips = 1 + random() % 4; flips > 0; --flips)
+            doc.bin[random() % doc.bin.size()] ^= std::uint8_t(1u << random() % 8);
+        if (n % 2 == 0 && random() % 2) {
+            Json& packed = doc.json["bufferViews"][4 + random() % 4]["extensions"]["EXT_meshopt_compression"];
+            const char* members[] = {"byteOffset", "byteLength", "byteStride", "count"};
+            packed[members[random() % 4]] = random() % 3 ? random() % 300 : random();
+        }
+        const auto file = write("world.gltf", doc.text());
+        try {
+            const World world = load_world(file);
+            for (const std::uint32_t index : world.indices)
+                ASSERT_LT(index, world.vertices.size());
+            ++loaded;
+        } catch (const InputError& error) {
+            ASSERT_TRUE(std::string(error.what()).starts_with(file.string() + ": ")) << error.what();
+        } catch (const std::exception& error) {
+            FAIL() << "neither loaded nor refused: " << error.what();
+        }
+    }
+    EXPECT_GT(loaded, count / 20);
+    std::printf("%d of %d damaged packed meshes loaded, the others were refused\n", loaded, count);
+}
+
 TEST_F(WorldPackedTest, WebpIsThePicture)
 {
     constexpr int width = 5, height = 3;

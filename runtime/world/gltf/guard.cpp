@@ -69,13 +69,6 @@ std::optional<Spot> meshopt_of(const Spot& spot)
     return object(spot["extensions"]["EXT_meshopt_compression"]);
 }
 
-/// Notes the lists that a world without skeletons does not use.
-void note_unused_lists(const Spot& root, GuardedGltf& out)
-{
-    if (count_of(root, "skins") > 0)
-        note_once(out.notes, "skins: meshes are drawn as they are stored");
-}
-
 } // namespace
 
 void note_once(std::vector<std::string>& notes, const std::string& note)
@@ -157,8 +150,8 @@ GuardedGltf guard_gltf(const std::filesystem::path& path)
     guard_materials(file, root, out);
     guard_meshes(root, out);
     guard_nodes(root, out);
+    guard_skins(root, out);
     guard_animations(root, out);
-    note_unused_lists(root, out);
     return out;
 }
 

@@ -43,6 +43,7 @@ void guard_accessors(const Spot& root, GuardedGltf& out);
 void guard_materials(GltfFile& file, const Spot& root, GuardedGltf& out);
 void guard_meshes(const Spot& root, GuardedGltf& out);
 void guard_nodes(const Spot& root, GuardedGltf& out);
+void guard_skins(const Spot& root, GuardedGltf& out); ///< after accessors
 void guard_animations(const Spot& root, GuardedGltf& out); ///< after nodes and accessors
 
 /// Calls `read` with the member "starbow" of an object's extras, an object or a text with one; not called without it.
@@ -50,6 +51,9 @@ void read_extras(const Spot& owner, const std::function<void(const Spot&)>& read
 
 /// The material that the extras' member "starbow" describes; `written` has the material's accepted members.
 Material guard_surface(const Spot& material, const tinygltf::Material& written);
+
+/// A mesh's or a node's weights of its morph targets; empty without any.
+std::vector<double> weights_of(const Spot& owner);
 
 /// glTF's name of an accessor's type, for messages.
 std::string type_name(const tinygltf::Accessor& accessor);

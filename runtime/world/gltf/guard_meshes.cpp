@@ -127,6 +127,14 @@ const Legal* legal_for(const std::string& attribute)
             {TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT}};
     if (attribute == "POSITION" || attribute == "NORMAL")
         return &vectors;
+    static const Legal joints
+        = {{TINYGLTF_TYPE_VEC4}, {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT}},
+        weights = {{TINYGLTF_TYPE_VEC4},
+            {TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT}};
+    if (attribute == "JOINTS_0")
+        return &joints;
+    if (attribute == "WEIGHTS_0")
+        return &weights;
     if (attribute == "COLOR_0")
         return &colour;
     return attribute.starts_with("TEXCOORD_") ? &uv : nullptr;
@@ -155,6 +163,23 @@ void check_count(const Spot& spot, int mode, std::size_t count)
             "has " + std::to_string(count) + " corners; at most " + std::to_string(GltfLimits::indices) + " are allowed");
 }
 
+/// Morph targets: displacements of positions and normals, which are read; of tangents, which are not.
+void guard_targets(const Spot& targets, std::size_t vertices, tinygltf::Primitive& written, const GuardedGltf& out)
+{
+    for (std::size_t i = 0; i < list(targets, 0).size(); ++i) {
+        std::map<std::string, int>& target = written.targets.emplace_back();
+        const Spot spot = targets[i];
+        for (const char* name : {"POSITION", "NORMAL"})
+            if (object(spot).has(name)) {
+                const auto count = checked_accessor(spot[name], out, *legal_for(name)).count;
+                if (count != vertices)
+                    spot[name].fail(
+                        "has " + std::to_string(count) + " elements; the attributes have " + std::to_string(vertices));
+                target[name] = spot[name].json.get<int>();
+            }
+    }
+}
+
 void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, GuardedGltf& out)
 {
     static const Legal indices{{TINYGLTF_TYPE_SCALAR},
@@ -167,7 +192,7 @@ void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, Guarde
         const Legal* legal = legal_for(name);
         Spot spot = attributes[name];
         if (!legal) {
-            // Starbow does not read tangents, joints, further colours or application-specific attributes.
+            // Starbow does not read tangents, further joints and colours, or application-specific attributes.
             index_into(spot, "accessor", out.stated_accessors);
             continue;
         }
@@ -183,7 +208,7 @@ void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, Guarde
     if (primitive.has("material"))
         written.material = int(index_into(primitive["material"], "material", out.model.materials.size()));
     if (primitive.has("targets"))
-        note_once(out.notes, "morph targets: meshes are drawn as they are stored");
+        guard_targets(primitive["targets"], vertices, written, out);
     if (primitive.has("extensions") && object(primitive["extensions"]).has("KHR_draco_mesh_compression")) {
         if (written.mode != TINYGLTF_MODE_TRIANGLES)
             primitive["mode"].fail("is packed; packed meshes are lists of triangles here");
@@ -200,6 +225,31 @@ void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, Guarde
 }
 
 } // namespace
+
+std::vector<double> weights_of(const Spot& owner)
+{
+    if (!owner.has("weights"))
+        return {};
+    const Spot weights = owner["weights"];
+    return numbers(weights, list(weights).size(), -1e6, 1e6);
+}
+
+void guard_skins(const Spot& root, GuardedGltf& out)
+{
+    guard_list(root, "skins", out.model.skins, [&](const Spot& skin, tinygltf::Skin& written) {
+        const Spot joints = skin["joints"];
+        for (std::size_t i = 0; i < list(joints).size(); ++i)
+            written.joints.push_back(int(index_into(joints[i], "node", count_of(root, "nodes"))));
+        if (!skin.has("inverseBindMatrices"))
+            return;
+        static const Legal matrices{{TINYGLTF_TYPE_MAT4}, {TINYGLTF_COMPONENT_TYPE_FLOAT}};
+        const Spot spot = skin["inverseBindMatrices"];
+        if (const auto count = checked_accessor(spot, out, matrices).count; count < written.joints.size())
+            spot.fail("has " + std::to_string(count) + " matrices; the skin has " + std::to_string(written.joints.size())
+                + " joints");
+        written.inverseBindMatrices = spot.json.get<int>();
+    });
+}
 
 std::string type_name(const tinygltf::Accessor& accessor)
 {
@@ -223,6 +273,7 @@ void guard_meshes(const Spot& root, GuardedGltf& out)
     guard_list(root, "meshes", out.model.meshes, [&](const Spot& mesh, tinygltf::Mesh& written) {
         Spot primitives = mesh["primitives"];
         list(primitives);
+        written.weights = weights_of(mesh);
         for (std::size_t i = 0; i < primitives.size(); ++i)
             guard_primitive(object(primitives[i]), written.primitives.emplace_back(), out);
     });

@@ -119,7 +119,8 @@ void guard_nodes(const Spot& root, GuardedGltf& out)
         if (node.has("camera"))
             written.camera = int(index_into(node["camera"], "camera", count_of(root, "cameras")));
         if (node.has("skin"))
-            index_into(node["skin"], "skin", count_of(root, "skins"));
+            written.skin = int(index_into(node["skin"], "skin", count_of(root, "skins")));
+        written.weights = weights_of(node);
         if (node.has("children")) {
             Spot children = node["children"];
             list(children);

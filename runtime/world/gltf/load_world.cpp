@@ -1,18 +1,37 @@
 #include "parts.h"
 #include "runtime/world/moving.h"
+#include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 namespace starbow {
 namespace {
 
-/// A mesh's primitives, made at the mesh's first use by a node.
-const std::vector<std::uint32_t>& primitives_of(WorldBuild& build, int mesh, std::map<int, std::vector<std::uint32_t>>& made)
+/// True for a mesh that a skin moves. One with and without joints in its primitives is taken for one without.
+bool has_joints(const tinygltf::Mesh& mesh)
 {
-    auto [known, is_new] = made.try_emplace(mesh);
-    const auto& from = build.model.meshes[std::size_t(mesh)].primitives;
-    for (std::size_t i = 0; is_new && i < from.size(); ++i)
-        if (add_primitive(build, "/meshes/" + std::to_string(mesh) + "/primitives/" + std::to_string(i), from[i]))
+    return std::ranges::all_of(mesh.primitives, [](const tinygltf::Primitive& primitive) {
+        return primitive.attributes.contains("JOINTS_0") && primitive.attributes.contains("WEIGHTS_0");
+    });
+}
+
+/// The primitives of a mesh in a pose: of all nodes that leave it as it is, or of one node, -1 or that node.
+using Made = std::map<std::pair<int, int>, std::vector<std::uint32_t>>;
+
+/// The primitives of a node's mesh, made at their first use.
+const std::vector<std::uint32_t>& primitives_of(WorldBuild& build, int index, Made& made)
+{
+    const tinygltf::Node& node = build.model.nodes[std::size_t(index)];
+    const bool own_pose = node.skin >= 0 || !node.weights.empty();
+    auto [known, is_new] = made.try_emplace({node.mesh, own_pose ? index : -1});
+    if (!is_new)
+        return known->second;
+    const auto& from = build.model.meshes[std::size_t(node.mesh)].primitives;
+    StillPose pose = still_pose(build, index);
+    if (!has_joints(build.model.meshes[std::size_t(node.mesh)]))
+        pose.joints.clear();
+    for (std::size_t i = 0; i < from.size(); ++i)
+        if (add_primitive(build, "/meshes/" + std::to_string(node.mesh) + "/primitives/" + std::to_string(i), from[i], pose))
             known->second.push_back(std::uint32_t(build.world.primitives.size()) - 1);
     return known->second;
 }
@@ -112,7 +131,7 @@ void add_instances(WorldBuild& build)
         glm::dmat4 joint_from_parent;
     };
     std::vector<Visit> open;
-    std::map<int, std::vector<std::uint32_t>> made;
+    Made made;
     auto push_backwards = [&](const std::vector<int>& nodes, int parent, const glm::dmat4& world_from_parent, int joint,
                               const glm::dmat4& joint_from_parent) {
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
@@ -136,15 +155,21 @@ void add_instances(WorldBuild& build)
         push_backwards(node.children, index, world_from_local, joint, joint_from_parent);
         if (node.mesh < 0)
             continue;
+        // A skin's vertices are in the world's frame, wherever its node is.
+        const bool skinned = node.skin >= 0 && has_joints(build.model.meshes[std::size_t(node.mesh)]);
+        if (skinned) {
+            add_still(build, index, glm::dmat4(1), primitives_of(build, index, made));
+            continue;
+        }
         if (joint >= 0) {
             for (const glm::dmat4& at : places_of(build, index)) {
                 refuse_far(build, index, joint_from_parent * at);
-                add_moving(build, index, {joint, joint_from_parent * at}, primitives_of(build, node.mesh, made));
+                add_moving(build, index, {joint, joint_from_parent * at}, primitives_of(build, index, made));
             }
             continue;
         }
         for (const glm::dmat4& at : places_of(build, index))
-            add_still(build, index, world_from_local * at, primitives_of(build, node.mesh, made));
+            add_still(build, index, world_from_local * at, primitives_of(build, index, made));
     }
 }
 

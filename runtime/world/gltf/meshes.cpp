@@ -8,9 +8,18 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 
+/// A morph target with its weight, which is not 0.
+struct Target {
+    double weight;
+    Elements position, normal;
+    bool has_position = false, has_normal = false;
+};
+
 struct Attributes {
-    Elements position, normal, uv, colour;
-    bool has_normal = false, has_uv = false, has_colour = false;
+    Elements position, normal, uv, colour, joints, weights;
+    bool has_normal = false, has_uv = false, has_colour = false, has_joints = false;
+    std::vector<Target> targets;
+    const StillPose& pose;
 };
 
 glm::dvec3 read3(WorldBuild& build, const Elements& from, std::uint32_t i, const std::string& place, const char* attribute)
@@ -34,14 +43,51 @@ std::uint32_t pack_colour(const Elements& from, std::uint32_t i)
     return packed;
 }
 
+/// The transform that a vertex's joints give it: their mean by its weights (glTF 2.0, section 3.7.3.3).
+glm::dmat4 skin_at(WorldBuild& build, const Attributes& from, std::uint32_t i, const std::string& place)
+{
+    glm::dmat4 sum(0);
+    double weights = 0;
+    for (int k = 0; k < 4; ++k) {
+        const double weight = from.weights.component(i, k), joint = from.joints.component(i, k);
+        if (!(weight > 0)) // NaN neither
+            continue;
+        if (!(joint >= 0 && joint < double(from.pose.joints.size())))
+            build.fail(place + "/attributes/JOINTS_0",
+                "element " + std::to_string(i) + " names joint " + std::to_string(std::int64_t(std::clamp(joint, -1.0, 1e9)))
+                    + "; the skin has " + std::to_string(from.pose.joints.size()));
+        sum += weight * from.pose.joints[std::size_t(joint)];
+        weights += weight;
+    }
+    return weights > 0 ? sum / weights : glm::dmat4(1);
+}
+
 Vertex read_vertex(WorldBuild& build, const Attributes& from, std::uint32_t i, const UvSource& uv, const std::string& place)
 {
     Vertex out{};
-    out.position = read3(build, from.position, i, place, "POSITION");
+    glm::dvec3 position = read3(build, from.position, i, place, "POSITION"), normal(0);
+    if (from.has_normal)
+        normal = read3(build, from.normal, i, place, "NORMAL");
+    for (const Target& target : from.targets) {
+        if (target.has_position)
+            position += target.weight * read3(build, target.position, i, place, "POSITION");
+        if (target.has_normal && from.has_normal)
+            normal += target.weight * read3(build, target.normal, i, place, "NORMAL");
+    }
+    if (from.has_joints) {
+        const glm::dmat4 skin = skin_at(build, from, i, place);
+        position = glm::dvec3(skin * glm::dvec4(position, 1));
+        // A joint scaled to nothing leaves no direction.
+        const glm::dmat3 turned(skin);
+        normal = glm::determinant(turned) != 0 ? glm::transpose(glm::inverse(turned)) * normal : glm::dvec3(0);
+    }
+    if (!(glm::length(position) < 1e18))
+        build.fail(place + "/attributes/POSITION",
+            "element " + std::to_string(i) + " is beyond 1e18 in its pose; should be nearer");
+    out.position = position;
     if (from.has_normal) {
-        glm::dvec3 normal = read3(build, from.normal, i, place, "NORMAL");
-        double length = glm::length(normal);
-        out.normal = length > 0 ? normal / length : glm::dvec3(0, 1, 0);
+        const double length = glm::length(normal);
+        out.normal = length > 0 && length < 1e300 ? normal / length : glm::dvec3(0, 1, 0);
     }
     if (from.has_uv) {
         glm::dvec2 at = uv.rotate_scale * glm::dvec2(from.uv.component(i, 0), from.uv.component(i, 1)) + uv.offset;
@@ -87,9 +133,10 @@ void set_bounds(const World& world, Primitive& primitive)
         primitive.radius = std::max(primitive.radius, glm::distance(primitive.centre, glm::dvec3(v->position)));
 }
 
-Attributes open_attributes(WorldBuild& build, const tinygltf::Primitive& primitive, const UvSource& uv, bool textured)
+Attributes open_attributes(
+    WorldBuild& build, const tinygltf::Primitive& primitive, const UvSource& uv, bool textured, const StillPose& pose)
 {
-    Attributes out;
+    Attributes out{.pose = pose};
     auto take = [&](const std::string& name, Elements& into) {
         auto found = primitive.attributes.find(name);
         if (found == primitive.attributes.end())
@@ -101,6 +148,17 @@ Attributes open_attributes(WorldBuild& build, const tinygltf::Primitive& primiti
     out.has_normal = take("NORMAL", out.normal);
     out.has_uv = take("TEXCOORD_" + std::to_string(uv.set), out.uv);
     out.has_colour = take("COLOR_0", out.colour);
+    out.has_joints = !pose.joints.empty() && take("JOINTS_0", out.joints) && take("WEIGHTS_0", out.weights);
+    for (std::size_t i = 0; i < primitive.targets.size() && i < pose.weights.size(); ++i) {
+        if (pose.weights[i] == 0)
+            continue;
+        Target& target = out.targets.emplace_back(pose.weights[i]);
+        for (const auto& [name, accessor] : primitive.targets[i]) {
+            const bool position = name == "POSITION";
+            (position ? target.position : target.normal) = open(build, accessor);
+            (position ? target.has_position : target.has_normal) = true;
+        }
+    }
     if (textured && !out.has_uv)
         note_once(build.world.notes, "textured surfaces without texture coordinates: they take one texel's colour");
     return out;
@@ -136,11 +194,13 @@ struct Source {
 };
 
 /// Opens a primitive's attributes and indices, and makes room for its triangles.
-Source open_source(WorldBuild& build, const std::string& place, const tinygltf::Primitive& from, int material)
+Source open_source(
+    WorldBuild& build, const std::string& place, const tinygltf::Primitive& from, int material, const StillPose& pose)
 {
     const Material& look = build.world.materials[std::size_t(material)];
     const UvSource& uv = build.uv[std::size_t(material)];
-    Source source{from, place, uv, open_attributes(build, from, uv, look.base_texture >= 0 || look.emissive_texture >= 0)};
+    Source source{
+        from, place, uv, open_attributes(build, from, uv, look.base_texture >= 0 || look.emissive_texture >= 0, pose)};
     const Attributes& attributes = source.attributes;
     if (look.clock && !attributes.has_uv)
         build.fail(place + "/attributes",
@@ -219,7 +279,7 @@ Elements open(WorldBuild& build, int accessor)
     return out;
 }
 
-bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::Primitive& from)
+bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::Primitive& from, const StillPose& pose)
 {
     World& world = build.world;
     if (from.mode < TINYGLTF_MODE_TRIANGLES) {
@@ -231,7 +291,7 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
         return false;
     }
     const int material = material_of(build, from.material);
-    Source source = open_source(build, place, from, material);
+    Source source = open_source(build, place, from, material, pose);
     Primitive made{};
     made.first_index = std::uint32_t(world.indices.size());
     made.vertex_offset = std::int32_t(source.vertex_offset);

@@ -139,7 +139,9 @@ Outline read_outline(const std::filesystem::path& path)
         meshes.push_back(bounds_of_mesh(root, mesh));
     Outline outline;
     const std::vector<OutlineLamp> lamps = lamps_of(root, outline.spots);
-    const bool in_many_places = std::ranges::any_of(guarded.instancing, [](const auto& each) { return each.has_value(); });
+    // Where a skin or many places decide, the stated bounds say little.
+    const bool placed_by_data = count_of(root, "skins") > 0
+        || std::ranges::any_of(guarded.instancing, [](const auto& each) { return each.has_value(); });
     outline.moves = count_of(root, "animations") > 0
         || std::ranges::any_of(guarded.spins, [](const std::optional<Spin>& spin) { return spin.has_value(); });
     struct Open {
@@ -168,10 +170,10 @@ Outline read_outline(const std::filesystem::path& path)
             outline.lamps.push_back(lamps[std::size_t(lamp)]);
             outline.lamps.back().world_from_lamp = world_from_local;
         }
-        if (!in_many_places && node.mesh >= 0 && meshes[std::size_t(node.mesh)])
+        if (!placed_by_data && node.mesh >= 0 && meshes[std::size_t(node.mesh)])
             outline.things.push_back(transformed(*meshes[std::size_t(node.mesh)], world_from_local));
     }
-    if (in_many_places) {
+    if (placed_by_data) {
         const World world = load_world(path);
         for (const Instance& instance : world.instances) {
             const Primitive& primitive = world.primitives[instance.primitive];

@@ -27,6 +27,12 @@ struct JointBounds {
     int depth = 0;
 };
 
+/// The shape in which a mesh stands still: its morph targets at their weights, then its skin's joints in the file's pose.
+struct StillPose {
+    std::vector<double> weights; ///< of the mesh's targets
+    std::vector<glm::dmat4> joints; ///< world_from_mesh of each joint of its skin; empty: it has none
+};
+
 /// The state of a world under construction.
 struct WorldBuild {
     const GuardedGltf& file;
@@ -38,6 +44,8 @@ struct WorldBuild {
     std::size_t corners_left = GltfLimits::indices; ///< remaining limit of corners, including those of empty triangles
     std::vector<std::uint32_t> placed; ///< memory of add_primitive: a vertex's new index, reset after each
     std::map<std::uint32_t, std::uint32_t> turned; ///< reversed copies of primitives, for mirrored nodes
+
+    std::vector<glm::dmat4> world_from_node; ///< in the file's pose; empty until a skin needs it
 
     std::map<int, NodeTracks> node_tracks; ///< by node; only of animated nodes
     std::vector<JointBounds> bounds; ///< one for each of the world's joints
@@ -59,8 +67,12 @@ Texture decode_image(
 void add_materials(WorldBuild& build);
 int material_of(WorldBuild& build, int gltf_material);
 
-/// Adds one glTF primitive as vertices and a list of triangles. Returns false for points and lines.
-bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::Primitive& primitive);
+/// The pose of a node's mesh.
+StillPose still_pose(WorldBuild& build, int node);
+
+/// Adds one glTF primitive as vertices and a list of triangles: in the world's frame if the pose has joints, in the mesh's
+/// without. Returns false for points and lines.
+bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::Primitive& primitive, const StillPose& pose);
 
 /// Adds a copy with the corners in the reverse order; returns the copy's index.
 std::uint32_t turned_primitive(WorldBuild& build, std::uint32_t primitive);

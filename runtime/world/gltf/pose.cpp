@@ -1,0 +1,58 @@
+#include "accessor.h"
+#include "parts.h"
+#include <glm/gtc/type_ptr.hpp>
+
+namespace starbow {
+namespace {
+
+/// The transforms of all nodes as the file states them, also of those outside its scene.
+std::vector<glm::dmat4> transforms_of(const tinygltf::Model& model)
+{
+    std::vector<int> parent(model.nodes.size(), -1), order;
+    for (std::size_t i = 0; i < model.nodes.size(); ++i)
+        for (const int child : model.nodes[i].children)
+            parent[std::size_t(child)] = int(i);
+    for (std::size_t i = 0; i < parent.size(); ++i)
+        if (parent[i] < 0)
+            order.push_back(int(i));
+    for (std::size_t i = 0; i < order.size(); ++i) { // parents before their children
+        const std::vector<int>& children = model.nodes[std::size_t(order[i])].children;
+        order.insert(order.end(), children.begin(), children.end());
+    }
+    std::vector<glm::dmat4> all(model.nodes.size(), glm::dmat4(1));
+    for (const int node : order) {
+        const glm::dmat4 own = local_transform(model.nodes[std::size_t(node)]);
+        all[std::size_t(node)] = parent[std::size_t(node)] < 0 ? own : all[std::size_t(parent[std::size_t(node)])] * own;
+    }
+    return all;
+}
+
+} // namespace
+
+StillPose still_pose(WorldBuild& build, int index)
+{
+    const tinygltf::Node& node = build.model.nodes[std::size_t(index)];
+    StillPose pose;
+    pose.weights = node.weights.empty() ? build.model.meshes[std::size_t(node.mesh)].weights : node.weights;
+    if (node.skin < 0)
+        return pose;
+    const tinygltf::Skin& skin = build.model.skins[std::size_t(node.skin)];
+    if (build.world_from_node.empty())
+        build.world_from_node = transforms_of(build.model);
+    Elements inverse;
+    if (skin.inverseBindMatrices >= 0)
+        inverse = open(build, skin.inverseBindMatrices);
+    for (std::size_t joint = 0; joint < skin.joints.size(); ++joint) {
+        const int at = skin.joints[joint];
+        if (build.node_tracks.contains(at) || build.file.spins[std::size_t(at)])
+            note_once(build.world.notes, "skins whose joints are animated: they stand in the file's own pose");
+        glm::dmat4 joint_from_mesh(1);
+        if (skin.inverseBindMatrices >= 0)
+            for (int i = 0; i < 16; ++i)
+                glm::value_ptr(joint_from_mesh)[i] = inverse.component(joint, i);
+        pose.joints.push_back(build.world_from_node[std::size_t(at)] * joint_from_mesh);
+    }
+    return pose;
+}
+
+} // namespace starbow
