@@ -1,5 +1,6 @@
 #include "compiled_view.h"
 #include "config/json/error.h"
+#include "config/json/hash.h"
 #include "config/json/whole_file.h"
 #include <algorithm>
 #include <array>
@@ -12,18 +13,6 @@
 
 namespace starbow {
 namespace {
-
-/// FNV-1a, 64 bits: it names our own files and offers no protection.
-struct Hash {
-    std::uint64_t value = 14695981039346656037u;
-    void add(const void* data, std::size_t size)
-    {
-        for (std::size_t i = 0; i < size; ++i)
-            value = (value ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211u;
-    }
-    void add(std::uint64_t word) { value = (value ^ word) * 1099511628211u; }
-    void add(const std::string& text) { add(text.data(), text.size() + 1); }
-};
 
 /// Everything that a view's map depends on, as text.
 struct Key {
@@ -109,25 +98,12 @@ struct Header {
     std::uint64_t hash = 0; ///< of the following bytes; a damaged file is rejected
 };
 
-/// Hashes every word, so that every single fault is detected. Four parallel chains are as fast as memory.
 std::uint64_t content_hash(const DirectionMap& map)
 {
-    std::array<Hash, 4> lanes;
-    auto all = [&](const void* data, std::size_t bytes) {
-        const char* from = static_cast<const char*>(data);
-        std::uint64_t words[4];
-        for (; bytes >= sizeof words; bytes -= sizeof words, from += sizeof words) {
-            std::memcpy(words, from, sizeof words);
-            for (int i = 0; i < 4; ++i)
-                lanes[i].add(words[i]);
-        }
-        lanes[0].add(from, bytes);
-    };
-    all(map.texels.data(), map.texels.size() * sizeof(glm::vec4));
-    all(map.intensity.data(), map.intensity.size() * sizeof(float));
-    for (int i = 1; i < 4; ++i)
-        lanes[0].add(lanes[i].value);
-    return lanes[0].value;
+    ContentHash hash;
+    hash.add(map.texels.data(), map.texels.size() * sizeof(glm::vec4));
+    hash.add(map.intensity.data(), map.intensity.size() * sizeof(float));
+    return hash.value();
 }
 
 std::shared_ptr<DirectionMap> read_map(const std::filesystem::path& file, const View& view)
@@ -157,39 +133,6 @@ std::shared_ptr<DirectionMap> read_map(const std::filesystem::path& file, const 
     return map;
 }
 
-/// Removes the maps that were read longest ago, and the unfinished files of processes that ended while they wrote.
-void make_room(const std::filesystem::path& folder, std::uintmax_t most_bytes)
-{
-    namespace fs = std::filesystem;
-    struct Kept {
-        fs::file_time_type read;
-        fs::path file;
-        std::uintmax_t bytes;
-    };
-    const auto hour_ago = fs::file_time_type::clock::now() - std::chrono::hours(1); // no map takes so long to write
-    std::error_code error;
-    std::vector<Kept> all;
-    std::uintmax_t sum = 0;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
-        // Another exhibit may remove the file meanwhile.
-        const fs::file_time_type read = entry.last_write_time(error);
-        const std::uintmax_t bytes = error ? 0 : entry.file_size(error);
-        if (error)
-            continue;
-        if (entry.path().extension() == ".map") {
-            all.push_back({read, entry.path(), bytes});
-            sum += bytes;
-        } else if (entry.path().extension() == ".part" && read < hour_ago) {
-            fs::remove(entry.path(), error);
-        }
-    }
-    std::sort(all.begin(), all.end(), [](const Kept& a, const Kept& b) { return a.read < b.read; });
-    for (std::size_t i = 0; i < all.size() && sum > most_bytes; ++i) {
-        fs::remove(all[i].file, error);
-        sum -= all[i].bytes;
-    }
-}
-
 /// Several exhibits may share the folder. A full disk only makes starts slower.
 void write_map(const std::filesystem::path& file, const DirectionMap& map, std::uintmax_t most_bytes)
 {
@@ -206,7 +149,7 @@ void write_map(const std::filesystem::path& file, const DirectionMap& map, std::
     } catch (const InputError&) {
         return;
     }
-    make_room(file.parent_path(), most_bytes);
+    bound_cache(file.parent_path(), most_bytes);
 }
 
 } // namespace
@@ -227,6 +170,38 @@ std::filesystem::path map_cache_folder()
     if (!set("XDG_CACHE_HOME").empty())
         return set("XDG_CACHE_HOME") / "starbow";
     return set("HOME").empty() ? std::filesystem::path() : set("HOME") / ".cache" / "starbow";
+}
+
+void bound_cache(const std::filesystem::path& folder, std::uintmax_t most_bytes)
+{
+    namespace fs = std::filesystem;
+    struct Kept {
+        fs::file_time_type read;
+        fs::path file;
+        std::uintmax_t bytes;
+    };
+    const auto hour_ago = fs::file_time_type::clock::now() - std::chrono::hours(1); // no file takes so long to write
+    std::error_code error;
+    std::vector<Kept> all;
+    std::uintmax_t sum = 0;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        // Another exhibit may remove the file meanwhile.
+        const fs::file_time_type read = entry.last_write_time(error);
+        const std::uintmax_t bytes = error ? 0 : entry.file_size(error);
+        if (error)
+            continue;
+        if (entry.path().extension() == ".map" || entry.path().extension() == ".detail") {
+            all.push_back({read, entry.path(), bytes});
+            sum += bytes;
+        } else if (entry.path().extension() == ".part" && read < hour_ago) {
+            fs::remove(entry.path(), error);
+        }
+    }
+    std::sort(all.begin(), all.end(), [](const Kept& a, const Kept& b) { return a.read < b.read; });
+    for (std::size_t i = 0; i < all.size() && sum > most_bytes; ++i) {
+        fs::remove(all[i].file, error);
+        sum -= all[i].bytes;
+    }
 }
 
 MapStore::MapStore()

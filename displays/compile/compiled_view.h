@@ -19,6 +19,11 @@ struct CompiledView {
 /// set; maps are then kept in memory only.
 std::filesystem::path map_cache_folder();
 
+/// The most bytes of the maps and the worlds' levels of detail in the folder.
+constexpr std::uintmax_t most_cached_bytes = std::uintmax_t(4) << 30;
+/// Removes the files that were read longest ago, and the unfinished files of processes that ended while they wrote.
+void bound_cache(const std::filesystem::path& folder, std::uintmax_t most_bytes = most_cached_bytes);
+
 /// Compiled maps by content: the view's projection, its size, the bytes of its warp file. They stay in memory while they
 /// are in use, and in map_cache_folder across starts. An unusable folder only makes starts slower. The folder is kept
 /// under 4 GiB; the maps that were read longest ago are deleted first.
@@ -26,7 +31,7 @@ class MapStore {
 public:
     MapStore();
     /// folder: empty for memory only. most_bytes: of the maps in the folder.
-    explicit MapStore(std::filesystem::path folder, std::uintmax_t most_bytes = std::uintmax_t(4) << 30);
+    explicit MapStore(std::filesystem::path folder, std::uintmax_t most_bytes = most_cached_bytes);
 
     /// False: new maps are not written to the folder, for example while a builder changes a dome's tilt.
     void keep(bool on_disk) { keep_ = on_disk; }

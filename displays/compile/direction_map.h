@@ -25,9 +25,10 @@ struct DirectionMap {
 /// into a line, the solid angle of its sliver-shaped pixels goes to 0 while their length stays.
 DirectionMap compile_direction_map(const View& view, const WarpMesh* mesh = nullptr);
 
-/// Writes rows of one channel as the device reads them, 8 bytes a texel. The direction is on an octahedron's unfolded net (Meyer et al., On
-/// floating-point normal vectors, 2010), 24 bits a coordinate, 2.6e-7 radians at worst. Below each coordinate are 8 bits of
-/// the pixel angle's float, 0.4 % at worst. view.glsl's unpacked is the inverse. All bits are 0 where nothing is shown.
+/// Writes rows of one channel as the device reads them, 8 bytes a texel. The direction is on an octahedron's unfolded net
+/// (Meyer et al., On floating-point normal vectors, 2010), 24 bits a coordinate, 2.6e-7 radians at worst. Below each
+/// coordinate are 8 bits of the pixel angle's float, 0.4 % at worst. view.glsl's unpacked is the inverse. All bits are 0
+/// where nothing is shown.
 void pack_rows(const DirectionMap& map, int channel, int first_row, int rows, std::span<glm::uvec2> to);
 
 /// The picture that a calibration warps: the file's own frustum, if it has one and the layout gives no projection; for a

@@ -1,7 +1,8 @@
 #include "render_context.h"
 #include "config/model/shipped.h"
+#include "displays/compile/compiled_view.h"
+#include "runtime/world/detail_cache.h"
 #include "runtime/world/open_scene.h"
-#include "runtime/world/detail.h"
 #include <cstdlib>
 
 namespace starbow {
@@ -10,7 +11,8 @@ LoadedScene load_scene(const std::filesystem::path& file)
 {
     SceneFile scene = open_scene(file);
     World world = load_world(scene);
-    add_detail_levels(world);
+    if (add_kept_detail_levels(world, map_cache_folder()))
+        bound_cache(map_cache_folder());
     std::vector<Star> stars;
     if (scene.stars)
         stars = stars_in_depth(*scene.stars);

@@ -82,9 +82,13 @@ void guard_pbr(const Spot& pbr, tinygltf::PbrMetallicRoughness& written, const S
 void guard_alpha(const Spot& material, tinygltf::Material& written, GuardedGltf& out)
 {
     std::string mode = material.has("alphaMode") ? text(material["alphaMode"]) : "OPAQUE";
-    if (mode == "BLEND")
-        note_once(out.notes, "blended transparency: such surfaces are drawn opaque");
-    else if (mode == "MASK")
+    if (mode == "BLEND") {
+        note_once(out.notes, "blended transparency: surfaces are drawn where they cover half or more of what is behind");
+        written.alphaMode = "MASK";
+        written.alphaCutoff = 0.5;
+        return;
+    }
+    if (mode == "MASK")
         written.alphaMode = mode;
     else if (mode != "OPAQUE")
         material["alphaMode"].fail("is " + in_quotes(mode) + "; should be \"OPAQUE\", \"MASK\" or \"BLEND\"");
