@@ -1,6 +1,7 @@
 // Worlds in packed forms, each against the same world in plain glTF: meshes by Draco and meshoptimizer, WebP pictures, and
 // one mesh in many places.
 #include "config/json/error.h"
+#include "runtime/world/gltf/guard.h"
 #include "tests/support/gltf_fixture.h"
 #include <draco/compression/encode.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -219,6 +220,20 @@ TEST_F(WorldPackedTest, DamagedPackedMeshesLoadOrAreRefused)
     }
     EXPECT_GT(loaded, count / 20);
     std::printf("%d of %d damaged packed meshes loaded, the others were refused\n", loaded, count);
+}
+
+TEST(MeshLimits, GrowWithTheFileAndTheMachine)
+{
+    constexpr std::size_t GB = 1'000'000'000;
+    EXPECT_EQ(mesh_limits(1000, 64 * GB).vertices, GltfLimits::vertices);
+    EXPECT_EQ(mesh_limits(1000, 64 * GB).indices, GltfLimits::indices);
+    // 20 million triangles of ten million vertices, in half a gigabyte, on a machine of 16 GB.
+    const MeshLimits large = mesh_limits(GB / 2, 16 * GB);
+    EXPECT_GE(large.vertices, 10'000'000u);
+    EXPECT_GE(large.indices, 60'000'000u);
+    // The machine's memory bounds what a large file may take.
+    const MeshLimits bounded = mesh_limits(GB, 8 * GB);
+    EXPECT_LE(bounded.vertices * 2 * sizeof(Vertex) + bounded.indices * 16, 4 * GB);
 }
 
 TEST_F(WorldPackedTest, WebpIsThePicture)

@@ -18,7 +18,7 @@ Bytes unpack_meshopt(const Spot& packed, std::span<const std::uint8_t> from)
     if (attributes ? stride % 4 != 0 : stride != 2 && stride != 4)
         packed["byteStride"].fail("is " + std::to_string(stride) + "; "
             + (attributes ? "a multiple of 4, at most 256," : "2 or 4") + " is right for " + mode);
-    const auto count = std::size_t(integer(packed["count"], 1, std::int64_t(GltfLimits::indices)));
+    const auto count = std::size_t(integer(packed["count"], 1, 0x7fffffff));
     if (mode == "TRIANGLES" && count % 3 != 0)
         packed["count"].fail("is " + std::to_string(count) + "; triangles take a multiple of 3");
     // Its packer makes at most a thousandth of it, and then of zeros.
@@ -104,10 +104,10 @@ void unpack_draco(const Spot& packed, tinygltf::Primitive& written, GuardedGltf&
             + "); a mesh as Draco's encoder leaves it is right");
     const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
     const std::size_t points = mesh->num_points(), corners = 3 * std::size_t(mesh->num_faces());
-    if (points == 0 || corners == 0 || points > GltfLimits::vertices || corners > GltfLimits::indices)
+    if (points == 0 || corners == 0 || points > out.limits.vertices || corners > out.limits.indices)
         packed.fail("holds " + std::to_string(points) + " vertices and " + std::to_string(corners)
-            + " corners; some are right, and at most " + std::to_string(GltfLimits::vertices) + " and "
-            + std::to_string(GltfLimits::indices));
+            + " corners; some are right, and at most " + std::to_string(out.limits.vertices) + " and "
+            + std::to_string(out.limits.indices));
     std::vector<std::uint32_t> indices;
     indices.reserve(corners);
     for (draco::FaceIndex face(0); face < mesh->num_faces(); ++face)

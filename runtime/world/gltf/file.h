@@ -14,7 +14,7 @@ struct GltfLimits {
     static constexpr std::size_t json_values = 2'000'000;
     static constexpr std::size_t json_depth = 100;
     static constexpr std::size_t looks = 65'536; ///< materials, and so textures, images and samplers
-    static constexpr std::size_t vertices = 16'000'000;
+    static constexpr std::size_t vertices = 16'000'000; ///< of small files: mesh_limits
     static constexpr std::size_t indices = 48'000'000;
     static constexpr std::size_t instances = 1'000'000;
     static constexpr std::size_t motions = 10'000; ///< animated instances

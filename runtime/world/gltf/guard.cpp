@@ -2,6 +2,7 @@
 #include "compressed.h"
 #include <algorithm>
 #include <array>
+#include <unistd.h>
 #include <utility>
 
 namespace starbow {
@@ -77,6 +78,18 @@ void note_once(std::vector<std::string>& notes, const std::string& note)
         notes.push_back(note);
 }
 
+MeshLimits mesh_limits(std::size_t bytes, std::size_t memory)
+{
+    // A packed vertex takes four bytes or more, a packed corner half a byte. In memory a corner is there for each level of
+    // detail, and once more while they are made.
+    constexpr std::size_t vertex_bytes = 2 * sizeof(Vertex), index_bytes = 4 * sizeof(std::uint32_t);
+    const std::size_t half = memory / 2;
+    MeshLimits limits;
+    limits.vertices = std::max(limits.vertices, std::min(bytes / 4, half / 2 / vertex_bytes));
+    limits.indices = std::max(limits.indices, std::min(2 * bytes, half / 2 / index_bytes));
+    return limits;
+}
+
 std::size_t count_of(const Spot& root, const char* key) { return root.has(key) ? list(root[key], 0).size() : 0; }
 
 void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
@@ -134,6 +147,10 @@ void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
         }
     });
     out.stated_views = out.model.bufferViews.size();
+    std::size_t bytes = 0;
+    for (const tinygltf::Buffer& buffer : buffers)
+        bytes += buffer.data.size();
+    out.limits = mesh_limits(bytes, std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGESIZE)));
 }
 
 GuardedGltf guard_gltf(const std::filesystem::path& path)

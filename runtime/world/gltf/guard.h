@@ -15,6 +15,14 @@ struct Instancing {
     std::size_t count = 0;
 };
 
+/// The most that a file's meshes may become: as much as any world needs, and more only as the file has bytes for it and
+/// the machine has memory. A small file can't take much of either.
+struct MeshLimits {
+    std::size_t vertices = GltfLimits::vertices, indices = GltfLimits::indices;
+};
+/// bytes: of all buffers. memory: the machine's, in bytes.
+MeshLimits mesh_limits(std::size_t bytes, std::size_t memory);
+
 /// A glTF file in which every reference, range, type and path has been checked.
 ///
 /// The types of `model` are tinygltf's; its parser stays unused. The parser is built for files that keep the rules: it opens
@@ -29,6 +37,7 @@ struct GuardedGltf {
     std::vector<Material> surfaces; ///< by the file's materials: the members from their extras, the rest not set
     std::vector<std::optional<Spin>> spins; ///< one for each node in the file
     std::vector<std::optional<Instancing>> instancing; ///< one for each node in the file
+    MeshLimits limits;
     /// Numbers of those in the file; unpacked ones come after them.
     std::size_t stated_views = 0, stated_accessors = 0;
     std::vector<std::string> notes; ///< everything left out, each once

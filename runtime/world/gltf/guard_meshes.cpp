@@ -152,15 +152,14 @@ const tinygltf::Accessor& checked_accessor(const Spot& spot, const GuardedGltf& 
 }
 
 /// Checks the number of indices, or of vertices where there are none, for a mode.
-void check_count(const Spot& spot, int mode, std::size_t count)
+void check_count(const Spot& spot, int mode, std::size_t count, std::size_t most)
 {
     if (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0)
         spot.fail("has " + std::to_string(count) + " corners; triangles take a multiple of 3");
     if (mode > TINYGLTF_MODE_TRIANGLES && count < 3)
         spot.fail("has " + std::to_string(count) + " corners; a strip or fan takes 3 or more");
-    if (count > GltfLimits::indices)
-        spot.fail(
-            "has " + std::to_string(count) + " corners; at most " + std::to_string(GltfLimits::indices) + " are allowed");
+    if (count > most)
+        spot.fail("has " + std::to_string(count) + " corners; at most " + std::to_string(most) + " are allowed here");
 }
 
 /// Morph targets: displacements of positions and normals, which are read; of tangents, which are not.
@@ -202,9 +201,9 @@ void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, Guarde
         vertices = count;
         written.attributes[name] = spot.json.get<int>();
     }
-    if (vertices > GltfLimits::vertices)
-        attributes.fail("have " + std::to_string(vertices) + " vertices; at most " + std::to_string(GltfLimits::vertices)
-            + " are allowed");
+    if (vertices > out.limits.vertices)
+        attributes.fail("have " + std::to_string(vertices) + " vertices; at most " + std::to_string(out.limits.vertices)
+            + " are allowed here");
     if (primitive.has("material"))
         written.material = int(index_into(primitive["material"], "material", out.model.materials.size()));
     if (primitive.has("targets"))
@@ -218,10 +217,10 @@ void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, Guarde
         const tinygltf::Accessor& accessor = checked_accessor(spot, out, indices);
         if (accessor.bufferView < 0)
             spot.fail("names accessor " + spot.json.dump() + ", which has no bufferView; indices need one");
-        check_count(spot, written.mode, accessor.count);
+        check_count(spot, written.mode, accessor.count, out.limits.indices);
         written.indices = spot.json.get<int>();
     } else if (written.attributes.contains("POSITION"))
-        check_count(primitive, written.mode, vertices);
+        check_count(primitive, written.mode, vertices, out.limits.indices);
 }
 
 } // namespace

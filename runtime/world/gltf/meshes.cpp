@@ -173,12 +173,13 @@ template <typename T> void grow(std::vector<T>& to, std::size_t more, std::size_
 
 void make_room(WorldBuild& build, const std::string& place, std::size_t vertices, std::size_t indices)
 {
-    if (build.world.vertices.size() + vertices > GltfLimits::vertices)
-        build.fail(place, "brings the world above " + std::to_string(GltfLimits::vertices) + " vertices; use fewer");
-    if (build.world.indices.size() + indices > GltfLimits::indices)
-        build.fail(place, "brings the world above " + std::to_string(GltfLimits::indices / 3) + " triangles; use fewer");
-    grow(build.world.vertices, vertices, GltfLimits::vertices);
-    grow(build.world.indices, indices, GltfLimits::indices);
+    if (build.world.vertices.size() + vertices > build.file.limits.vertices)
+        build.fail(place, "brings the world above " + std::to_string(build.file.limits.vertices) + " vertices; use fewer");
+    if (build.world.indices.size() + indices > build.file.limits.indices)
+        build.fail(
+            place, "brings the world above " + std::to_string(build.file.limits.indices / 3) + " triangles; use fewer");
+    grow(build.world.vertices, vertices, build.file.limits.vertices);
+    grow(build.world.indices, indices, build.file.limits.indices);
 }
 
 /// A glTF primitive under construction.
@@ -212,7 +213,8 @@ Source open_source(
     source.triangles = from.mode == TINYGLTF_MODE_TRIANGLES ? run / 3 : run - 2;
     const std::size_t corners = 3 * source.triangles;
     if (corners > build.corners_left)
-        build.fail(place, "brings the world above " + std::to_string(GltfLimits::indices / 3) + " triangles; use fewer");
+        build.fail(
+            place, "brings the world above " + std::to_string(build.file.limits.indices / 3) + " triangles; use fewer");
     build.corners_left -= corners;
     // Flat triangles never share corners.
     make_room(build, place, attributes.has_normal ? 0 : corners, corners);

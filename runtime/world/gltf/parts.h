@@ -41,7 +41,7 @@ struct WorldBuild {
     std::vector<UvSource> uv; ///< one for each of the world's materials
     int default_material = -1;
     std::size_t sparse_bytes_left = GltfLimits::sparse_bytes;
-    std::size_t corners_left = GltfLimits::indices; ///< remaining limit of corners, including those of empty triangles
+    std::size_t corners_left = file.limits.indices; ///< remaining limit of corners, including those of empty triangles
     std::vector<std::uint32_t> placed; ///< memory of add_primitive: a vertex's new index, reset after each
     std::map<std::uint32_t, std::uint32_t> turned; ///< reversed copies of primitives, for mirrored nodes
 
