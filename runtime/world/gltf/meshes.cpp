@@ -10,7 +10,7 @@ constexpr std::uint32_t none = 0xffffffff;
 
 /// A morph target with its weight, which is not 0.
 struct Target {
-    double weight;
+    double weight = 0;
     Elements position, normal;
     bool has_position = false, has_normal = false;
 };
@@ -152,7 +152,8 @@ Attributes open_attributes(
     for (std::size_t i = 0; i < primitive.targets.size() && i < pose.weights.size(); ++i) {
         if (pose.weights[i] == 0)
             continue;
-        Target& target = out.targets.emplace_back(pose.weights[i]);
+        Target& target = out.targets.emplace_back();
+        target.weight = pose.weights[i];
         for (const auto& [name, accessor] : primitive.targets[i]) {
             const bool position = name == "POSITION";
             (position ? target.position : target.normal) = open(build, accessor);
