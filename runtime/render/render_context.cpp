@@ -1,6 +1,7 @@
 #include "render_context.h"
 #include "config/model/shipped.h"
 #include "displays/compile/compiled_view.h"
+#include "runtime/operation/progress.h"
 #include "runtime/world/detail_cache.h"
 #include "runtime/world/open_scene.h"
 #include <cstdlib>
@@ -11,7 +12,9 @@ LoadedScene load_scene(const std::filesystem::path& file)
 {
     SceneFile scene = open_scene(file);
     World world = load_world(scene);
-    if (add_kept_detail_levels(world, map_cache_folder()))
+    Progress progress;
+    const auto show = [&](double part) { progress.show("levels of detail of " + scene.name, part); };
+    if (add_kept_detail_levels(world, map_cache_folder(), show))
         bound_cache(map_cache_folder());
     std::vector<Star> stars;
     if (scene.stars)

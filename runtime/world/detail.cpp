@@ -114,12 +114,18 @@ double shading_width(
 
 } // namespace
 
-void add_detail_levels(World& world)
+void add_detail_levels(World& world, const std::function<void(double)>& progress)
 {
     constexpr std::size_t worth = 3 * 64; // indices
     constexpr float most_error = 0.25f; // of the primitive's extent; beyond it hardly any surface is left
     std::vector<std::uint32_t> level;
+    double corners = 0, done = 0;
+    for (const Primitive& primitive : world.primitives)
+        corners += primitive.index_count;
     for (Primitive& primitive : world.primitives) {
+        if (progress)
+            progress(done / std::max(corners, 1.0));
+        done += primitive.index_count;
         if (primitive.index_count < worth)
             continue;
         const Vertex* vertices = world.vertices.data() + primitive.vertex_offset;
@@ -150,6 +156,9 @@ void add_detail_levels(World& world)
             primitive.coarser.push_back({std::uint32_t(world.indices.size()), std::uint32_t(count), error, shading});
             world.indices.insert(world.indices.end(), level.begin(), level.end());
             from = level;
+            // Each level has half the corners of the one before, and takes half as long.
+            if (progress)
+                progress((done - double(from.size())) / corners);
         }
     }
     add_clusters(world);

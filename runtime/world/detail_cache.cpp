@@ -131,10 +131,11 @@ Kept kept_of(const World& world)
 
 } // namespace
 
-bool add_kept_detail_levels(World& world, const std::filesystem::path& folder, std::size_t worth_keeping)
+bool add_kept_detail_levels(World& world, const std::filesystem::path& folder, const std::function<void(double)>& progress,
+    std::size_t worth_keeping)
 {
     if (folder.empty() || world.indices.size() < worth_keeping) {
-        add_detail_levels(world);
+        add_detail_levels(world, progress);
         return false;
     }
     Header header;
@@ -149,7 +150,7 @@ bool add_kept_detail_levels(World& world, const std::filesystem::path& folder, s
         std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), ignored);
         return false;
     }
-    add_detail_levels(world);
+    add_detail_levels(world, progress);
     kept = kept_of(world);
     header.primitives = kept.primitives.size(), header.levels = kept.levels.size();
     header.clusters = kept.clusters.size(), header.indices = kept.indices.size();

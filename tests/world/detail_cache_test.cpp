@@ -47,26 +47,32 @@ TEST_F(DetailCacheTest, KeptLevelsAreTheMadeOnes)
 {
     const World bare = load_world(starbow::testing::source_dir() / "scenes/twins/twins.glb");
     World made = bare;
-    add_detail_levels(made);
+    double part = 0;
+    add_detail_levels(made, [&](double done) {
+        EXPECT_GE(done, part);
+        EXPECT_LE(done, 1);
+        part = done;
+    });
+    EXPECT_GT(part, 0.5);
     ASSERT_FALSE(made.clusters.empty());
     World first = bare, second = bare, none = bare, small = bare;
-    EXPECT_TRUE(add_kept_detail_levels(first, folder, 0));
+    EXPECT_TRUE(add_kept_detail_levels(first, folder, {}, 0));
     expect_equal(first, made);
     ASSERT_EQ(kept_in(folder).size(), 1u);
-    EXPECT_FALSE(add_kept_detail_levels(second, folder, 0));
+    EXPECT_FALSE(add_kept_detail_levels(second, folder, {}, 0));
     expect_equal(second, made);
-    EXPECT_FALSE(add_kept_detail_levels(none, {}, 0));
+    EXPECT_FALSE(add_kept_detail_levels(none, {}, {}, 0));
     expect_equal(none, made);
-    EXPECT_FALSE(add_kept_detail_levels(small, folder, bare.indices.size() + 1));
+    EXPECT_FALSE(add_kept_detail_levels(small, folder, {}, bare.indices.size() + 1));
     EXPECT_EQ(kept_in(folder).size(), 1u);
     World missing = bare;
     const std::filesystem::path in_the_way = kept_in(folder).at(0) / "none";
-    EXPECT_FALSE(add_kept_detail_levels(missing, in_the_way, 0)) << "a folder that can't be made";
+    EXPECT_FALSE(add_kept_detail_levels(missing, in_the_way, {}, 0)) << "a folder that can't be made";
     expect_equal(missing, made);
     // Another world has another file.
     World other = bare;
     other.vertices[0].position.x += 1e-3f;
-    EXPECT_TRUE(add_kept_detail_levels(other, folder, 0));
+    EXPECT_TRUE(add_kept_detail_levels(other, folder, {}, 0));
     EXPECT_EQ(kept_in(folder).size(), 2u);
 }
 
@@ -76,7 +82,7 @@ TEST_F(DetailCacheTest, ADamagedFileIsMadeAnew)
     World made = bare;
     add_detail_levels(made);
     World first = bare;
-    ASSERT_TRUE(add_kept_detail_levels(first, folder, 0));
+    ASSERT_TRUE(add_kept_detail_levels(first, folder, {}, 0));
     const std::filesystem::path file = kept_in(folder).at(0);
     std::ifstream stream(file, std::ios::binary);
     const std::string whole((std::istreambuf_iterator<char>(stream)), {});
@@ -91,7 +97,7 @@ TEST_F(DetailCacheTest, ADamagedFileIsMadeAnew)
             damaged[random() % whole.size()] ^= char(1 << random() % 8);
         std::ofstream(file, std::ios::binary).write(damaged.data(), std::streamsize(damaged.size()));
         World again = bare;
-        EXPECT_TRUE(add_kept_detail_levels(again, folder, 0)) << n;
+        EXPECT_TRUE(add_kept_detail_levels(again, folder, {}, 0)) << n;
         expect_equal(again, made);
     }
 }
