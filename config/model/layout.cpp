@@ -208,7 +208,10 @@ Stereo read_stereo(const Place& place)
         stereo.method = chosen<StereoMethod>(*p,
             {{"shared", StereoMethod::shared}, {"exact", StereoMethod::exact}, {"reprojected", StereoMethod::reprojected}});
     take(place, "separation_m", stereo.separation_m, {0, 10});
-    take(place, "hyper_stereo", stereo.hyper_stereo, {0, 1e12, true});
+    if (const auto p = find_member(place, "hyper_stereo"); p && p->json->is_string())
+        stereo.by_light = one_of(*p, {"by-light"}) == "by-light";
+    else
+        take(place, "hyper_stereo", stereo.hyper_stereo, {0, 1e12, true});
     if (auto p = find_member(place, "baseline"))
         stereo.turning = one_of(*p, {"fixed", "turning"}) == "turning";
     take(place, "full_from_zenith_deg", stereo.full_from_zenith_deg, {0, 90});

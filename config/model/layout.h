@@ -190,9 +190,18 @@ enum class StereoMethod { shared, exact, reprojected };
 struct Stereo {
     StereoMethod method = StereoMethod::exact;
     double separation_m = 0.065; ///< between the eyes
-    double hyper_stereo = 1; ///< multiplies every distance of an eye, for worlds measured in light-seconds
+    double hyper_stereo = 1; ///< multiplies every distance of an eye in the world
+    bool by_light = false; ///< instead of hyper_stereo: a metre of an eye's place is metre_of_light_s of the world's light
     bool turning = false; ///< the eyes' baseline turns with the azimuth: for domes
     double full_from_zenith_deg = 40; ///< turning: closer to the zenith the separation fades
+
+    /// The scene units that a metre of an eye's place is in a world of this unit and this speed of light.
+    double units_per_m(double unit_m, double light_speed_m_s) const
+    {
+        return (by_light ? metre_of_light_s * light_speed_m_s : hyper_stereo) / unit_m;
+    }
+    /// Seconds. Eyes 65 mm apart are 9,750 km apart in a world of light-seconds, and 16 cm where light flies 5 m/s.
+    static constexpr double metre_of_light_s = 0.5;
 };
 
 /// Blend ramps where outputs overlap, computed from their views.

@@ -98,9 +98,10 @@ std::vector<std::string> eye_warnings(const Layout& layout, const std::vector<Co
         = std::any_of(coverages.begin(), coverages.end(), [](const Coverage& c) { return c.eye != Eye::middle; });
     if (two_eyes && layout.stereo.separation_m > far_apart_m)
         all.push_back("the eyes are " + rounded(layout.stereo.separation_m) + " m apart; lengths are in metres");
-    if (two_eyes && layout.stereo.hyper_stereo == 1 && layout.stereo.method != StereoMethod::shared)
+    if (two_eyes && layout.stereo.hyper_stereo == 1 && !layout.stereo.by_light
+        && layout.stereo.method != StereoMethod::shared)
         all.push_back("two eyes show no depth in worlds whose unit is a light-second, as the shipped ones have it: there "
-                      "\"stereo\" needs a \"hyper_stereo\", such as 1.5e8");
+                      "\"stereo\" needs a \"hyper_stereo\", such as \"by-light\"");
     if (layout.head_tracker) {
         const bool wall = std::any_of(coverages.begin(), coverages.end(), [&](const Coverage& c) {
             return std::holds_alternative<Wall>(

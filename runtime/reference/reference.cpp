@@ -8,8 +8,8 @@
 #include "overlap.h"
 #include "runtime/light/colour.h"
 #include "runtime/light/srgb.h"
-#include "runtime/world/open_scene.h"
 #include "runtime/world/moving.h"
+#include "runtime/world/open_scene.h"
 #include "runtime/world/worldline.h"
 #include "star_spots.h"
 #include <algorithm>
@@ -66,7 +66,7 @@ public:
                   : nullptr)
         , exposure_(std::exp2(shot.exposure_ev))
     {
-        const double scale = layout.stereo.hyper_stereo / input.scene.unit_m;
+        const double scale = layout.stereo.units_per_m(input.scene.unit_m, input.scene.light_speed_m_s);
         const bool turns = layout.stereo.method == StereoMethod::reprojected && layout.stereo.turning;
         std::vector<EyeAt> places;
         views_.reserve(views.size());

@@ -40,12 +40,14 @@ glm::dvec3 eye_beside(const Stereo& stereo, Eye eye, const glm::dvec3& n)
     return right * (half / std::max(glm::length(right), std::sin(glm::radians(stereo.full_from_zenith_deg))));
 }
 
-Disparity disparity(OffscreenRenderer& tested, OffscreenRenderer* exact, const Shot& shot, std::size_t output, double unit_m)
+Disparity disparity(
+    OffscreenRenderer& tested, OffscreenRenderer* exact, const Shot& shot, std::size_t output, const SceneFile& scene)
 {
     const Layout& layout = tested.layout();
     const glm::ivec2 size = layout.outputs[output].size;
     const Channels numbers = tested.numbers(shot, output), truth = exact ? exact->numbers(shot, output) : Channels();
-    const double scale = layout.stereo.hyper_stereo / unit_m, E = physics::exp_rapidity(glm::length(shot.u));
+    const double scale = layout.stereo.units_per_m(scene.unit_m, scene.light_speed_m_s),
+                 E = physics::exp_rapidity(glm::length(shot.u));
     const glm::dmat3 to_motion = motion_from_world(shot.u, shot.ship_from_cockpit);
     std::vector<double> errors;
     long hidden = 0;

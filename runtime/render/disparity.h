@@ -13,7 +13,7 @@ struct Disparity {
 /// Measures an output of any stereo method. exact: a renderer of the same layout with a cube map for each eye. It is null
 /// where no such layout exists (a baseline that turns); then `hidden` stays 0. Both renderers must be measured ones.
 Disparity disparity(
-    OffscreenRenderer& tested, OffscreenRenderer* exact, const Shot& shot, std::size_t output, double unit_m);
+    OffscreenRenderer& tested, OffscreenRenderer* exact, const Shot& shot, std::size_t output, const SceneFile& scene);
 
 /// The eye's place relative to the middle of the head for the cockpit's direction n, metres, without hyper-stereo. The
 /// warp pass computes the same where the baseline turns with the azimuth.

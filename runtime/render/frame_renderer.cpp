@@ -74,7 +74,7 @@ FrameRenderer::FrameRenderer(Device& device, Pipelines& pipelines, const GpuWorl
     , state_{.quality = quality, .layout = with_stereo(layout, quality)}
     , seen_stars_(device, world)
     , stars_(device, pipelines, world, seen_stars_, keeps_depth)
-    , views_(device, pipelines, state_, world.scene.unit_m, stars_.on())
+    , views_(device, pipelines, state_, world.scene, stars_.on())
     , eyes_(device, pipelines, world, state_, views_, seen_stars_)
     , constants_(world, state_, views_, eyes_)
     , descriptors_(device, world, state_, views_, eyes_, stars_)

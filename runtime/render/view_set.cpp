@@ -8,11 +8,12 @@
 
 namespace starbow {
 
-ViewSet::ViewSet(Device& device, Pipelines& pipelines, const FrameState& state, double unit_m, bool has_stars)
+ViewSet::ViewSet(Device& device, Pipelines& pipelines, const FrameState& state, const SceneFile& scene, bool has_stars)
     : device_(device)
     , pipelines_(pipelines)
     , state_(state)
-    , unit_m_(unit_m)
+    , unit_m_(scene.unit_m)
+    , light_speed_m_s_(scene.light_speed_m_s)
     , has_stars_(has_stars)
 {
     const float zeros[2] = {};
@@ -34,7 +35,7 @@ glm::ivec2 ViewSet::sent_pixels(const ViewState& view) const
 
 glm::dvec3 ViewSet::scene_units(const glm::dvec3& place_m) const
 {
-    return place_m * (state_.layout.stereo.hyper_stereo / unit_m_);
+    return place_m * state_.layout.stereo.units_per_m(unit_m_, light_speed_m_s_);
 }
 
 glm::dvec3 ViewSet::eye_offset(const ViewState& view, const RestFrameView& rest_frame) const

@@ -36,7 +36,7 @@ class ViewSet {
 
 public:
     /// has_stars: direction maps get their inverse.
-    ViewSet(Device& device, Pipelines& pipelines, const FrameState& state, double unit_m, bool has_stars);
+    ViewSet(Device& device, Pipelines& pipelines, const FrameState& state, const SceneFile& scene, bool has_stars);
 
     /// Computes the parts of FrameState's layout. Throws InputError for a wrong file and, if `rejects_empty`, for a view
     /// that shows nothing.
@@ -105,7 +105,7 @@ private:
     Device& device_;
     Pipelines& pipelines_;
     const FrameState& state_;
-    double unit_m_;
+    double unit_m_, light_speed_m_s_;
     bool has_stars_;
     Image no_map_;
 };

@@ -106,6 +106,7 @@ TEST(LayoutMembersTest, StereoBlendAndHudAreRead)
     EXPECT_EQ(layout.stereo.method, StereoMethod::reprojected);
     EXPECT_EQ(layout.stereo.separation_m, 0.06);
     EXPECT_EQ(layout.stereo.hyper_stereo, 2);
+    EXPECT_FALSE(layout.stereo.by_light);
     EXPECT_TRUE(layout.stereo.turning);
     EXPECT_EQ(layout.stereo.full_from_zenith_deg, 30);
     EXPECT_TRUE(layout.blend.ramps);
@@ -129,6 +130,7 @@ TEST(LayoutMembersTest, StereoBlendAndHudAreRead)
             {top(R"("stereo": { "separation_m": 0, "method": "reprojected" })"), "/stereo/separation_m", "0",
                 "puts both eyes in one place; a number above 0, or the method \"shared\""},
             {top(R"("stereo": { "hyper_stereo": 0 })"), "/stereo/hyper_stereo", "0", "is too small; a number above 0"},
+            {top(R"("stereo": { "hyper_stereo": "by-eye" })"), "/stereo/hyper_stereo", "\"by-eye\"", "\"by-light\""},
             {top(R"("stereo": { "hyper_stereo": 2e12 })"), "/stereo/hyper_stereo", "2000000000000.0", "is too large"},
             {top(R"("stereo": { "hyper_stereo": 1e999 })"), "/stereo/hyper_stereo", "1e999", "is too large for a number"},
             {top(R"("stereo": { "hyper_stereo": 1, "hyper_stereo": 1 })"), "/stereo/hyper_stereo", "\"hyper_stereo\"",

@@ -64,7 +64,9 @@ TEST(LayoutTest, ShippedLayoutsLoad)
     const Layout stereo = load_layout(folder / "stereo.json");
     EXPECT_EQ(stereo.outputs.at(0).packing, Packing::side_by_side);
     EXPECT_EQ(stereo.outputs.at(0).viewports.size(), 1u);
-    EXPECT_NEAR(stereo.stereo.separation_m * stereo.stereo.hyper_stereo / 299792458, 0.03, 0.005);
+    // The eyes are 0.0325 seconds of light apart, in light-seconds and in metres.
+    EXPECT_NEAR(stereo.stereo.separation_m * stereo.stereo.units_per_m(299792458, 299792458), 0.0325, 1e-12);
+    EXPECT_NEAR(stereo.stereo.separation_m * stereo.stereo.units_per_m(1, 5), 0.1625, 1e-12);
 }
 
 /// The layouts between ``` in the handbook, and a message that it quotes.

@@ -50,9 +50,10 @@ Steps steps(const Bytes& a, const Bytes& b)
 }
 
 /// The shot's event for an eye at a place of the cockpit, metres.
-Shot at_eye(Shot shot, const dvec3& eye_m, double hyper_stereo, double unit_m)
+Shot at_eye(Shot shot, const dvec3& eye_m, const Stereo& stereo, const SceneFile& scene)
 {
-    const dvec3 offset = shot.ship_from_cockpit * (eye_m * (hyper_stereo / unit_m));
+    const dvec3 offset = shot.ship_from_cockpit
+        * (eye_m * ((stereo.by_light ? 0.5 * scene.light_speed_m_s : stereo.hyper_stereo) / scene.unit_m));
     shot.position += physics::eye_place(shot.u, offset);
     shot.time += physics::eye_time(shot.u, offset);
     return shot;
@@ -89,7 +90,7 @@ void compare(const GpuWorld& world, const Layout& layout, const Shot& ship, cons
     for (const Beside kind : kinds) {
         SCOPED_TRACE(name_of(kind));
         const dvec3 eye_m = whole.frame().views().probed_view().cube_m;
-        const Shot event = at_eye(ship, eye_m, layout.stereo.hyper_stereo, world.scene.unit_m);
+        const Shot event = at_eye(ship, eye_m, layout.stereo, world.scene);
         whole.frame().show_inset(starbow::beside(ship, kind, 0.5), width);
         const std::vector<Bytes> with = whole.picture(ship);
         const Bytes shown = inset_of(whole), apart = own.picture(starbow::beside(event, kind, 0.5))[0];
@@ -222,8 +223,7 @@ TEST(InsetGpuTest, TheTelescopeIsSharpAndTheLargePictureStays)
             OffscreenRenderer own(device(), pipelines(), avenue().world, alone, test_quality(), false);
             OffscreenRenderer fine(device(), pipelines(), avenue().world, alone, reference_quality(), false);
             whole.frame().repeatable(true), own.frame().repeatable(true);
-            const Shot event = at_eye(
-                ship, whole.frame().views().probed_view().cube_m, layout.stereo.hyper_stereo, avenue().world.scene.unit_m);
+            const Shot event = at_eye(ship, whole.frame().views().probed_view().cube_m, layout.stereo, avenue().world.scene);
             const Bytes bare = whole.picture(ship)[0];
             whole.frame().show_inset(beside(ship, Beside::telescope, 0), width, fov_deg);
             const Bytes with = whole.picture(ship)[0], shown = inset_of(whole);

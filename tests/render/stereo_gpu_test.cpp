@@ -1,7 +1,9 @@
 // Two eyes: each packing puts each eye's pixels where such a display expects them, and each method shows objects where the
 // eye sees them. The expected places are computed here in double from the objects' places alone.
 #include "config/model/angles.h"
+#include "config/model/scene_file.h"
 #include "runtime/render/disparity.h"
+#include "tests/support/files.h"
 #include "tests/support/small_world.h"
 #include <functional>
 
@@ -547,7 +549,8 @@ TEST(Stereo, ReprojectedEqualsExactPixelByPixel)
     // Each eye adds its edges, and the parts beside near objects that the point between the eyes does not see.
     EXPECT_LT(of_tested.hidden, 0.012);
     // The program's own measurement must agree.
-    const Disparity reported = disparity(tested, &exact, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}), 0, 1);
+    const Disparity reported
+        = disparity(tested, &exact, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}), 0, SceneFile{.unit_m = 1});
     EXPECT_NEAR(reported.median, of_tested.median, 0.2 * of_tested.median);
     EXPECT_NEAR(reported.high, of_tested.high, 0.2 * of_tested.high);
     EXPECT_NEAR(
@@ -676,6 +679,38 @@ TEST(Stereo, EyesBesideADirectionFollowTheFormula)
         const dvec3 d = glm::normalize(dvec3(std::sin(i * 1.3), std::cos(i * 0.7), std::sin(i * 2.9)));
         for (Eye eye : {Eye::left, Eye::right})
             EXPECT_LT(glm::distance(eye_beside(stereo, eye, d), turned_eye(eye, d, 0.065, 40)), 1e-12);
+    }
+}
+
+/// In a street of metres, where light flies 5 m/s, the shipped pair's eyes are 0.0325 seconds of its light apart: each eye's
+/// half is what a single eye sees from that place.
+TEST(StereoByLight, ShowsAStreetOfMetresToBothEyes)
+{
+    const SceneFile scene = load_scene_file(starbow::testing::source_dir() / "config/scenes/gamow.json");
+    const GpuWorld world = upload(device(), pipelines(), load_world(scene), scene, {});
+    Layout pair = load_layout(starbow::testing::source_dir() / "config/layouts/stereo.json");
+    pair.outputs[0].size = {480, 180};
+    pair.hud = {};
+    Shot shot = scene.start;
+    shot.u = {0, 0, -0.5};
+    OffscreenRenderer both = renderer(world, pair), single = renderer(world, one_view(Planar{60}, {240, 180}));
+    const Numbers numbers(both, shot);
+    for (const double side : {-1.0, 1.0}) {
+        Shot from = shot;
+        from.position += shot.ship_from_cockpit * dvec3(side * 0.5 * 0.0325 * 5, 0, 0);
+        const Numbers alone(single, from);
+        // Light is retarded from each eye's own place; what differs is where a texel of its cube map lies.
+        double off = 0, most = 0, other = 0;
+        for (int y = 0; y < 180; ++y)
+            for (int x = 0; x < 240; ++x) {
+                const dvec3 own = alone.light(y * 240 + x);
+                off += glm::length(numbers.light(y * 480 + x + (side > 0 ? 240 : 0)) - own);
+                other += glm::length(numbers.light(y * 480 + x + (side > 0 ? 0 : 240)) - own);
+                most += glm::length(own);
+            }
+        std::printf("  off by %.2f %%, the other eye's by %.2f %%\n", 100 * off / most, 100 * other / most);
+        EXPECT_LT(off, 0.01 * most);
+        EXPECT_GT(other, 0.02 * most);
     }
 }
 

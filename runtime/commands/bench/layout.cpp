@@ -128,7 +128,7 @@ void bench_stereo(RenderContext& context, const Shot& shot, int rounds)
 {
     Layout stereo = one_view(Planar{60}, {1600, 600});
     stereo.outputs[0].packing = Packing::side_by_side;
-    stereo.stereo.hyper_stereo = 1.5e8 * context.world.scene.unit_m / 299792458;
+    stereo.stereo.by_light = true;
     Layout turning = one_view(Fisheye{.aperture_deg = 180, .tilt_deg = 30}, {1200, 600});
     turning.outputs[0].packing = Packing::side_by_side;
     turning.stereo = stereo.stereo;
@@ -160,7 +160,8 @@ void bench_stereo(RenderContext& context, const Shot& shot, int rounds)
         return std::make_unique<OffscreenRenderer>(context.device, context.pipelines, context.world, layout, quality, true);
     };
     std::printf("\nTwo eyes of 800x600 (domes 600x600), %.4g scene units apart:\n",
-        stereo.stereo.separation_m * stereo.stereo.hyper_stereo / context.world.scene.unit_m);
+        stereo.stereo.separation_m
+            * stereo.stereo.units_per_m(context.world.scene.unit_m, context.world.scene.light_speed_m_s));
     std::printf("  %-22s %10s %8s %9s   %s\n", "", "frame, ms", "of exact", "warp, ms",
         "disparity error, pixels: median, 99 %, most; hidden wrongly");
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -169,7 +170,7 @@ void bench_stereo(RenderContext& context, const Shot& shot, int rounds)
         Layout exact_layout = layouts[i];
         exact_layout.stereo.method = StereoMethod::exact;
         const std::unique_ptr<OffscreenRenderer> exact = turns ? nullptr : measured(exact_layout);
-        const Disparity off = disparity(*tested, exact.get(), shot, 0, context.world.scene.unit_m);
+        const Disparity off = disparity(*tested, exact.get(), shot, 0, context.world.scene);
         const std::size_t base = i < 3 ? 0 : 3;
         std::printf("  %-22s %10.2f %8.2f %9.2f   %8.3f %8.3f %8.2f  %6.2f %%\n", cases[i].name.c_str(),
             cases[i].ms(LayoutStage::whole_frame),
