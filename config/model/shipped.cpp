@@ -17,7 +17,7 @@ bool is_path(const std::string& name)
         || name.ends_with(".gltf");
 }
 
-/// The kind of the files in a folder of config/; nullopt for those that are not told apart.
+/// The file kind of a folder of config/; nullopt for folders whose files kind_of_file does not recognise.
 std::optional<FileKind> kind_in(const std::string& folder)
 {
     static const std::map<std::string, FileKind> kinds{{"scenes", FileKind::scene}, {"layouts", FileKind::layout},

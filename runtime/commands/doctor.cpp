@@ -12,8 +12,8 @@
 #include "runtime/exhibit/outputs.h"
 #include "runtime/hud/hud.h"
 #include "runtime/render/render_context.h"
-#include "version.h"
 #include "runtime/world/open_scene.h"
+#include "version.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>

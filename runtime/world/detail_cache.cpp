@@ -20,7 +20,7 @@ struct Header {
     std::uint64_t content = 0; ///< hash of everything that follows; a damaged file is not read
 };
 
-/// What add_detail_levels makes of a primitive. Both records are plain numbers without gaps.
+/// The detail levels and clusters of a primitive, in the file's form. Both records are plain numbers without gaps.
 struct KeptPrimitive {
     std::uint32_t levels, first_cluster, clusters;
 };
@@ -51,7 +51,7 @@ std::uint64_t key_of(const World& world)
     return hash.value();
 }
 
-/// What a file holds.
+/// The content of a cache file behind its header.
 struct Kept {
     std::vector<KeptPrimitive> primitives;
     std::vector<KeptLevel> levels;

@@ -1,4 +1,5 @@
 #include "open_scene.h"
+#include "config/json/digits.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/model/file_kind.h"
@@ -19,16 +20,6 @@ double round_number(double x)
     const double power = std::pow(10, std::floor(std::log10(x)));
     const std::array steps{1.0, 2.0, 5.0, 10.0};
     return power * *std::ranges::min_element(steps, {}, [&](double step) { return std::abs(std::log(step * power / x)); });
-}
-
-bool is_gltf(const std::filesystem::path& file) { return kind_of_file(file) == FileKind::gltf; }
-
-std::string digits(double x)
-{
-    std::ostringstream out;
-    out.precision(3);
-    out << x;
-    return out.str();
 }
 
 constexpr double crossing_s = 10; ///< light's time through a world without a scene file
@@ -119,7 +110,7 @@ Shot overview(const AlignedBox& box, double floor, const glm::dvec3& away)
 
 SceneFile open_scene(const std::filesystem::path& file)
 {
-    return is_gltf(file) ? scene_around(file) : load_scene_file(file);
+    return kind_of_file(file) == FileKind::gltf ? scene_around(file) : load_scene_file(file);
 }
 
 SceneFile scene_around(const std::filesystem::path& gltf)

@@ -23,8 +23,8 @@ struct Outline {
     bool moves = false; ///< it has animations, or nodes that spin
 };
 
-/// What a world is about, without its backdrops: a ground to the horizon, or a sphere painted as a sky. A backdrop is three
-/// times as far across as all smaller things together.
+/// The bounding box of a world's things without its backdrops, such as a ground to the horizon or a sphere painted as a sky.
+/// A backdrop is more than three times as far across as all smaller things together.
 struct Middle {
     AlignedBox box{glm::dvec3(-1), glm::dvec3(1)};
     double floor = -1; ///< the height of the ground below it

@@ -11,7 +11,7 @@ namespace starbow {
 
 namespace {
 
-/// Whether anything in the world has light of its own, or throws some on it.
+/// True if a surface of the world emits light, or a lamp, the sky or the ambient light of its scene illuminates it.
 bool has_light(const World& world, const SceneFile& scene)
 {
     const auto black = [](const glm::dvec3& colour) { return !(colour.r > 0 || colour.g > 0 || colour.b > 0); };

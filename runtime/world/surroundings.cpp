@@ -1,4 +1,5 @@
 #include "surroundings.h"
+#include "boxes.h"
 #include "config/json/error.h"
 #include "ephemeris.h"
 #include "gltf/parts.h"
@@ -41,18 +42,6 @@ AlignedBox box_of(const GuardedGltf& file, const tinygltf::Mesh& mesh)
             include(box, {elements.component(i, 0), elements.component(i, 1), elements.component(i, 2)});
     }
     return box;
-}
-
-/// The box around a box that a transform has turned.
-AlignedBox transformed(const AlignedBox& box, const glm::dmat4& transform)
-{
-    AlignedBox out = nothing;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 at(
-            corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y, corner & 4 ? box.high.z : box.low.z);
-        include(out, transform * glm::dvec4(at, 1));
-    }
-    return out;
 }
 
 /// One box for all boxes whose middles lie in the same cell of a grid of 8 x 8 x 8.

@@ -1,11 +1,11 @@
 // Records: lines are read back to the bit, a replayed flight is the same to the bit, and wrong files are refused.
 #include "config/model/shipped.h"
 #include "runtime/flight/history.h"
-#include "runtime/operation/record_files.h"
 #include "runtime/flight/record_replay.h"
 #include "runtime/flight/recorder.h"
 #include "runtime/flight/replay.h"
 #include "runtime/flight/shown_record.h"
+#include "runtime/operation/record_files.h"
 #include "tests/support/controls.h"
 #include "tests/support/files.h"
 #include <bit>

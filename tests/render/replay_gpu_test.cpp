@@ -1,9 +1,9 @@
 // A flight's replay draws the same pictures to the byte.
 #include "runtime/exhibit/replay_renderer.h"
 #include "runtime/flight/history.h"
-#include "runtime/operation/record_files.h"
 #include "runtime/flight/recorder.h"
 #include "runtime/flight/replay.h"
+#include "runtime/operation/record_files.h"
 #include "tests/support/gpu_environment.h"
 
 namespace replay_gpu_test {

@@ -1,4 +1,5 @@
 #include "world_sheet.h"
+#include "config/json/digits.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
@@ -12,9 +13,9 @@
 #include "runtime/render/offscreen.h"
 #include "runtime/render/pass_timer.h"
 #include "runtime/render/render_context.h"
+#include "runtime/world/boxes.h"
 #include "runtime/world/open_scene.h"
 #include "runtime/world/outline.h"
-#include "shaders/physics/physics.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -30,14 +31,6 @@ using Clock = std::chrono::steady_clock;
 constexpr glm::ivec2 still_size{800, 600}, page_still{640, 480};
 constexpr int timed_frames = 7;
 
-std::string digits(double x, int precision = 3)
-{
-    std::ostringstream out;
-    out.precision(precision);
-    out << x;
-    return out.str();
-}
-
 /// One line of the page's table and of what is printed.
 struct Fact {
     std::string name, value;
@@ -48,19 +41,9 @@ struct Still {
     Shot shot;
 };
 
-AlignedBox around(const std::vector<AlignedBox>& boxes)
-{
-    AlignedBox all = boxes.empty() ? AlignedBox{} : boxes[0];
-    for (const AlignedBox& box : boxes)
-        all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
-    return all;
-}
-
-double unit_to_m(const SceneFile& scene, double units) { return units * scene.unit_m; }
-
 std::string length(const SceneFile& scene, double units)
 {
-    const double m = unit_to_m(scene, units);
+    const double m = units * scene.unit_m;
     return m >= 1e9 ? digits(m / 299792458) + " light-seconds" : m >= 1e4 ? digits(m / 1000) + " km" : digits(m) + " m";
 }
 
@@ -73,11 +56,11 @@ std::vector<Fact> facts_of(const RenderContext& context, const AlignedBox& all, 
         triangles += primitive.index_count / 3;
     for (const Instance& instance : world.instances)
         drawn += world.primitives[instance.primitive].index_count / 3;
-    double texels = 0, bytes = 0;
+    double texels = 0;
     for (const Texture& texture : world.textures)
         texels += double(texture.size.x) * texture.size.y;
     // Four thirds for the smaller copies; in software half floats, on a GPU bytes.
-    bytes = texels * 4 / 3 * (context.device.on_processor() ? 8 : 4);
+    const double bytes = texels * 4 / 3 * (context.device.on_processor() ? 8 : 4);
     const glm::dvec3 size = all.high - all.low;
     return {
         {"size", length(scene, size.x) + " wide, " + length(scene, size.y) + " high, " + length(scene, size.z) + " deep"},
@@ -174,7 +157,9 @@ int check_world(const std::string& name, const std::string& page_name, const std
     RenderContext context(file, device_options(false));
     const double loaded_s = seconds_since(began);
     const std::vector<AlignedBox> things = read_outline(scene.gltf).things;
-    const AlignedBox all = around(things);
+    AlignedBox all = things.empty() ? AlignedBox{} : things[0];
+    for (const AlignedBox& box : things)
+        all = around(all, box);
     const Middle middle = middle_of(things);
     std::vector<Fact> facts = facts_of(context, all, middle);
 

@@ -1,8 +1,8 @@
 #include "explain.h"
 #include "runtime/commands/median.h"
 #include "runtime/render/pass_timer.h"
-#include "runtime/world/open_scene.h"
 #include "runtime/world/detail.h"
+#include "runtime/world/open_scene.h"
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -95,8 +95,9 @@ void PartList::add_light()
         count(context.world.spectra.basis.own.size(), "lamp, glow or line", "lamps, glows or lines")
             + " each a coefficient of its own",
         own ? colours : "the scene has no lamp, glow or line but sunlit colours", {});
-    add("stars", !context.world.stars.stars.empty(), count(context.world.stars.stars.size(), "star", "stars") + " in the scene's sky",
-        "the scene names no catalogue", [](Made& m) { m.stars.clear(), m.scene.stars.reset(); });
+    add("stars", !context.world.stars.stars.empty(),
+        count(context.world.stars.stars.size(), "star", "stars") + " in the scene's sky", "the scene names no catalogue",
+        [](Made& m) { m.stars.clear(), m.scene.stars.reset(); });
     add("the Milky Way", context.world.world.milky_way >= 0, "a panorama behind the stars", "the scene names none",
         [](Made& m) { m.world.milky_way = -1; });
     const int globes = context.world.globes ? context.world.globes->count() : 0;

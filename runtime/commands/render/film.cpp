@@ -3,8 +3,8 @@
 #include "config/json/reader.h"
 #include "config/model/scene_file.h"
 #include "runtime/commands/interrupt.h"
-#include "runtime/operation/record_files.h"
 #include "runtime/images/capture.h"
+#include "runtime/operation/record_files.h"
 #include "runtime/world/open_scene.h"
 #include <cstdio>
 #include <unistd.h>

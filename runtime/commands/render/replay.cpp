@@ -4,10 +4,10 @@
 #include "config/model/shipped.h"
 #include "runtime/commands/options/size.h"
 #include "runtime/exhibit/replay_renderer.h"
-#include "runtime/operation/record_files.h"
 #include "runtime/flight/replay.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/progress.h"
+#include "runtime/operation/record_files.h"
 #include "runtime/render/render_context.h"
 #include <charconv>
 #include <cstdio>

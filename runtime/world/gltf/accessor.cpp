@@ -28,6 +28,22 @@ const std::uint8_t* bytes_of(const tinygltf::Model& model, int view, std::size_t
 
 } // namespace
 
+double full_scale(int component_type)
+{
+    switch (component_type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return 127;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return 255;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return 32767;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return 65535;
+    default:
+        return 1;
+    }
+}
+
 double Elements::component(std::size_t element, int which) const
 {
     const std::uint8_t* from = first + element * stride;

@@ -9,6 +9,9 @@ class Model;
 
 namespace starbow {
 
+/// The value that stands for 1 in normalized numbers of a component type (glTF 2.0, section 3.11); 1 for floats.
+double full_scale(int component_type);
+
 /// The elements of one accessor, of any type, read one at a time as numbers.
 struct Elements {
     const std::uint8_t* first = nullptr;

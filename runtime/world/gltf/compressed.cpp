@@ -1,4 +1,5 @@
 #include "compressed.h"
+#include "accessor.h"
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -70,24 +71,6 @@ int add_accessor(GuardedGltf& out, const std::vector<T>& values, std::size_t cou
     return int(model.accessors.size()) - 1;
 }
 
-/// The greatest value of a normalized integer; 1 for other numbers.
-double full_scale(const tinygltf::Accessor& accessor)
-{
-    if (!accessor.normalized)
-        return 1;
-    switch (accessor.componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return 127;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return 255;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return 32767;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return 65535;
-    }
-    return 1;
-}
-
 } // namespace
 
 void unpack_draco(const Spot& packed, tinygltf::Primitive& written, GuardedGltf& out)
@@ -130,7 +113,7 @@ void unpack_draco(const Spot& packed, tinygltf::Primitive& written, GuardedGltf&
         if (attribute->num_components() != components)
             ids[name].fail("has " + std::to_string(attribute->num_components()) + " components; " + name + " has "
                 + std::to_string(components));
-        const double scale = attribute->normalized() ? 1 : 1 / full_scale(as);
+        const double scale = as.normalized && !attribute->normalized() ? 1 / full_scale(as.componentType) : 1;
         std::vector<float> values;
         values.reserve(points * std::size_t(components));
         for (draco::PointIndex point(0); point < points; ++point) {

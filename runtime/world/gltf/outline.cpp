@@ -1,5 +1,6 @@
 #include "runtime/world/outline.h"
 #include "parts.h"
+#include "runtime/world/boxes.h"
 #include <algorithm>
 
 namespace starbow {
@@ -13,24 +14,8 @@ std::optional<AlignedBox> stated_bounds(const Spot& root, std::size_t accessor)
     if (!object(spot).has("min") || !spot.has("max"))
         return {};
     const auto low = numbers(spot["min"], 3, -too_far, too_far), high = numbers(spot["max"], 3, -too_far, too_far);
-    double scale = 1;
-    if (spot.has("normalized") && boolean(spot["normalized"]))
-        switch (integer(spot["componentType"], 5120, 5126)) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            scale = 127;
-            break;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            scale = 255;
-            break;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            scale = 32767;
-            break;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            scale = 65535;
-            break;
-        default:
-            break;
-        }
+    const bool normalized = spot.has("normalized") && boolean(spot["normalized"]);
+    const double scale = normalized ? full_scale(int(integer(spot["componentType"], 5120, 5126))) : 1;
     return AlignedBox{glm::dvec3(low[0], low[1], low[2]) / scale, glm::dvec3(high[0], high[1], high[2]) / scale};
 }
 
@@ -44,7 +29,7 @@ std::optional<AlignedBox> bounds_of_mesh(const Spot& root, std::size_t mesh)
             continue;
         const auto at = index_into(attributes["POSITION"], "accessor", count_of(root, "accessors"));
         if (const std::optional<AlignedBox> box = stated_bounds(root, std::size_t(at)))
-            all = all ? AlignedBox{glm::min(all->low, box->low), glm::max(all->high, box->high)} : *box;
+            all = all ? around(*all, *box) : *box;
     }
     return all;
 }
@@ -83,21 +68,7 @@ int lamp_of(const Spot& root, std::size_t node, std::size_t lamps)
     return int(index_into(object(spot["extensions"]["KHR_lights_punctual"])["light"], "light", lamps));
 }
 
-AlignedBox transformed(const AlignedBox& box, const glm::dmat4& transform)
-{
-    AlignedBox out{glm::dvec3(transform * glm::dvec4(box.low, 1)), glm::dvec3(transform * glm::dvec4(box.low, 1))};
-    for (int corner = 1; corner < 8; ++corner) {
-        const glm::dvec3 at(
-            corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y, corner & 4 ? box.high.z : box.low.z);
-        const glm::dvec3 there = transform * glm::dvec4(at, 1);
-        out = {glm::min(out.low, there), glm::max(out.high, there)};
-    }
-    return out;
-}
-
 double across(const AlignedBox& box) { return glm::distance(box.low, box.high); }
-
-AlignedBox around(const AlignedBox& a, const AlignedBox& b) { return {glm::min(a.low, b.low), glm::max(a.high, b.high)}; }
 
 /// So many times as far across as all smaller things together.
 constexpr double backdrop = 3;
@@ -139,7 +110,7 @@ Outline read_outline(const std::filesystem::path& path)
         meshes.push_back(bounds_of_mesh(root, mesh));
     Outline outline;
     const std::vector<OutlineLamp> lamps = lamps_of(root, outline.spots);
-    // Where a skin or many places decide, the stated bounds say little.
+    // The stated bounds are those of a mesh alone, before its skin or its many places.
     const bool placed_by_data = count_of(root, "skins") > 0
         || std::ranges::any_of(guarded.instancing, [](const auto& each) { return each.has_value(); });
     outline.moves = count_of(root, "animations") > 0
