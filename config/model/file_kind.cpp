@@ -54,21 +54,22 @@ std::optional<FileKind> kind_of(const nlohmann::json& root)
 
 std::optional<FileKind> kind_of_file(const std::filesystem::path& path)
 {
+    const bool named_gltf = ending(path) == ".gltf" || ending(path) == ".glb";
+    const std::optional<FileKind> by_name = named_gltf ? std::optional(FileKind::gltf) : std::nullopt;
     RegularFile file(path);
     std::string begin(4, '\0');
     begin.resize(file.read(begin));
     if (!file.fault().empty())
-        return {};
+        return by_name;
     if (begin == "glTF")
         return FileKind::gltf;
-    const bool named_gltf = ending(path) == ".gltf" || ending(path) == ".glb";
     try {
         if (const auto kind = kind_of(read_document(path).root))
             return kind;
     } catch (const InputError&) {
         // It may be too large for a document, or broken: its reader says so.
     }
-    return named_gltf ? std::optional(FileKind::gltf) : std::nullopt;
+    return by_name;
 }
 
 void reject_other_kind(const std::filesystem::path& file, FileKind wanted)

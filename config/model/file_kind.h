@@ -7,8 +7,8 @@ namespace starbow {
 /// The kinds of files that people give by their path.
 enum class FileKind { gltf, scene, layout, tour, shot, exhibit, quality, words };
 
-/// The kind of a file, by its content; of a glTF also by its name, if it is not JSON. nullopt: none of these, or it can't be
-/// read.
+/// The kind of a file, by its content; of a glTF also by its name, where the content does not tell. nullopt: none of these,
+/// or it can't be read.
 std::optional<FileKind> kind_of_file(const std::filesystem::path& file);
 
 /// Throws InputError for a file of another kind than the wanted one, and says what takes it. A glTF is as good as a scene.
