@@ -4,7 +4,8 @@
 #include "physics/real.glsl"
 #include "physics/worldline.glsl"
 // A surface's scene-linear, pre-exposed light as basis coefficients: of reflected sunlight first, then of the scene's
-// emission basis spectra. Constants compile out the parts that a world does not need.
+// emission basis spectra. Constants compile out the parts that a world does not need. MAPPED: a build for surfaces with gloss
+// or with maps that have coordinates of their own; matt surfaces do not pay for it.
 
 layout(constant_id = 0) const bool BASE_TEXTURE = true;
 layout(constant_id = 1) const bool EMISSIVE_TEXTURE = true;
@@ -50,6 +51,9 @@ const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
 #include "light_travel_offset.glsl"
 #include "clock.glsl"
 #include "blink.glsl"
+#ifdef MAPPED
+#include "gloss.glsl"
+#endif
 
 float mean(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
 
@@ -61,18 +65,37 @@ vec2 beyond_visible(vec3 lit, vec3 light)
 }
 
 // Adds a surface's coefficients under a light of one kind, and those of the sunlit colour that it emits.
-void add_lit(inout vec4 coefficients[MAX_GROUPS + 1], int kind, vec3 base, vec3 light, vec3 emitted)
+void add_columns(inout vec4 coefficients[MAX_GROUPS + 1], int set, int kind, vec3 lit, vec2 beyond)
 {
-    vec3 lit = base * light;
-    vec2 beyond = beyond_visible(lit, light) + mean(emitted);
-    lit += emitted;
-    int at = (UNSHIFTED ? OWN : 0) + (int(push.beyond.z) * KINDS + kind) * (GROUPS * 5);
+    int at = (UNSHIFTED ? OWN : 0) + (set * KINDS + kind) * (GROUPS * 5);
     for (int group = 0; group < GROUPS; ++group) {
         int column = at + group * 5;
         coefficients[group] += columns[column] * lit.r + columns[column + 1] * lit.g + columns[column + 2] * lit.b
             + columns[column + 3] * beyond.x + columns[column + 4] * beyond.y;
     }
 }
+void add_lit(inout vec4 coefficients[MAX_GROUPS + 1], int kind, vec3 base, vec3 light, vec3 emitted)
+{
+    vec3 lit = base * light;
+    vec2 beyond = beyond_visible(lit, light) + mean(emitted);
+    add_columns(coefficients, int(push.beyond.z), kind, lit + emitted, beyond);
+}
+
+#ifdef MAPPED
+// Adds light that a surface reflects as white.
+void add_white(inout vec4 coefficients[MAX_GROUPS + 1], int kind, vec3 light)
+{
+    if (MATRICES) {
+        add_columns(coefficients, 0, kind, light, vec2(mean(light)));
+        return;
+    }
+    coefficients[0].rgb += light;
+    if (REFLECTED == 5) {
+        coefficients[0].a += mean(light);
+        coefficients[1].r += mean(light);
+    }
+}
+#endif
 
 // The retarded position of a lamp that may move, as seen from a surface. Its distance is the light's travel distance in
 // the lamp's frame, its direction is in the surface's. It also yields D; 0: no light. towards: from the surface, at the
@@ -117,11 +140,17 @@ void apply_time(inout vec4 base, out float ink, out float lit_part)
         discard;
 }
 
+#ifdef MAPPED
+vec2 emissive_uv() { return coordinates(surface.emissive); }
+#else
+vec2 emissive_uv() { return uv; }
+#endif
+
 vec3 emitted_light(float ink, float lit_part)
 {
     vec3 emitted = push.emissive.rgb;
     if (EMISSIVE_TEXTURE)
-        emitted *= texture(emissive_texture, uv).rgb;
+        emitted *= texture(emissive_texture, emissive_uv()).rgb;
     if (CLOCK)
         emitted *= ink;
     if (BLINK)
@@ -129,9 +158,16 @@ vec3 emitted_light(float ink, float lit_part)
     return emitted;
 }
 
-// Adds a lamp's light on a surface with the unit normal n: to `light` by its kind, or to the coefficients at once where
-// each lamp has a shift of its own.
-void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], LightEntry lamp, vec3 n, vec3 base)
+#ifdef MAPPED
+#define SURFACE Glossy
+vec3 white_light[KEPT]; // that a surface reflects as white, by its kind
+#else
+#define SURFACE vec3 // its unit normal
+#endif
+
+// Adds a lamp's light on a surface: to `light` by its kind, or to the coefficients at once where each lamp has a shift of
+// its own.
+void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], LightEntry lamp, SURFACE at, vec3 base)
 {
     vec3 towards = lamp.place.xyz - lamp.place.w * place;
     float D = 1.0;
@@ -140,18 +176,37 @@ void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], L
     if (LAMPS_MOVE && towards == vec3(0.0))
         return;
     float square = lamp.place.w == 0.0 ? 1.0 : dot(towards, towards);
+#ifdef MAPPED
+    float distance_ = lamp.place.w == 0.0 ? 1.0 : sqrt(square);
+    float facing = dot(at.n, towards) / distance_;
+    if (!(facing > 0.0))
+        return;
+    vec3 falling = lamp.place.w == 0.0 ? lamp.radiance.rgb : lamp.radiance.rgb * (lamp.radiance.w / square);
+    vec2 parts = reflected_lamp(at, towards / distance_, facing);
+    vec3 add = falling * parts.x, white = falling * parts.y;
+#else
     float fall = lamp.place.w == 0.0 ? 1.0 : lamp.radiance.w / (square * sqrt(square));
-    vec3 add = lamp.radiance.rgb * (max(dot(n, towards), 0.0) * fall);
+    vec3 add = lamp.radiance.rgb * (max(dot(at, towards), 0.0) * fall);
+#endif
     int first = int(lamp.kind.x);
     if (LAMPS_MOVE) {
         // In addition to the shift of its spectrum, a point light's flux per frequency grows as D.
-        float at = clamp((log2(D) - lamp.shifts.x) * lamp.shifts.y, 0.0, max(lamp.shifts.z - 1.001, 0.0));
-        add_lit(coefficients, first + int(at), base, add * (D * (1.0 - fract(at))), vec3(0.0));
-        if (fract(at) > 0.0)
-            add_lit(coefficients, first + int(at) + 1, base, add * (D * fract(at)), vec3(0.0));
+        float shift = clamp((log2(D) - lamp.shifts.x) * lamp.shifts.y, 0.0, max(lamp.shifts.z - 1.001, 0.0));
+        add_lit(coefficients, first + int(shift), base, add * (D * (1.0 - fract(shift))), vec3(0.0));
+        if (fract(shift) > 0.0)
+            add_lit(coefficients, first + int(shift) + 1, base, add * (D * fract(shift)), vec3(0.0));
+#ifdef MAPPED
+        add_white(coefficients, first + int(shift), white * (D * (1.0 - fract(shift))));
+        if (fract(shift) > 0.0)
+            add_white(coefficients, first + int(shift) + 1, white * (D * fract(shift)));
+#endif
     } else {
-        for (int kind = 0; kind < KEPT; ++kind)
+        for (int kind = 0; kind < KEPT; ++kind) {
             light[kind] += KEPT == 1 || first == kind ? add : vec3(0.0);
+#ifdef MAPPED
+            white_light[kind] += KEPT == 1 || first == kind ? white : vec3(0.0);
+#endif
+        }
     }
 }
 
@@ -210,14 +265,28 @@ void main()
         light[kind] = vec3(0.0);
     light[0] = vec3(cube.ambient.w);
     if (!UNLIT) {
-        light[0] = cube.ambient.rgb;
         vec3 n = normalize(gl_FrontFacing ? normal : -normal);
+#ifdef MAPPED
+        Glossy at = glossy_at(place, n, gl_FrontFacing);
+        Reflected all_around = reflected_surroundings(at, cube.sky.up.xyz, cube.ambient.rgb, cube.around);
+        for (int kind = 0; kind < KEPT; ++kind)
+            white_light[kind] = vec3(0.0);
+        light[0] = all_around.by_base;
+        white_light[0] = all_around.white;
+#else
+        vec3 at = n;
+        light[0] = cube.ambient.rgb;
+#endif
         for (int i = 0; i < LIGHTS; ++i)
-            add_lamp(coefficients, light, cube.lights[int(cube.first.w) + i], n, base.rgb);
+            add_lamp(coefficients, light, cube.lights[int(cube.first.w) + i], at, base.rgb);
     }
 
     bool own_emission = OWN > 0 && push.beyond.w >= 0.0;
     add_reflected(coefficients, light, base.rgb, own_emission ? vec3(0.0) : emitted);
+#ifdef MAPPED
+    for (int kind = 0; kind < KEPT && !UNLIT && !MATT; ++kind)
+        add_white(coefficients, kind, white_light[kind]);
+#endif
     for (int i = 0; i < OWN; ++i) {
         float own = push.own[i] + (int(push.beyond.w) == i ? dot(luminance, emitted) : 0.0);
         if (UNSHIFTED)

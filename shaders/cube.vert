@@ -19,6 +19,13 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 colour;
 
+#ifdef MAPPED
+layout(location = 4) in vec4 tangent; // w: the bitangent's sense
+layout(location = 5) in vec4 uvs; // two of the file's sets
+layout(location = 5) out vec4 out_uvs;
+layout(location = 6) out vec4 out_tangent;
+#endif
+
 layout(location = 0) out vec3 out_place;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec2 out_uv;
@@ -62,6 +69,10 @@ void main()
     // Cofactors transform normals under any scale; their sign is the determinant's.
     vec3 yz = cross(y, z);
     out_normal = (yz * normal.x + cross(z, x) * normal.y + cross(x, y) * normal.z) * sign(dot(x, yz));
+#ifdef MAPPED
+    out_tangent = vec4(x * tangent.x + y * tangent.y + z * tangent.z, tangent.w * sign(dot(x, yz)));
+    out_uvs = uvs;
+#endif
     out_place = place.xyz;
     out_uv = uv;
     out_colour = colour * push.base_colour;

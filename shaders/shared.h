@@ -50,6 +50,9 @@
 #define RANGE_KNOTS 192 // of the curve that shows everything at once, one for each stop of luminance; see range_curve.h
 #define RANGE_FIRST (-128.0) // log2 of the luminance at its first knot: of the least normal float, about
 
+#define GLOSS_TABLE 32 // texels along both sides of the table of reflected surroundings; see gloss.h
+#define LEAST_ROUGHNESS 0.05 // the highlight of a perfect mirror is then as wide as the Sun
+
 #define MAX_GLOBES 16
 #define GLOBE_LEVELS 8 // of a kind of light, through more and more air, or towards the middle of the Sun's disc
 #define GLOBE_COLUMNS 1024 // over log2 D
@@ -94,6 +97,8 @@ struct SkyConstants {
 // The cube pass, one entry per eye, rest frame and picture.
 struct CubeConstants {
     vec4 ambient; // Rec. 709 linear, w: pre-exposure
+    vec4 around[3]; // what glossy surfaces reflect beside the lamps, pre-exposed sunlit colours: at the zenith, the horizon
+                    // and the nadir
     SkyConstants sky;
     vec4 first; // indices of this rest frame's first x: instance, y: TimeEntry, z: pose; w: 0, see above
     vec4 now[1]; // w: 1 where everything is shown at the ship's present; xyz: the ship's velocity here
@@ -126,6 +131,18 @@ struct CubePush {
     vec4 beyond; // reflectance in the ultraviolet and the infrared, below 0: the colour's mean; z: index of the matrices;
                  // w: the emissive light's basis spectrum, -1: a sunlit colour
     vec4 own; // its glow in each emission basis spectrum, pre-exposed
+};
+
+// A texture's coordinates from two of the file's sets: u = dot(u, (x, y, 0, 1)), of the second set where `set` is 1.
+struct MapEntry {
+    vec4 u, v; // x, y: rows of the transform; w: offset; u.z: the set
+};
+
+// A surface with gloss or with maps that have coordinates of their own.
+struct MaterialEntry {
+    vec4 gloss; // x: metallic, y: roughness, z: scale of the normal map, w: strength of the occlusion map
+    vec4 dielectric; // x: its reflectance at right angles
+    MapEntry emissive, metallic_roughness, normal, occlusion;
 };
 
 // Push constants of the passes that run once per output pixel.

@@ -1,5 +1,6 @@
 #include "lighting.h"
 #include "clock_face.h"
+#include "gloss.h"
 #include "runtime/world/clock.h"
 #include "runtime/world/moving.h"
 #include "runtime/world/worldline.h"
@@ -92,6 +93,16 @@ Lighting::Shine Lighting::shine(std::size_t index, const glm::dvec3& place, doub
     return shine;
 }
 
+glm::dvec3 Lighting::around(const glm::dvec3& way) const
+{
+    const Sky& sky = scene_.sky;
+    const bool black = sky.zenith == glm::dvec3(0) && sky.horizon == glm::dvec3(0) && sky.nadir == glm::dvec3(0);
+    if (black || eye_event_.frame != 0)
+        return scene_.ambient;
+    const double height = std::min(std::abs(way.y), 1.0);
+    return glm::mix(sky.horizon, way.y > 0 ? sky.zenith : sky.nadir, height * height * (3 - 2 * height));
+}
+
 glm::dvec3 Lighting::seen(const Met& met, double D) const
 {
     const Instance& instance = world_.instances[met.instance];
@@ -121,22 +132,38 @@ glm::dvec3 Lighting::seen(const Met& met, double D) const
     if (material.unlit)
         return sent + colours_.lit(index, Colours::sunlight, base, glm::dvec3(1), D);
 
-    glm::dvec3 all = sent + colours_.lit(index, Colours::sunlight, base, scene_.ambient, D);
     glm::dvec3 local(0);
     for (int k = 0; k < 3; ++k)
         local += met.weights[k] * glm::dvec3(world_.vertices[met.corners[k]].normal);
     const glm::dmat3 m(instance.motion >= 0 ? pose_at(world_, instance, met.sent) : instance.frame_from_local);
-    const glm::dvec3 normal = glm::normalize(glm::transpose(glm::inverse(m)) * local) * (met.front ? 1.0 : -1.0);
+    glm::dvec3 normal = glm::normalize(glm::transpose(glm::inverse(m)) * local) * (met.front ? 1.0 : -1.0);
+    std::optional<GlossyHit> gloss;
+    glm::dvec3 all = sent;
+    if (material.gloss) {
+        gloss.emplace(world_, pictures_, met, m, normal);
+        normal = gloss->normal();
+        const GlossyHit::Colours light
+            = gloss->of_surroundings(scene_.ambient, [&](const glm::dvec3& way) { return around(way); });
+        all += colours_.lit(index, Colours::sunlight, base, light.by_base, D)
+            + colours_.lit(-1, Colours::sunlight, glm::dvec3(1), light.white, D);
+    } else
+        all += colours_.lit(index, Colours::sunlight, base, scene_.ambient, D);
     const glm::dvec3 place = eye_event_.place + met.place;
     for (std::size_t i = 0; i < sources_.size(); ++i) {
         const Shine light = shine(i, place, met.sent);
         const double facing = glm::dot(normal, light.towards);
         if (light.strength == 0 || !(facing > 0))
             continue;
+        const GlossyHit::Parts parts = gloss ? gloss->of_lamp(light.towards) : GlossyHit::Parts{facing, 0};
         const Source& source = sources_[i];
-        const glm::dvec3 falling = source.radiance * (light.strength * facing);
-        all += source.same_D ? colours_.lit(index, source.ready, base, falling, D)
-                             : colours_.lit(index, Colours::Kind{source.kind.light, light.D}, base, falling, D);
+        const auto lit = [&](int material, const glm::dvec3& colour, double part) {
+            const glm::dvec3 falling = source.radiance * (light.strength * part);
+            return source.same_D ? colours_.lit(material, source.ready, colour, falling, D)
+                                 : colours_.lit(material, Colours::Kind{source.kind.light, light.D}, colour, falling, D);
+        };
+        all += lit(index, base, parts.by_base);
+        if (parts.white > 0)
+            all += lit(-1, glm::dvec3(1), parts.white);
     }
     return all;
 }

@@ -24,6 +24,9 @@ public:
     Shine shine(std::size_t lamp, const glm::dvec3& place, double time) const;
 
 private:
+    /// The light that glossy surfaces reflect from a direction, as a sunlit colour.
+    glm::dvec3 around(const glm::dvec3& way) const;
+
     struct Source {
         const Light* light;
         glm::dvec3 radiance;

@@ -39,6 +39,8 @@ glm::dvec4 Pictures::at(int texture, const glm::dvec2& uv) const
                   row = wrapped(picture.sampler.v, y, picture.size.y);
         const std::uint8_t* bytes
             = &picture.rgba[4 * (std::size_t(row) * std::size_t(picture.size.x) + std::size_t(column))];
+        if (picture.numbers)
+            return glm::dvec4(bytes[0], bytes[1], bytes[2], bytes[3]) / 255.0;
         return glm::dvec4(linear_[bytes[0]], linear_[bytes[1]], linear_[bytes[2]], bytes[3] / 255.0);
     };
     if (!picture.sampler.magnify_linear)

@@ -9,8 +9,8 @@ class Pictures {
 public:
     explicit Pictures(const World& world); ///< which must outlive it
 
-    /// Linear light and alpha at a texture coordinate; texture -1: white. The sampler decides between an interpolation of
-    /// the four texels around and the nearest one.
+    /// Linear light or numbers, and alpha, at a texture coordinate; texture -1: white. The sampler decides between an
+    /// interpolation of the four texels around and the nearest one.
     glm::dvec4 at(int texture, const glm::dvec2& uv) const;
 
 private:

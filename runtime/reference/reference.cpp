@@ -353,6 +353,7 @@ std::uint64_t sum_of(const ReferenceInput& input, const Layout& layout)
         }
     const World& world = input.world;
     sum.add(world.vertices.data(), world.vertices.size() * sizeof(Vertex));
+    sum.add(world.vertex_maps.data(), world.vertex_maps.size() * sizeof(VertexMaps));
     sum.add(world.indices.data(), world.indices.size() * sizeof(std::uint32_t));
     for (const Texture& texture : world.textures)
         sum.add(texture.rgba.data(), texture.rgba.size());

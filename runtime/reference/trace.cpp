@@ -243,7 +243,7 @@ struct Tracer::Scene {
         if (!at || !at->inside || !(at->distance > 0) || (query.met && query.met->distance <= at->distance))
             return;
         const Met met{triangle.instance, {triangle.corners[0], triangle.corners[1], triangle.corners[2]}, at->weights,
-            line.from + line.way * at->distance, at->distance, time, at->front};
+            line.from + line.way * at->distance, line.way, at->distance, time, at->front};
         if (!there(met))
             return;
         query.met = met;

@@ -19,6 +19,7 @@ struct Met {
     std::uint32_t corners[3]; ///< index into World::vertices
     glm::dvec3 weights; ///< of these corners
     glm::dvec3 place; ///< from the eye event's
+    glm::dvec3 way; ///< unit, from the eye
     double distance; ///< from the eye
     double sent; ///< the retarded time, in the frame
     bool front;

@@ -102,6 +102,8 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
 {
     const World& world = world_.world;
     commands.bindVertexBuffers(0, *world_.vertices.buffer, vk::DeviceSize(0));
+    if (*world_.vertex_maps.buffer)
+        commands.bindVertexBuffers(1, *world_.vertex_maps.buffer, vk::DeviceSize(0));
     commands.bindIndexBuffer(*world_.indices.buffer, 0, vk::IndexType::eUint32);
     constexpr auto stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
     auto draw = list_.draws.begin();

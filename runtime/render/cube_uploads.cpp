@@ -90,6 +90,9 @@ shared::CubeConstants CubeUploads::constants_of(const EyeEvent& eye_event, Store
     shared::CubeConstants constants{};
     constants.ambient = glm::vec4(scene.ambient * scale, scale);
     constants.sky = sky_constants(world_, light, eye_event.cube_from_frame, scale);
+    const std::array<glm::dvec3, 3> around = surroundings_of(scene, eye_event.frame);
+    for (std::size_t i = 0; i < around.size(); ++i)
+        constants.around[i] = glm::vec4(around[i] * scale, 0);
     constants.now[0] = glm::vec4(0, 0, eye_event.beta, eye_event.now);
     for (std::size_t i = 0; i < world_.world.lamps.size(); ++i)
         constants.lights[i] = light_entry(world_, world_.world.lamps[i], eye_event, scale);

@@ -1,6 +1,7 @@
 #include "gpu_world.h"
 #include "debug.h"
 #include "mip_chain.h"
+#include "runtime/light/gloss.h"
 #include "runtime/light/srgb.h"
 #include "runtime/world/instances.h"
 #include "runtime/world/moving.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <glm/gtc/packing.hpp>
 
 namespace starbow {
@@ -39,6 +41,9 @@ vk::raii::Sampler make_sampler(const Device& device, const Sampler& s)
 Image make_level_0(Device& device, const Texture& texture, MemoryArena& arena)
 {
     bool mips = texture.sampler.mipmaps;
+    if (texture.numbers)
+        return make_texture(
+            device, vk::Format::eR8G8B8A8Unorm, texture.size, std::as_bytes(std::span(texture.rgba)), mips, &arena);
     if (!device.on_processor())
         return make_texture(
             device, vk::Format::eR8G8B8A8Srgb, texture.size, std::as_bytes(std::span(texture.rgba)), mips, &arena);
@@ -83,6 +88,85 @@ double brightest(const World& world, const SceneFile& scene)
     return most;
 }
 
+/// The table of reflected surroundings as an image; white without gloss.
+Image make_gloss_table(Device& device, const World& world)
+{
+    const bool glossy = std::ranges::any_of(world.materials, [](const Material& m) { return m.gloss.has_value(); });
+    std::vector<glm::u16vec4> texels;
+    for (const GlossTexel& texel : glossy ? gloss_table() : std::vector<GlossTexel>(1))
+        texels.push_back(glm::packHalf(glm::vec4(texel.metal, texel.white, texel.above, texel.grazing)));
+    return make_texture(device, vk::Format::eR16G16B16A16Sfloat, glm::ivec2(glossy ? GLOSS_TABLE : 1),
+        std::as_bytes(std::span(texels)), false);
+}
+
+shared::MapEntry map_entry(const Map& map)
+{
+    return {glm::vec4(map.rotate_scale[0].x, map.rotate_scale[1].x, map.second, map.offset.x),
+        glm::vec4(map.rotate_scale[0].y, map.rotate_scale[1].y, 0, map.offset.y)};
+}
+
+shared::MaterialEntry material_entry(const Material& material)
+{
+    const Gloss gloss = material.gloss.value_or(Gloss{});
+    return {glm::vec4(gloss.metallic, gloss.roughness, gloss.normal_scale, gloss.occlusion_strength),
+        glm::vec4(gloss.dielectric, 0, 0, 0), map_entry(material.emissive_map.value_or(Map{})),
+        map_entry(gloss.metallic_roughness), map_entry(gloss.normal), map_entry(gloss.occlusion)};
+}
+
+/// A MaterialEntry for each material, and one for the sky.
+void put_surfaces(Device& device, GpuWorld& gpu, const World& world)
+{
+    const vk::DeviceSize step = device.properties.limits.minUniformBufferOffsetAlignment;
+    gpu.surface_stride = (sizeof(shared::MaterialEntry) + step - 1) / step * step;
+    std::vector<std::byte> bytes(std::size_t(gpu.surface_stride) * (world.materials.size() + 1));
+    for (std::size_t i = 0; i < world.materials.size(); ++i) {
+        const shared::MaterialEntry entry = material_entry(world.materials[i]);
+        std::memcpy(bytes.data() + i * std::size_t(gpu.surface_stride), &entry, sizeof entry);
+    }
+    gpu.surfaces = make_static_buffer(device, bytes, vk::BufferUsageFlagBits::eUniformBuffer);
+    name_object(device, gpu.surfaces, "world: surfaces");
+}
+
+/// The descriptors of each material, and of the sky.
+void put_materials(Device& device, Pipelines& pipelines, GpuWorld& gpu, const World& world)
+{
+    put_surfaces(device, gpu, world);
+    gpu.gloss_table = make_gloss_table(device, world);
+    name_object(device, gpu.gloss_table, "world: gloss table");
+    gpu.gloss_sampler = make_sampler(device, {.u = Wrap::clamp, .v = Wrap::clamp, .mipmaps = false});
+    const auto count = std::uint32_t(world.materials.size()) + 1;
+    constexpr std::uint32_t pictures = 6;
+    const vk::DescriptorPoolSize sizes[]
+        = {{vk::DescriptorType::eCombinedImageSampler, pictures * count}, {vk::DescriptorType::eUniformBuffer, count}};
+    gpu.pool = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, sizes});
+    name_object(device, gpu.pool, "world: descriptor pool");
+    std::vector<vk::DescriptorSetLayout> layouts(count, *pipelines.layouts.material_set);
+    gpu.materials = device.device.allocateDescriptorSets({*gpu.pool, layouts});
+    const auto picture = [&](int texture) {
+        const Sampler kind = texture < 0 ? Sampler{} : world.textures[std::size_t(texture)].sampler;
+        auto found = gpu.samplers.find(kind);
+        if (found == gpu.samplers.end())
+            found = gpu.samplers.emplace(kind, make_sampler(device, kind)).first;
+        return vk::DescriptorImageInfo(*found->second, *(texture < 0 ? gpu.white : gpu.textures[std::size_t(texture)]).view,
+            vk::ImageLayout::eShaderReadOnlyOptimal);
+    };
+    for (std::uint32_t i = 0; i < count; ++i) {
+        name_object(device, gpu.materials[i], "world: material");
+        const bool sky = i + 1 == count;
+        const Material material = sky ? Material{.base_texture = world.milky_way} : world.materials[i];
+        const Gloss gloss = material.gloss.value_or(Gloss{});
+        const vk::DescriptorImageInfo images[pictures] = {picture(material.base_texture), picture(material.emissive_texture),
+            picture(gloss.metallic_roughness.texture), picture(gloss.normal.texture), picture(gloss.occlusion.texture),
+            {*gpu.gloss_sampler, *gpu.gloss_table.view, vk::ImageLayout::eShaderReadOnlyOptimal}};
+        const vk::DescriptorBufferInfo surface(*gpu.surfaces.buffer, i * gpu.surface_stride, sizeof(shared::MaterialEntry));
+        std::vector<vk::WriteDescriptorSet> writes;
+        for (std::uint32_t k = 0; k < pictures; ++k)
+            writes.emplace_back(*gpu.materials[i], k, 0, vk::DescriptorType::eCombinedImageSampler, images[k]);
+        writes.emplace_back(*gpu.materials[i], pictures, 0, vk::DescriptorType::eUniformBuffer, nullptr, surface);
+        device.device.updateDescriptorSets(writes, {});
+    }
+}
+
 } // namespace
 
 SurfaceVariant GpuWorld::variant(int material, StoredLight light) const
@@ -90,6 +174,12 @@ SurfaceVariant GpuWorld::variant(int material, StoredLight light) const
     const Material& m = world.materials[material];
     SurfaceVariant variant{
         m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(world.lamps.size())};
+    if (light != StoredLight::plain && m.mapped()) {
+        variant.mapped = true, variant.matt = !m.gloss;
+        variant.roughness_map = m.gloss && m.gloss->metallic_roughness.texture >= 0;
+        variant.normal_map = m.gloss && m.gloss->normal.texture >= 0;
+        variant.occlusion_map = m.gloss && m.gloss->occlusion.texture >= 0;
+    }
     variant.clock = m.clock.has_value();
     variant.blink = m.blink.has_value();
     if (light == StoredLight::plain)
@@ -173,6 +263,11 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
     gpu.indices = make_static_buffer(device, std::as_bytes(std::span(world.indices)), vk::BufferUsageFlagBits::eIndexBuffer);
     name_object(device, gpu.vertices, "world: vertices");
     name_object(device, gpu.indices, "world: indices");
+    if (!world.vertex_maps.empty()) {
+        gpu.vertex_maps = make_static_buffer(
+            device, std::as_bytes(std::span(world.vertex_maps)), vk::BufferUsageFlagBits::eVertexBuffer);
+        name_object(device, gpu.vertex_maps, "world: vertex maps");
+    }
     const std::uint32_t white = 0xffffffff;
     gpu.white = make_texture(device, vk::Format::eR8G8B8A8Unorm, {1, 1}, std::as_bytes(std::span(&white, 1)), false);
     name_object(device, gpu.white, "world: white");
@@ -180,39 +275,12 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
         gpu.textures.push_back(make_colour_texture(device, pipelines, texture, gpu.texture_memory));
         texture.rgba = {};
     }
-    const auto sampler_of = [&](int texture) {
-        const Sampler kind = texture < 0 ? Sampler{} : world.textures[std::size_t(texture)].sampler;
-        auto found = gpu.samplers.find(kind);
-        if (found == gpu.samplers.end())
-            found = gpu.samplers.emplace(kind, make_sampler(device, kind)).first;
-        return *found->second;
-    };
-    const auto count = std::uint32_t(world.materials.size()) + 1;
-    vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 2 * count);
-    gpu.pool = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, size});
-    name_object(device, gpu.pool, "world: descriptor pool");
-    std::vector<vk::DescriptorSetLayout> layouts(count, *pipelines.layouts.material_set);
-    gpu.materials = device.device.allocateDescriptorSets({*gpu.pool, layouts});
-    for (const vk::raii::DescriptorSet& set : gpu.materials)
-        name_object(device, set, "world: material");
-    for (std::uint32_t i = 0; i < count; ++i) {
-        auto picture = [&](int texture) {
-            return vk::DescriptorImageInfo(sampler_of(texture), *(texture < 0 ? gpu.white : gpu.textures[texture]).view,
-                vk::ImageLayout::eShaderReadOnlyOptimal);
-        };
-        const bool sky = i + 1 == count;
-        vk::DescriptorImageInfo base = picture(sky ? world.milky_way : world.materials[i].base_texture),
-                                emissive = picture(sky ? -1 : world.materials[i].emissive_texture);
-        device.device.updateDescriptorSets(
-            {vk::WriteDescriptorSet(*gpu.materials[i], 0, 0, vk::DescriptorType::eCombinedImageSampler, base),
-                vk::WriteDescriptorSet(*gpu.materials[i], 1, 0, vk::DescriptorType::eCombinedImageSampler, emissive)},
-            {});
-    }
+    put_materials(device, pipelines, gpu, world);
     put_stars(gpu, stars);
     if (world.globes)
         gpu.globes = std::make_unique<GpuGlobes>(device, world.globes, scene.globes.value(), scene.seconds_per_time_unit(),
             scene.unit_m, world_from_equatorial(scene.stars ? scene.stars->ahead_deg : glm::dvec2(0)));
-    world.vertices = {}, world.indices = {};
+    world.vertices = {}, world.vertex_maps = {}, world.indices = {};
     gpu.world = std::move(world);
     put_spectra(device, gpu, level.value_or(needed_level(gpu.world, scene).level));
     return gpu;

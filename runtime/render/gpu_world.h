@@ -31,10 +31,15 @@ struct GpuWorld {
     double brightest = 1; ///< the greatest radiance of any surface, before any lamp comes closer than its distance
 
     Buffer vertices, indices;
+    Buffer vertex_maps; ///< none where no material needs them
     MemoryArena texture_memory;
     std::vector<Image> textures; ///< in texture_memory
     std::map<Sampler, vk::raii::Sampler> samplers; ///< one for all textures that are sampled alike
     Image white; ///< for materials without a texture
+    Image gloss_table; ///< gloss_table(); white where no material has gloss
+    vk::raii::Sampler gloss_sampler = nullptr;
+    Buffer surfaces; ///< a MaterialEntry for each material, and an empty one for the sky, in steps of surface_stride
+    vk::DeviceSize surface_stride = 0;
     vk::raii::DescriptorPool pool = nullptr;
     std::vector<vk::raii::DescriptorSet> materials; ///< and last the sky's, which is like a material
 

@@ -36,7 +36,8 @@ PipelineLayouts::PipelineLayouts(const Device& device)
     constexpr Type constants = Type::eUniformBuffer;
     eye_set = make_set_layout(device, "eye descriptor set layout", both,
         {Type::eUniformBufferDynamic, Type::eStorageBuffer, Type::eStorageBuffer, constants, Type::eStorageBuffer});
-    material_set = make_set_layout(device, "material descriptor set layout", fragment, {picture, picture});
+    material_set = make_set_layout(device, "material descriptor set layout", fragment,
+        {picture, picture, picture, picture, picture, picture, constants});
     warp_set = make_set_layout(device, "warp descriptor set layout", both,
         {picture, picture, Type::eUniformTexelBuffer, Type::eUniformTexelBuffer, picture, picture, picture, picture, picture,
             picture, constants, picture, constants, picture, picture, constants, picture, picture, picture, picture,

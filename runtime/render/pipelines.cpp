@@ -5,6 +5,8 @@
 #include "spirv/bloom_frag.h"
 #include "spirv/bloomed_frag.h"
 #include "spirv/cube_frag.h"
+#include "spirv/cube_mapped_frag.h"
+#include "spirv/cube_mapped_vert.h"
 #include "spirv/cube_vert.h"
 #include "spirv/fade_frag.h"
 #include "spirv/finish_frag.h"
@@ -64,7 +66,7 @@ struct Pipelines::Pass {
     vk::PipelineLayout layout;
     TargetKind target;
     SpecializationConstants constants; ///< the same in both stages
-    bool depth = false, vertices = false, blend = false;
+    bool depth = false, vertices = false, maps = false, blend = false; ///< maps: beside the vertices, VertexMaps
     bool points = false, added = false;
 };
 
@@ -146,14 +148,16 @@ vk::raii::Pipeline Pipelines::make(const Pass& pass) const
     vk::PipelineShaderStageCreateInfo stages[] = {{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main", &constants},
         {{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main", &constants}};
 
-    vk::VertexInputBindingDescription binding(0, sizeof(Vertex));
+    vk::VertexInputBindingDescription bindings[] = {{0, sizeof(Vertex)}, {1, sizeof(VertexMaps)}};
     vk::VertexInputAttributeDescription attributes[] = {{0, 0, vk::Format::eR32G32B32Sfloat, offsetof(Vertex, position)},
         {1, 0, vk::Format::eR32G32B32Sfloat, offsetof(Vertex, normal)},
         {2, 0, vk::Format::eR32G32Sfloat, offsetof(Vertex, uv)},
-        {3, 0, vk::Format::eR8G8B8A8Unorm, offsetof(Vertex, colour)}};
+        {3, 0, vk::Format::eR8G8B8A8Unorm, offsetof(Vertex, colour)},
+        {4, 1, vk::Format::eR32G32B32A32Sfloat, offsetof(VertexMaps, tangent)},
+        {5, 1, vk::Format::eR32G32B32A32Sfloat, offsetof(VertexMaps, uvs)}};
     vk::PipelineVertexInputStateCreateInfo vertices;
     if (pass.vertices)
-        vertices = vk::PipelineVertexInputStateCreateInfo({}, binding, attributes);
+        vertices = vk::PipelineVertexInputStateCreateInfo({}, pass.maps ? 2 : 1, bindings, pass.maps ? 6 : 4, attributes);
 
     vk::PipelineInputAssemblyStateCreateInfo assembly(
         {}, pass.points ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList);
@@ -194,16 +198,18 @@ vk::raii::Pipeline Pipelines::make(const Pass& pass) const
 
 vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& target)
 {
-    return find_or_make({.name = "surface pipeline",
-        .vertex = cube_vert,
-        .fragment = cube_frag,
+    return find_or_make({.name = v.mapped ? "mapped surface pipeline" : "surface pipeline",
+        .vertex = v.mapped ? Spirv(cube_mapped_vert) : Spirv(cube_vert),
+        .fragment = v.mapped ? Spirv(cube_mapped_frag) : Spirv(cube_frag),
         .layout = *layouts.surface_layout,
         .target = target,
         .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
             std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), std::uint32_t(v.kinds), v.matrices,
-            v.clock, v.finite_existence, v.several_rest_frames, v.lamps_move, v.blink, v.moves, v.unshifted},
+            v.clock, v.finite_existence, v.several_rest_frames, v.lamps_move, v.blink, v.moves, v.unshifted, v.matt,
+            v.roughness_map, v.normal_map, v.occlusion_map},
         .depth = true,
-        .vertices = true});
+        .vertices = true,
+        .maps = v.mapped});
 }
 
 vk::Pipeline Pipelines::sky(bool milky_way, const TargetKind& target)

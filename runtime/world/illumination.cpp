@@ -56,15 +56,18 @@ Meetings meetings_of(const World& world, const SceneFile& scene, const Reflectan
         const std::size_t index = std::size_t(world.primitives[instance.primitive].material);
         const Material& material = world.materials[index];
         std::vector<bool>& met = meet[sets.of_material[index]];
+        std::vector<bool>& met_white = meet[material.gloss ? 0 : sets.of_material[index]]; // highlights are white
         // Ambient light, an unlit surface's light, and a colour that is emitted in no other spectrum are sunlight.
-        if (material.unlit || scene.ambient != glm::dvec3(0) || (material.emissive != glm::vec3(0) && !material.emission))
-            met[0] = true;
+        if (material.unlit || scene.ambient != glm::dvec3(0) || material.gloss
+            || (material.emissive != glm::vec3(0) && !material.emission))
+            met[0] = met_white[0] = true;
         for (std::size_t lamp = 0; lamp < world.lamps.size() && !material.unlit; ++lamp) {
             const LampKinds& kinds = light.lamps[world.lamps[lamp].light][std::size_t(instance.frame)];
-            if (world.lamps[lamp].frame == instance.frame)
-                met[std::size_t(kinds.kind)] = true;
-            else
-                std::fill_n(met.begin() + kinds.first_shift, kinds.shifts, true);
+            for (std::vector<bool>* set : {&met, &met_white})
+                if (world.lamps[lamp].frame == instance.frame)
+                    (*set)[std::size_t(kinds.kind)] = true;
+                else
+                    std::fill_n(set->begin() + kinds.first_shift, kinds.shifts, true);
         }
     }
     if (scene.sky.zenith + scene.sky.horizon + scene.sky.nadir != glm::dvec3(0) || scene.milky_way() > 0)

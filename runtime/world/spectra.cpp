@@ -96,6 +96,14 @@ std::array<glm::dvec3, 6> sky_colours(const SceneFile& scene)
     return {sky.zenith, sky.horizon, sky.nadir, glm::dvec3(milky, 0, 0), glm::dvec3(0, milky, 0), glm::dvec3(0, 0, milky)};
 }
 
+std::array<glm::dvec3, 3> surroundings_of(const SceneFile& scene, int frame)
+{
+    const Sky& sky = scene.sky;
+    if (frame > 0 || (sky.zenith == glm::dvec3(0) && sky.horizon == glm::dvec3(0) && sky.nadir == glm::dvec3(0)))
+        return {scene.ambient, scene.ambient, scene.ambient};
+    return {sky.zenith, sky.horizon, sky.nadir};
+}
+
 NeededLevel needed_level(const World& world, const SceneFile& scene)
 {
     const Illumination light = illumination_of(world, scene);

@@ -58,6 +58,11 @@ Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel lev
 /// The colours of Spectra::sky, as those of sunlight on a surface.
 std::array<glm::dvec3, 6> sky_colours(const SceneFile& scene);
 
+/// The light that glossy surfaces of a rest frame reflect beside the lamps', as colours of sunlight: at the zenith, the
+/// horizon and the nadir. In the world's frame it is the sky's gradient, if that is not black; else the ambient light from
+/// all sides. Not the sky's stars, Milky Way, glow and globes.
+std::array<glm::dvec3, 3> surroundings_of(const SceneFile& scene, int frame);
+
 /// The same light, stored as its colour at D = 1: three numbers are exact where no observer shifts it. colours: of the
 /// basis coefficients at D = 1 (Response::unshifted). None where the coefficients are such colours already, or the matrices
 /// have no room.

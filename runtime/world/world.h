@@ -26,6 +26,14 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 36);
 
+/// A vertex's data for surfaces with gloss or maps.
+struct VertexMaps {
+    glm::vec4 tangent{1, 0, 0, 1}; ///< unit, along which the normal map's u grows; w: 1 or -1: the other axis, along which
+                                   ///< its v falls, is w cross(normal, tangent)
+    glm::vec4 uvs{0}; ///< texture coordinates of two of the file's sets, as the file has them
+};
+static_assert(sizeof(VertexMaps) == 32);
+
 enum class Wrap { repeat, mirror, clamp };
 struct Sampler {
     Wrap u = Wrap::repeat, v = Wrap::repeat;
@@ -33,11 +41,12 @@ struct Sampler {
     auto operator<=>(const Sampler&) const = default;
 };
 
-/// sRGB-encoded colours with linear alpha, rows from the top.
+/// Rows from the top: colours by sRGB's curve with linear alpha, or numbers, all of them linear.
 struct Texture {
     glm::ivec2 size;
     std::vector<std::uint8_t> rgba;
     Sampler sampler;
+    bool numbers = false;
 };
 
 /// A clock's dial: it shows the time of the world, or of its body, counted from its own zero.
@@ -53,6 +62,22 @@ struct Blink {
     bool operator==(const Blink&) const = default;
 };
 
+/// A texture with coordinates of its own.
+struct Map {
+    int texture = -1;
+    bool second = false; ///< of the two sets of VertexMaps::uvs
+    glm::mat2 rotate_scale{1}; ///< coordinate = rotate_scale * set + offset
+    glm::vec2 offset{0};
+};
+
+/// Reflection by glTF's metallic-roughness model; gloss.h says how.
+struct Gloss {
+    double metallic = 1, roughness = 1; ///< 0 to 1
+    double dielectric = 0.04; ///< reflectance of what is not metallic, at right angles
+    double normal_scale = 1, occlusion_strength = 1;
+    Map metallic_roughness, normal, occlusion;
+};
+
 struct Material {
     std::string name;
     glm::vec4 base_colour{1}; ///< Rec. 709 linear, alpha
@@ -61,6 +86,10 @@ struct Material {
     float alpha_cutoff = 0; ///< above 0: a masked material; anything with less alpha is cut out
     bool double_sided = false;
     bool unlit = false; ///< KHR_materials_unlit: the base colour is the radiance
+    std::optional<Gloss> gloss; ///< none: matt
+    std::optional<Map> emissive_map; ///< the emissive texture's coordinates; none: the base texture's
+
+    bool mapped() const { return gloss || emissive_map; } ///< it needs VertexMaps
 
     // From glTF's extras: properties that colours lack.
     std::optional<double> ultraviolet, infrared; ///< reflectance below about 360 and beyond 820 nm, 0 to 1; none: as the
@@ -161,6 +190,7 @@ struct Globes {
 
 struct World {
     std::vector<Vertex> vertices;
+    std::vector<VertexMaps> vertex_maps; ///< one for each vertex; empty where no material needs them
     std::vector<std::uint32_t> indices;
     std::vector<Texture> textures;
     int milky_way = -1; ///< index into `textures` of the sky's picture (MilkyWay::panorama); -1: none

@@ -8,19 +8,19 @@
 namespace starbow {
 namespace {
 
-constexpr std::array supported_extensions
-    = {"KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_mesh_quantization",
-        "EXT_meshopt_compression", "KHR_draco_mesh_compression", "EXT_texture_webp", "EXT_mesh_gpu_instancing"};
+constexpr std::array supported_extensions = {"KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_texture_transform", "KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+    "EXT_texture_webp", "EXT_mesh_gpu_instancing"};
 
 /// Extensions without which a world is drawn nearly as it is meant, each with its stand-in.
-constexpr std::array<std::pair<const char*, const char*>, 10> stand_ins{
+constexpr std::array<std::pair<const char*, const char*>, 9> stand_ins{
     {{"KHR_materials_clearcoat", "clear coats: the surface below is drawn"},
         {"KHR_materials_transmission", "transmission: such surfaces are drawn opaque"},
         {"KHR_materials_volume", "volumes: such surfaces are drawn opaque"},
-        {"KHR_materials_specular", "specular factors: surfaces are matt"},
-        {"KHR_materials_ior", "indices of refraction: surfaces are matt"},
-        {"KHR_materials_sheen", "sheen: surfaces are matt"}, {"KHR_materials_iridescence", "iridescence: surfaces are matt"},
-        {"KHR_materials_anisotropy", "anisotropy: surfaces are matt"},
+        {"KHR_materials_specular", "specular factors: highlights are drawn whole and white"},
+        {"KHR_materials_sheen", "sheen: the surface below is drawn"},
+        {"KHR_materials_iridescence", "iridescence: highlights have the lamps' colours"},
+        {"KHR_materials_anisotropy", "anisotropy: highlights are as wide in all directions"},
         {"KHR_materials_variants", "variants: the first look is drawn"},
         {"KHR_lights_punctual", "lamps of the file (KHR_lights_punctual) shine where no scene file names its own lights"}}};
 

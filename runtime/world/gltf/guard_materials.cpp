@@ -63,20 +63,26 @@ tinygltf::TextureInfo guard_texture_info(const Spot& info, const Spot& root)
     return written;
 }
 
-void guard_pbr(const Spot& pbr, tinygltf::PbrMetallicRoughness& written, const Spot& root, GuardedGltf& out)
+void guard_pbr(const Spot& pbr, tinygltf::PbrMetallicRoughness& written, const Spot& root)
 {
     if (pbr.has("baseColorFactor"))
         written.baseColorFactor = numbers(pbr["baseColorFactor"], 4, 0, 1);
     if (pbr.has("baseColorTexture"))
         written.baseColorTexture = guard_texture_info(pbr["baseColorTexture"], root);
-    if (pbr.has("metallicRoughnessTexture")) {
-        guard_texture_info(pbr["metallicRoughnessTexture"], root);
-        note_once(out.notes, "metallic-roughness textures: surfaces are matt");
-    }
+    if (pbr.has("metallicRoughnessTexture"))
+        written.metallicRoughnessTexture = guard_texture_info(pbr["metallicRoughnessTexture"], root);
     if (pbr.has("roughnessFactor"))
-        number(pbr["roughnessFactor"], 0, 1);
-    if (pbr.has("metallicFactor") && number(pbr["metallicFactor"], 0, 1) > 0)
-        note_once(out.notes, "metallic surfaces are drawn matt");
+        written.roughnessFactor = number(pbr["roughnessFactor"], 0, 1);
+    if (pbr.has("metallicFactor"))
+        written.metallicFactor = number(pbr["metallicFactor"], 0, 1);
+}
+
+/// A texture's info as another kind's, whose members begin alike.
+template <typename Info> Info as(const tinygltf::TextureInfo& from)
+{
+    Info written;
+    written.index = from.index, written.texCoord = from.texCoord, written.extensions = from.extensions;
+    return written;
 }
 
 void guard_alpha(const Spot& material, tinygltf::Material& written, GuardedGltf& out)
@@ -101,13 +107,17 @@ void guard_material(const Spot& material, tinygltf::Material& written, const Spo
     if (material.has("name"))
         written.name = text(material["name"]);
     if (material.has("pbrMetallicRoughness"))
-        guard_pbr(object(material["pbrMetallicRoughness"]), written.pbrMetallicRoughness, root, out);
-    for (auto [key, note] :
-        {std::pair{"normalTexture", "normal maps are not used"}, {"occlusionTexture", "occlusion maps are not used"}})
-        if (material.has(key)) {
-            guard_texture_info(material[key], root);
-            note_once(out.notes, note);
-        }
+        guard_pbr(object(material["pbrMetallicRoughness"]), written.pbrMetallicRoughness, root);
+    if (material.has("normalTexture")) {
+        const Spot spot = material["normalTexture"];
+        written.normalTexture = as<tinygltf::NormalTextureInfo>(guard_texture_info(spot, root));
+        written.normalTexture.scale = spot.has("scale") ? number(spot["scale"], -1e6, 1e6) : 1;
+    }
+    if (material.has("occlusionTexture")) {
+        const Spot spot = material["occlusionTexture"];
+        written.occlusionTexture = as<tinygltf::OcclusionTextureInfo>(guard_texture_info(spot, root));
+        written.occlusionTexture.strength = spot.has("strength") ? number(spot["strength"], 0, 1) : 1;
+    }
     if (material.has("emissiveTexture"))
         written.emissiveTexture = guard_texture_info(material["emissiveTexture"], root);
     if (material.has("emissiveFactor"))
@@ -121,6 +131,12 @@ void guard_material(const Spot& material, tinygltf::Material& written, const Spo
     object(extensions);
     if (extensions.has("KHR_materials_unlit"))
         written.extensions["KHR_materials_unlit"] = Value(Value::Object());
+    if (extensions.has("KHR_materials_ior")) {
+        const Spot ior = object(extensions["KHR_materials_ior"]);
+        // 0 means a reflectance of 1, which suits other models.
+        const double index = ior.has("ior") ? number(ior["ior"], 0, 1e6) : 1.5;
+        written.extensions["KHR_materials_ior"] = Value(Value::Object{{"ior", Value(index)}});
+    }
     if (extensions.has("KHR_materials_emissive_strength")) {
         Spot emissive = extensions["KHR_materials_emissive_strength"];
         double strength = object(emissive).has("emissiveStrength") ? number(emissive["emissiveStrength"], 0, 1e12) : 1;
@@ -128,11 +144,11 @@ void guard_material(const Spot& material, tinygltf::Material& written, const Spo
     }
 }
 
-/// The images that give a surface its colour; only those are read.
-std::vector<bool> coloured_images(const GuardedGltf& out, std::size_t count)
+/// The images that surfaces use; only those are read.
+std::vector<bool> used_images(const GuardedGltf& out, std::size_t count)
 {
     std::vector<bool> used(count, false);
-    auto use = [&](const tinygltf::TextureInfo& info) {
+    auto use = [&](const auto& info) {
         if (info.index < 0)
             return;
         const int source = out.model.textures[std::size_t(info.index)].source;
@@ -141,14 +157,17 @@ std::vector<bool> coloured_images(const GuardedGltf& out, std::size_t count)
     };
     for (const tinygltf::Material& material : out.model.materials) {
         use(material.emissiveTexture);
+        use(material.normalTexture);
+        use(material.occlusionTexture);
         use(material.pbrMetallicRoughness.baseColorTexture);
+        use(material.pbrMetallicRoughness.metallicRoughnessTexture);
     }
     return used;
 }
 
 void guard_images(GltfFile& file, const Spot& root, GuardedGltf& out)
 {
-    std::vector<bool> used = coloured_images(out, count_of(root, "images"));
+    std::vector<bool> used = used_images(out, count_of(root, "images"));
     out.images.resize(used.size());
     for (std::size_t i = 0; i < used.size(); ++i) {
         Spot image = root["images"][i];

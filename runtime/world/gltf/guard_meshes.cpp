@@ -131,6 +131,10 @@ const Legal* legal_for(const std::string& attribute)
         = {{TINYGLTF_TYPE_VEC4}, {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT}},
         weights = {{TINYGLTF_TYPE_VEC4},
             {TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT}};
+    static const Legal tangents = {
+        {TINYGLTF_TYPE_VEC4}, {TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_SHORT}};
+    if (attribute == "TANGENT")
+        return &tangents;
     if (attribute == "JOINTS_0")
         return &joints;
     if (attribute == "WEIGHTS_0")
@@ -191,7 +195,7 @@ void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, Guarde
         const Legal* legal = legal_for(name);
         Spot spot = attributes[name];
         if (!legal) {
-            // Starbow does not read tangents, further joints and colours, or application-specific attributes.
+            // Starbow does not read further joints and colours, or application-specific attributes.
             index_into(spot, "accessor", out.stated_accessors);
             continue;
         }

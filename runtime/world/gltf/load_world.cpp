@@ -215,6 +215,8 @@ World load_world(const std::filesystem::path& path)
     add_instances(build);
     if (world.instances.empty())
         throw InputError(file.name, "/scenes", "shows no triangles; a world needs at least one mesh of triangles");
+    if (!world.vertex_maps.empty())
+        world.vertex_maps.resize(world.vertices.size());
     return world;
 }
 

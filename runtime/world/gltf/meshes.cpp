@@ -43,25 +43,6 @@ std::uint32_t pack_colour(const Elements& from, std::uint32_t i)
     return packed;
 }
 
-/// The transform that a vertex's joints give it: their mean by its weights (glTF 2.0, section 3.7.3.3).
-glm::dmat4 skin_at(WorldBuild& build, const Attributes& from, std::uint32_t i, const std::string& place)
-{
-    glm::dmat4 sum(0);
-    double weights = 0;
-    for (int k = 0; k < 4; ++k) {
-        const double weight = from.weights.component(i, k), joint = from.joints.component(i, k);
-        if (!(weight > 0)) // NaN neither
-            continue;
-        if (!(joint >= 0 && joint < double(from.pose.joints.size())))
-            build.fail(place + "/attributes/JOINTS_0",
-                "element " + std::to_string(i) + " names joint " + std::to_string(std::int64_t(std::clamp(joint, -1.0, 1e9)))
-                    + "; the skin has " + std::to_string(from.pose.joints.size()));
-        sum += weight * from.pose.joints[std::size_t(joint)];
-        weights += weight;
-    }
-    return weights > 0 ? sum / weights : glm::dmat4(1);
-}
-
 Vertex read_vertex(WorldBuild& build, const Attributes& from, std::uint32_t i, const UvSource& uv, const std::string& place)
 {
     Vertex out{};
@@ -75,7 +56,7 @@ Vertex read_vertex(WorldBuild& build, const Attributes& from, std::uint32_t i, c
             normal += target.weight * read3(build, target.normal, i, place, "NORMAL");
     }
     if (from.has_joints) {
-        const glm::dmat4 skin = skin_at(build, from, i, place);
+        const glm::dmat4 skin = skin_at(build, from.pose, from.joints, from.weights, i, place);
         position = glm::dvec3(skin * glm::dvec4(position, 1));
         // A joint scaled to nothing leaves no direction.
         const glm::dmat3 turned(skin);
@@ -193,6 +174,7 @@ struct Source {
     std::size_t triangles = 0;
     std::uint32_t vertex_offset = 0; ///< of its first vertex in the world
     std::vector<std::uint32_t> touched; ///< the vertices with an entry in build.placed
+    std::vector<std::uint32_t> vertices; ///< of the file, in the order in which the world has them
 };
 
 /// Opens a primitive's attributes and indices, and makes room for its triangles.
@@ -253,6 +235,7 @@ void add_smooth(WorldBuild& build, Source& source, const std::array<std::uint32_
             make_room(build, source.place, 1, 0);
             placed = std::uint32_t(world.vertices.size()) - source.vertex_offset;
             source.touched.push_back(vertex);
+            source.vertices.push_back(vertex);
             world.vertices.push_back(read_vertex(build, source.attributes, vertex, source.uv, source.place));
         }
         world.indices.push_back(placed);
@@ -260,11 +243,12 @@ void add_smooth(WorldBuild& build, Source& source, const std::array<std::uint32_
 }
 
 /// Adds a triangle with vertices and a normal of its own.
-void add_flat(WorldBuild& build, const Source& source, const std::array<std::uint32_t, 3>& corner)
+void add_flat(WorldBuild& build, Source& source, const std::array<std::uint32_t, 3>& corner)
 {
     World& world = build.world;
     for (std::uint32_t vertex : corner) {
         world.indices.push_back(std::uint32_t(world.vertices.size()) - source.vertex_offset);
+        source.vertices.push_back(vertex);
         world.vertices.push_back(read_vertex(build, source.attributes, vertex, source.uv, source.place));
     }
     const auto end = world.vertices.end();
@@ -315,6 +299,8 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
         return false;
     set_bounds(world, made);
     world.primitives.push_back(made);
+    if (world.materials[std::size_t(material)].mapped())
+        add_vertex_maps(build, place, from, pose, source.vertices);
     return true;
 }
 

@@ -2,6 +2,7 @@
 #include "accessor.h"
 #include "guard.h"
 #include "runtime/world/world.h"
+#include <array>
 #include <map>
 #include <tiny_gltf.h>
 
@@ -38,7 +39,8 @@ struct WorldBuild {
     const GuardedGltf& file;
     const tinygltf::Model& model;
     World& world;
-    std::vector<UvSource> uv; ///< one for each of the world's materials
+    std::vector<UvSource> uv; ///< one for each of the world's materials: of Vertex::uv
+    std::vector<std::array<int, 2>> map_sets; ///< and the sets of VertexMaps::uvs
     int default_material = -1;
     std::size_t sparse_bytes_left = GltfLimits::sparse_bytes;
     std::size_t corners_left = file.limits.indices; ///< remaining limit of corners, including those of empty triangles
@@ -59,9 +61,10 @@ struct WorldBuild {
 /// An accessor's elements; throws where open_accessor fails.
 Elements open(WorldBuild& build, int accessor);
 
-/// Decodes a PNG or JPEG and halves its sides so many times. Its whole size is in memory while it is decoded.
-Texture decode_image(
-    const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes, int halvings = 0);
+/// Decodes a PNG, JPEG or WebP and halves its sides so many times, as light or as numbers. Its whole size is in memory
+/// while it is decoded.
+Texture decode_image(const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes,
+    int halvings = 0, bool numbers = false);
 
 /// Adds the materials, in the file's order, and the textures that they use.
 void add_materials(WorldBuild& build);
@@ -70,9 +73,19 @@ int material_of(WorldBuild& build, int gltf_material);
 /// The pose of a node's mesh.
 StillPose still_pose(WorldBuild& build, int node);
 
+/// The transform that the joints give vertex `i`: their mean by its weights (glTF 2.0, section 3.7.3.3). Throws InputError,
+/// at `place`, for a joint that the pose has not.
+glm::dmat4 skin_at(const WorldBuild& build, const StillPose& pose, const Elements& joints, const Elements& weights,
+    std::uint32_t i, const std::string& place);
+
 /// Adds one glTF primitive as vertices and a list of triangles: in the world's frame if the pose has joints, in the mesh's
 /// without. Returns false for points and lines.
 bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::Primitive& primitive, const StillPose& pose);
+
+/// Gives the last primitive's vertices their VertexMaps. Where a normal map's tangents are computed, a vertex is doubled if
+/// its triangles see the map from both sides. `source`: the glTF vertex of each of the primitive's vertices.
+void add_vertex_maps(WorldBuild& build, const std::string& place, const tinygltf::Primitive& primitive,
+    const StillPose& pose, const std::vector<std::uint32_t>& source);
 
 /// Adds a copy with the corners in the reverse order; returns the copy's index.
 std::uint32_t turned_primitive(WorldBuild& build, std::uint32_t primitive);

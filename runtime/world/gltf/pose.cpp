@@ -1,5 +1,6 @@
 #include "accessor.h"
 #include "parts.h"
+#include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
 namespace starbow {
@@ -28,6 +29,25 @@ std::vector<glm::dmat4> transforms_of(const tinygltf::Model& model)
 }
 
 } // namespace
+
+glm::dmat4 skin_at(const WorldBuild& build, const StillPose& pose, const Elements& joints, const Elements& weights,
+    std::uint32_t i, const std::string& place)
+{
+    glm::dmat4 sum(0);
+    double all = 0;
+    for (int k = 0; k < 4; ++k) {
+        const double weight = weights.component(i, k), joint = joints.component(i, k);
+        if (!(weight > 0)) // NaN neither
+            continue;
+        if (!(joint >= 0 && joint < double(pose.joints.size())))
+            build.fail(place + "/attributes/JOINTS_0",
+                "element " + std::to_string(i) + " names joint " + std::to_string(std::int64_t(std::clamp(joint, -1.0, 1e9)))
+                    + "; the skin has " + std::to_string(pose.joints.size()));
+        sum += weight * pose.joints[std::size_t(joint)];
+        all += weight;
+    }
+    return all > 0 ? sum / all : glm::dmat4(1);
+}
 
 StillPose still_pose(WorldBuild& build, int index)
 {

@@ -2,6 +2,7 @@
 #include "runtime/light/srgb.h"
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <stb/stb_image.h>
@@ -116,23 +117,35 @@ bool glows_by_texture(const tinygltf::Material& material)
         && std::any_of(factor.begin(), factor.end(), [](double part) { return part != 0; });
 }
 
-/// The glTF textures that the materials use, by image, each sampler once.
-std::map<int, std::vector<Sampler>> used_images(const tinygltf::Model& model)
+/// The use of a glTF texture: its sampler, and whether it holds numbers instead of colours.
+struct TextureUse {
+    Sampler sampler;
+    bool numbers;
+    bool operator==(const TextureUse&) const = default;
+};
+
+/// The glTF textures that the materials use, by image, each use once.
+std::map<int, std::vector<TextureUse>> used_images(const tinygltf::Model& model)
 {
-    std::map<int, std::vector<Sampler>> used;
-    const auto use = [&](int index) {
+    std::map<int, std::vector<TextureUse>> used;
+    const auto use = [&](int index, bool numbers) {
         if (index < 0 || model.textures[std::size_t(index)].source < 0)
             return;
         const auto& texture = model.textures[std::size_t(index)];
-        std::vector<Sampler>& samplers = used[texture.source];
-        const Sampler sampler = sampler_of(model, texture.sampler);
-        if (std::find(samplers.begin(), samplers.end(), sampler) == samplers.end())
-            samplers.push_back(sampler);
+        std::vector<TextureUse>& uses = used[texture.source];
+        const TextureUse one{sampler_of(model, texture.sampler), numbers};
+        if (std::find(uses.begin(), uses.end(), one) == uses.end())
+            uses.push_back(one);
     };
     for (const auto& material : model.materials) {
-        use(material.pbrMetallicRoughness.baseColorTexture.index);
+        use(material.pbrMetallicRoughness.baseColorTexture.index, false);
         if (glows_by_texture(material))
-            use(material.emissiveTexture.index);
+            use(material.emissiveTexture.index, false);
+        if (material.extensions.contains("KHR_materials_unlit"))
+            continue;
+        for (int index : {material.pbrMetallicRoughness.metallicRoughnessTexture.index, material.normalTexture.index,
+                 material.occlusionTexture.index})
+            use(index, true);
     }
     return used;
 }
@@ -146,9 +159,9 @@ std::map<int, int> halvings(const WorldBuild& build)
         std::size_t pixels, textures;
     };
     std::vector<Size> sizes;
-    for (const auto& [image, samplers] : used_images(build.model)) {
+    for (const auto& [image, uses] : used_images(build.model)) {
         const glm::ivec2 size = image_size(build.file.images[std::size_t(image)]);
-        sizes.push_back({image, std::size_t(size.x) * std::size_t(size.y), samplers.size()});
+        sizes.push_back({image, std::size_t(size.x) * std::size_t(size.y), uses.size()});
     }
     std::map<int, int> result;
     for (std::size_t most = GltfLimits::texture_pixels; most > 0; most /= 2) {
@@ -165,46 +178,53 @@ std::map<int, int> halvings(const WorldBuild& build)
     return result;
 }
 
-/// Textures by image and sampler. Equal pairs share a texture.
+/// Textures by image and use. Equal pairs share a texture.
 struct TextureShelf {
     WorldBuild& build;
     std::map<int, int> halved = halvings(build);
-    std::map<int, int> of_gltf;
+    std::map<std::pair<int, bool>, int> of_gltf;
     std::map<int, std::vector<int>> of_image;
 
-    int place(int gltf_texture)
+    /// -1 without a texture, or where no image is in it.
+    int place(int gltf_texture, bool numbers = false)
     {
-        auto [known, is_new] = of_gltf.try_emplace(gltf_texture, -1);
+        if (gltf_texture < 0)
+            return -1;
+        auto [known, is_new] = of_gltf.try_emplace({gltf_texture, numbers}, -1);
         if (is_new)
-            known->second = add(gltf_texture);
+            known->second = add(gltf_texture, numbers);
         return known->second;
     }
 
-    int add(int gltf_texture)
+    int add(int gltf_texture, bool numbers)
     {
         const auto& texture = build.model.textures[std::size_t(gltf_texture)];
         if (texture.source < 0) {
             note_once(build.world.notes, "textures without a PNG, JPEG or WebP image: their surfaces are plain");
             return -1;
         }
-        Sampler sampler = sampler_of(build.model, texture.sampler);
+        const TextureUse use{sampler_of(build.model, texture.sampler), numbers};
         auto& textures = build.world.textures;
         auto& siblings = of_image[texture.source];
         for (int sibling : siblings)
-            if (textures[std::size_t(sibling)].sampler == sampler)
+            if (use == TextureUse{textures[std::size_t(sibling)].sampler, textures[std::size_t(sibling)].numbers})
                 return sibling;
-        Texture made = siblings.empty() ? decode(texture.source) : textures[std::size_t(siblings[0])];
-        made.sampler = sampler;
+        // An image that was made smaller was made so as colours or as numbers.
+        const auto like = std::ranges::find_if(siblings, [&](int sibling) {
+            return textures[std::size_t(sibling)].numbers == numbers || halved.at(texture.source) == 0;
+        });
+        Texture made = like == siblings.end() ? decode(texture.source, numbers) : textures[std::size_t(*like)];
+        made.sampler = use.sampler, made.numbers = numbers;
         textures.push_back(std::move(made));
         siblings.push_back(int(textures.size()) - 1);
         return siblings.back();
     }
 
-    Texture decode(int image)
+    Texture decode(int image, bool numbers)
     {
         const int times = halved.at(image);
         const auto& bytes = build.file.images[std::size_t(image)];
-        Texture made = decode_image(build.file.name, "/images/" + std::to_string(image), bytes, times);
+        Texture made = decode_image(build.file.name, "/images/" + std::to_string(image), bytes, times, numbers);
         if (times > 0) {
             const auto text = [](glm::ivec2 size) { return std::to_string(size.x) + " x " + std::to_string(size.y); };
             note_once(build.world.notes,
@@ -269,12 +289,12 @@ Bytes rgba_of(const Pixels& from)
     return rgba;
 }
 
-/// The means over the pixels of each new one: of light, and of the cover.
-Bytes shrunk(const Pixels& from, glm::ivec2 size)
+/// The means over the pixels of each new one: of light or of numbers, and of the cover.
+Bytes shrunk(const Pixels& from, glm::ivec2 size, bool numbers)
 {
     std::array<double, 256> light;
     for (std::size_t i = 0; i < light.size(); ++i)
-        light[i] = light_of_srgb(double(i) / 255);
+        light[i] = numbers ? double(i) / 255 : light_of_srgb(double(i) / 255);
     Bytes rgba;
     rgba.reserve(4 * std::size_t(size.x) * std::size_t(size.y));
     const int colours = from.grey() ? 1 : 3;
@@ -293,7 +313,8 @@ Bytes shrunk(const Pixels& from, glm::ivec2 size)
                 }
             const double count = double(high.x - low.x) * (high.y - low.y);
             for (std::size_t c = 0; c < 3; ++c)
-                rgba.push_back(byte(255 * srgb_of_light(sum[from.grey() ? 0 : c] / count)));
+                rgba.push_back(byte(
+                    255 * (numbers ? sum[from.grey() ? 0 : c] / count : srgb_of_light(sum[from.grey() ? 0 : c] / count))));
             rgba.push_back(byte(cover / count));
         }
     return rgba;
@@ -301,7 +322,8 @@ Bytes shrunk(const Pixels& from, glm::ivec2 size)
 
 } // namespace
 
-Texture decode_image(const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes, int halvings)
+Texture decode_image(
+    const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes, int halvings, bool numbers)
 {
     Pixels from;
     if (std::string problem = suspicion(bytes, from.size.x, from.size.y); !problem.empty())
@@ -318,9 +340,56 @@ Texture decode_image(const std::string& file, const std::string& place, std::spa
     from.values = decoded.get();
     Texture out;
     out.size = glm::max(from.size >> halvings, 1);
-    out.rgba = halvings == 0 ? rgba_of(from) : shrunk(from, out.size);
+    out.rgba = halvings == 0 ? rgba_of(from) : shrunk(from, out.size, numbers);
     return out;
 }
+
+namespace {
+
+/// The texture and coordinates of a map. sets: of VertexMaps::uvs, of which the map takes one or claims a free one.
+template <typename Info> Map map_of(TextureShelf& shelf, const Info& info, bool numbers, std::array<int, 2>& sets)
+{
+    Map map;
+    map.texture = shelf.place(info.index, numbers);
+    if (map.texture < 0)
+        return map;
+    const UvSource from = uv_source(info);
+    auto set = std::ranges::find(sets, from.set);
+    if (set == sets.end())
+        set = std::ranges::find(sets, -1);
+    if (set == sets.end()) {
+        note_once(
+            shelf.build.world.notes, "maps with a third set of texture coordinates in a material: they take the first");
+        set = sets.begin();
+    } else
+        *set = from.set;
+    map.second = set != sets.begin();
+    map.rotate_scale = glm::mat2(from.rotate_scale);
+    map.offset = glm::vec2(from.offset);
+    return map;
+}
+
+/// glTF's metallic-roughness reflection; none for a matt surface: without metal, wholly rough and without maps. Of its
+/// highlight, which is as wide as the sky, 4 % of the light are left out.
+std::optional<Gloss> gloss_of(TextureShelf& shelf, const tinygltf::Material& from, std::array<int, 2>& sets)
+{
+    const auto& pbr = from.pbrMetallicRoughness;
+    Gloss gloss{.metallic = pbr.metallicFactor, .roughness = pbr.roughnessFactor};
+    gloss.metallic_roughness = map_of(shelf, pbr.metallicRoughnessTexture, true, sets);
+    gloss.normal = map_of(shelf, from.normalTexture, true, sets);
+    gloss.occlusion = map_of(shelf, from.occlusionTexture, true, sets);
+    gloss.normal_scale = from.normalTexture.scale, gloss.occlusion_strength = from.occlusionTexture.strength;
+    if (const auto ior = from.extensions.find("KHR_materials_ior"); ior != from.extensions.end()) {
+        const double index = ior->second.Get("ior").GetNumberAsDouble();
+        gloss.dielectric = std::pow((index - 1) / (index + 1), 2);
+    }
+    const bool maps = gloss.metallic_roughness.texture >= 0 || gloss.normal.texture >= 0 || gloss.occlusion.texture >= 0;
+    if (gloss.metallic == 0 && gloss.roughness == 1 && !maps)
+        return {};
+    return gloss;
+}
+
+} // namespace
 
 void add_materials(WorldBuild& build)
 {
@@ -331,31 +400,33 @@ void add_materials(WorldBuild& build)
         const auto& pbr = from.pbrMetallicRoughness;
         for (int i = 0; i < 4; ++i)
             to.base_colour[i] = float(pbr.baseColorFactor[std::size_t(i)]);
-        if (pbr.baseColorTexture.index >= 0)
-            to.base_texture = shelf.place(pbr.baseColorTexture.index);
+        to.base_texture = shelf.place(pbr.baseColorTexture.index);
         to.double_sided = from.doubleSided;
         to.alpha_cutoff = from.alphaMode == "MASK" ? float(from.alphaCutoff) : 0;
         to.unlit = from.extensions.contains("KHR_materials_unlit");
         UvSource uv = uv_source(pbr.baseColorTexture);
+        std::array<int, 2> sets{-1, -1};
+        if (!to.unlit)
+            to.gloss = gloss_of(shelf, from, sets);
         if (!to.unlit && !from.emissiveFactor.empty()) {
             auto strength = from.extensions.find("KHR_materials_emissive_strength");
             double factor
                 = strength == from.extensions.end() ? 1 : strength->second.Get("emissiveStrength").GetNumberAsDouble();
             for (int i = 0; i < 3; ++i)
                 to.emissive[i] = float(from.emissiveFactor[std::size_t(i)] * factor);
-            if (from.emissiveTexture.index >= 0 && to.emissive != glm::vec3(0))
+            if (to.emissive != glm::vec3(0))
                 to.emissive_texture = shelf.place(from.emissiveTexture.index);
         }
         if (to.emissive_texture >= 0) {
-            UvSource emissive_uv = uv_source(from.emissiveTexture);
+            const UvSource emissive_uv = uv_source(from.emissiveTexture);
             if (to.base_texture < 0)
                 uv = emissive_uv;
-            else if (emissive_uv != uv)
-                note_once(
-                    build.world.notes, "emissive textures with coordinates of their own: they follow the base texture");
+            if (to.gloss || emissive_uv != uv)
+                to.emissive_map = map_of(shelf, from.emissiveTexture, false, sets);
         }
         build.world.materials.push_back(std::move(to));
         build.uv.push_back(uv);
+        build.map_sets.push_back(sets);
     }
     if (build.world.materials.empty())
         material_of(build, -1);
@@ -367,8 +438,12 @@ int material_of(WorldBuild& build, int gltf_material)
         return gltf_material;
     if (build.default_material < 0) {
         build.default_material = int(build.world.materials.size());
-        build.world.materials.emplace_back().name = "default";
+        // glTF's default material is a rough metal (glTF 2.0, section 3.7.2.1 and 5.19).
+        Material& made = build.world.materials.emplace_back();
+        made.name = "default";
+        made.gloss.emplace();
         build.uv.emplace_back();
+        build.map_sets.push_back({-1, -1});
     }
     return build.default_material;
 }

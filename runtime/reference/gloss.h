@@ -1,0 +1,37 @@
+#pragma once
+#include "pictures.h"
+#include "trace.h"
+#include <functional>
+
+namespace starbow {
+
+/// The reflection of a glossy surface at a hit, by glTF's metallic-roughness model (glTF 2.0, appendix B). All light is over
+/// that of a matt white surface that faces its source.
+class GlossyHit {
+public:
+    /// The material has gloss. frame_from_local: the hit's. facet: unit normal of the side that is seen, without the map.
+    GlossyHit(const World& world, const Pictures& pictures, const Met& met, const glm::dmat3& frame_from_local,
+        const glm::dvec3& facet);
+
+    const glm::dvec3& normal() const { return normal_; } ///< unit, with the map
+
+    /// The parts of light that reach the eye: by the base colour, and as white.
+    struct Parts {
+        double by_base = 0, white = 0;
+    };
+    /// Of a lamp's, whose unit direction is `towards`; 0 from behind.
+    Parts of_lamp(const glm::dvec3& towards) const;
+
+    struct Colours {
+        glm::dvec3 by_base{0}, white{0};
+    };
+    /// Of the light from all around: `ambient` on the matt part; reflected, `around` of each direction: sums over 144
+    /// visible microfacets.
+    Colours of_surroundings(const glm::dvec3& ambient, const std::function<glm::dvec3(const glm::dvec3&)>& around) const;
+
+private:
+    glm::dvec3 normal_, eye_; ///< towards it; unit
+    double metallic_, width_, dielectric_, occlusion_ = 1; ///< width: of GGX's slopes, the square of the roughness
+};
+
+} // namespace starbow
