@@ -26,6 +26,8 @@ layout(constant_id = 13) const bool BLINK = false;
 // constant_id 14 is cube.vert's
 layout(constant_id = 15) const bool UNSHIFTED = false; // light is stored as its colour at D = 1
 
+layout(constant_id = 20) const int SHADOWS = 0; // bits: lamps with maps; from the 8th on: point lamps; the 16th: daylight
+
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // Spectra::columns
 layout(set = 0, binding = 4) readonly buffer Times { TimeEntry times[]; };
@@ -51,6 +53,7 @@ const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
 #include "light_travel_offset.glsl"
 #include "clock.glsl"
 #include "blink.glsl"
+#include "shadow.glsl"
 #ifdef MAPPED
 #include "gloss.glsl"
 #endif
@@ -167,7 +170,8 @@ vec3 white_light[KEPT]; // that a surface reflects as white, by its kind
 
 // Adds a lamp's light on a surface: to `light` by its kind, or to the coefficients at once where each lamp has a shift of
 // its own.
-void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], LightEntry lamp, SURFACE at, vec3 base)
+void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], LightEntry lamp, SURFACE at, vec3 base,
+    float lit)
 {
     vec3 towards = lamp.place.xyz - lamp.place.w * place;
     float D = 1.0;
@@ -181,12 +185,12 @@ void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], L
     float facing = dot(at.n, towards) / distance_;
     if (!(facing > 0.0))
         return;
-    vec3 falling = lamp.place.w == 0.0 ? lamp.radiance.rgb : lamp.radiance.rgb * (lamp.radiance.w / square);
+    vec3 falling = lit * (lamp.place.w == 0.0 ? lamp.radiance.rgb : lamp.radiance.rgb * (lamp.radiance.w / square));
     vec2 parts = reflected_lamp(at, towards / distance_, facing);
     vec3 add = falling * parts.x, white = falling * parts.y;
 #else
     float fall = lamp.place.w == 0.0 ? 1.0 : lamp.radiance.w / (square * sqrt(square));
-    vec3 add = lamp.radiance.rgb * (max(dot(at, towards), 0.0) * fall);
+    vec3 add = lamp.radiance.rgb * (max(dot(at, towards), 0.0) * fall * lit);
 #endif
     int first = int(lamp.kind.x);
     if (LAMPS_MOVE) {
@@ -266,8 +270,10 @@ void main()
     light[0] = vec3(cube.ambient.w);
     if (!UNLIT) {
         vec3 n = normalize(gl_FrontFacing ? normal : -normal);
+        float daylight = SHADOWS == 0 ? 1.0 : ambient_part(place, n);
 #ifdef MAPPED
         Glossy at = glossy_at(place, n, gl_FrontFacing);
+        at.occlusion *= daylight;
         Reflected all_around = reflected_surroundings(at, cube.sky.up.xyz, cube.ambient.rgb, cube.around);
         for (int kind = 0; kind < KEPT; ++kind)
             white_light[kind] = vec3(0.0);
@@ -275,10 +281,14 @@ void main()
         white_light[0] = all_around.white;
 #else
         vec3 at = n;
-        light[0] = cube.ambient.rgb;
+        light[0] = cube.ambient.rgb * daylight;
 #endif
-        for (int i = 0; i < LIGHTS; ++i)
-            add_lamp(coefficients, light, cube.lights[int(cube.first.w) + i], at, base.rgb);
+        for (int i = 0; i < LIGHTS; ++i) {
+            float lit = 1.0;
+            if ((SHADOWS & 1 << i) != 0)
+                lit = (SHADOWS & 256 << i) != 0 ? reached_from_near(cube.shadows[i], place) : reached_from_afar(cube.shadows[i], place);
+            add_lamp(coefficients, light, cube.lights[int(cube.first.w) + i], at, base.rgb, lit);
+        }
     }
 
     bool own_emission = OWN > 0 && push.beyond.w >= 0.0;

@@ -50,6 +50,7 @@
 #define RANGE_KNOTS 192 // of the curve that shows everything at once, one for each stop of luminance; see range_curve.h
 #define RANGE_FIRST (-128.0) // log2 of the luminance at its first knot: of the least normal float, about
 
+#define HIDDEN_SKY_PART 0.4 // of the ambient light; see hidden_sky_part
 #define GLOSS_TABLE 32 // texels along both sides of the table of reflected surroundings; see gloss.h
 #define LEAST_ROUGHNESS 0.05 // the highlight of a perfect mirror is then as wide as the Sun
 
@@ -85,6 +86,14 @@ struct LightEntry {
     vec4 shifts; // of a moving lamp: x: log2 D of the first, y: number per octave, z: their number; w: gamma
 };
 
+// A lamp's shadow maps. Directional: u, v: texels of the fine map, depth: the number that it holds, of a place from the eye in
+// the cube map's axes; coarse: the other map's texels, from the fine one's: xy: scale, zw: offset. Point: rows from there to
+// the frame's axes, from the lamp; coarse: x: the number's change with the distance, y: at distance 0.
+struct ShadowEntry {
+    vec4 u, v, depth, coarse;
+    vec4 map; // x: its first layer; y: 1 over its texels along a side; z: the steepest slope, per texel; w: bias of the number
+};
+
 // The sky: coefficients of the light, pre-exposed.
 struct SkyConstants {
     vec4 up; // the world's, in the cube map's axes
@@ -101,6 +110,8 @@ struct CubeConstants {
                     // and the nadir
     SkyConstants sky;
     vec4 first; // indices of this rest frame's first x: instance, y: TimeEntry, z: pose; w: 0, see above
+    vec4 sky_cells[3]; // rows: the cells of Shadows::sky of a place from the eye, in the cube map's axes
+    ShadowEntry shadows[MAX_LIGHTS];
     vec4 now[1]; // w: 1 where everything is shown at the ship's present; xyz: the ship's velocity here
     LightEntry lights[MAX_LIGHTS];
 };

@@ -146,7 +146,7 @@ SceneFile load_scene_file(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     reject_unknown_members(top,
-        {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "globes", "ambient", "lights", "bodies", "boundary", "flight",
+        {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "globes", "ambient", "shadows", "lights", "bodies", "boundary", "flight",
             "goals", "start"});
     SceneFile scene;
     scene.name = file.stem().string();
@@ -162,6 +162,8 @@ SceneFile load_scene_file(const std::filesystem::path& file)
         scene.stars = read_stars(*p, file.parent_path());
     if (auto p = find_member(top, "ambient"))
         scene.ambient = read_colour(*p);
+    if (auto p = find_member(top, "shadows"))
+        scene.shadows = boolean(*p);
     if (auto p = find_member(top, "bodies"))
         scene.bodies = read_bodies(*p);
     if (auto p = find_member(top, "lights"))

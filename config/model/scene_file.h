@@ -73,6 +73,7 @@ struct SceneFile {
     Sky sky;
     std::optional<StarSky> stars;
     std::optional<GlobeSky> globes; ///< the Sun, planets and moons; only where nothing else moves
+    bool shadows = false; ///< still things hide the light of resting lamps and of the sky from others
     glm::dvec3 ambient{0}; ///< Rec. 709 linear, a white surface's light without any lamp
     std::vector<Light> lights;
     std::vector<Body> bodies;

@@ -190,7 +190,8 @@ void bound_cache(const std::filesystem::path& folder, std::uintmax_t most_bytes)
         const std::uintmax_t bytes = error ? 0 : entry.file_size(error);
         if (error)
             continue;
-        if (entry.path().extension() == ".map" || entry.path().extension() == ".detail") {
+        if (const std::string kind = entry.path().extension().string();
+            kind == ".map" || kind == ".detail" || kind == ".shadow") {
             all.push_back({read, entry.path(), bytes});
             sum += bytes;
         } else if (entry.path().extension() == ".part" && read < hour_ago) {

@@ -7,7 +7,7 @@
 namespace starbow {
 
 TracingEye::TracingEye(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
-    const GlobeColours* globes, const Observer& observer, const glm::dvec3& place, double beside)
+    const GlobeColours* globes, const Occluders* occluders, const Observer& observer, const glm::dvec3& place, double beside)
     : world_(world)
     , scene_(scene)
     , pictures_(pictures)
@@ -23,8 +23,8 @@ TracingEye::TracingEye(const World& world, const SceneFile& scene, const Picture
         const EyeEvent eye_event = eye_event_of(rest_frame, int(i), place);
         // A distance beside the eye in the ship is longer in the frame.
         const double reach = beside * physics::gamma_of(rest_frame.shot.u);
-        views_.push_back(
-            {&rest_frame, Tracer(world, pictures, eye_event, reach), Lighting(world, scene, pictures, colours, eye_event)});
+        views_.push_back({&rest_frame, Tracer(world, pictures, eye_event, reach),
+            Lighting(world, scene, pictures, colours, eye_event, occluders)});
     }
     if (globes) {
         const RestFrameView& rest_frame = observer_.rest_frames.front();

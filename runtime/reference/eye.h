@@ -19,9 +19,11 @@ struct LookedAt {
 class TracingEye {
 public:
     /// place: from the ship's event, in the observer's axes (the cockpit's), scene units; look() may use eyes up to
-    /// `beside` from it. globes: null in a world without globes. All arguments must outlive the object.
+    /// `beside` from it. globes: null in a world without globes; occluders: in a scene without shadows. All arguments must
+    /// outlive the object.
     TracingEye(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
-        const GlobeColours* globes, const Observer& observer, const glm::dvec3& place, double beside);
+        const GlobeColours* globes, const Occluders* occluders, const Observer& observer, const glm::dvec3& place,
+        double beside);
 
     /// Looks along a unit direction of the cockpit. beside: the eye's place from the constructor's. parts: for each globe
     /// the part of it that is drawn as a disc; empty: all.

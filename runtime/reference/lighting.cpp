@@ -1,6 +1,8 @@
 #include "lighting.h"
 #include "clock_face.h"
+#include "config/json/hash.h"
 #include "gloss.h"
+#include "runtime/shadow/bake.h"
 #include "runtime/world/clock.h"
 #include "runtime/world/moving.h"
 #include "runtime/world/worldline.h"
@@ -31,13 +33,15 @@ double middle_sent(const World& world, const Instance& instance, const EyeEvent&
 
 } // namespace
 
-Lighting::Lighting(
-    const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours, const EyeEvent& eye_event)
+Lighting::Lighting(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
+    const EyeEvent& eye_event, const Occluders* occluders)
     : world_(world)
     , scene_(scene)
     , pictures_(pictures)
     , colours_(colours)
     , eye_event_(eye_event)
+    , occluders_(eye_event.frame == 0 ? occluders : nullptr)
+    , shadowed_(lights_with_shadows(scene))
 {
     for (const Lamp& lamp : world.lamps) {
         const Light& light = scene.lights[lamp.light];
@@ -93,6 +97,48 @@ Lighting::Shine Lighting::shine(std::size_t index, const glm::dvec3& place, doub
     return shine;
 }
 
+glm::dvec3 Lighting::facet(const Met& met, const glm::dmat4& frame_from_local) const
+{
+    glm::dvec3 at[3];
+    for (int k = 0; k < 3; ++k)
+        at[k] = glm::dvec3(frame_from_local * glm::dvec4(glm::dvec3(world_.vertices[met.corners[k]].position), 1));
+    const glm::dvec3 across = glm::cross(at[1] - at[0], at[2] - at[0]);
+    return glm::normalize(glm::dot(across, met.way) > 0 ? -across : across);
+}
+
+double Lighting::ambient_part(const glm::dvec3& place, const glm::dvec3& facet, const glm::dvec3& normal) const
+{
+    constexpr int rays = 64;
+    const glm::dvec3 x
+        = glm::normalize(glm::cross(normal, std::abs(normal.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0))),
+        y = glm::cross(normal, x);
+    // Each place has its own turn of the same rays, so that a pixel's mean is that of all its places' rays.
+    Hash hash;
+    hash.add(&place, sizeof place);
+    const double first = double(hash.value >> 11) * 0x1p-53 * 6.283185307179586;
+    const glm::dvec3 from = place + 2e-6 * occluders_->extent() * facet;
+    int open = 0;
+    for (int i = 0; i < rays; ++i) {
+        const double square = (i + 0.5) / rays, turn = first + 2.399963229728653 * i; // the golden angle
+        const glm::dvec3 way
+            = std::sqrt(square) * (std::cos(turn) * x + std::sin(turn) * y) + std::sqrt(1 - square) * normal;
+        open += glm::dot(way, facet) > 0 && !occluders_->hidden(from, way, INFINITY);
+    }
+    return hidden_sky_part + (1 - hidden_sky_part) * open / rays;
+}
+
+bool Lighting::hidden(std::size_t index, const glm::dvec3& place, const glm::dvec3& facet, const glm::dvec3& towards) const
+{
+    const Lamp& lamp = world_.lamps[index];
+    if (!occluders_ || lamp.frame != 0 || !shadowed_[lamp.light])
+        return false;
+    const double above = 2e-6 * occluders_->extent();
+    double far = INFINITY;
+    if (std::holds_alternative<PointLight>(scene_.lights[lamp.light]))
+        far = std::max(glm::distance(lamp.position, place) - 2 * above, 0.0);
+    return occluders_->hidden(place + above * facet, towards, far);
+}
+
 glm::dvec3 Lighting::around(const glm::dvec3& way) const
 {
     const Sky& sky = scene_.sky;
@@ -137,6 +183,10 @@ glm::dvec3 Lighting::seen(const Met& met, double D) const
         local += met.weights[k] * glm::dvec3(world_.vertices[met.corners[k]].normal);
     const glm::dmat3 m(instance.motion >= 0 ? pose_at(world_, instance, met.sent) : instance.frame_from_local);
     glm::dvec3 normal = glm::normalize(glm::transpose(glm::inverse(m)) * local) * (met.front ? 1.0 : -1.0);
+    const glm::dvec3 place = eye_event_.place + met.place;
+    const bool shaded = occluders_ && instance.motion < 0;
+    const glm::dvec3 side = shaded ? facet(met, instance.frame_from_local) : normal;
+    const double daylight = shaded ? ambient_part(place, side, normal) : 1;
     std::optional<GlossyHit> gloss;
     glm::dvec3 all = sent;
     if (material.gloss) {
@@ -144,15 +194,14 @@ glm::dvec3 Lighting::seen(const Met& met, double D) const
         normal = gloss->normal();
         const GlossyHit::Colours light
             = gloss->of_surroundings(scene_.ambient, [&](const glm::dvec3& way) { return around(way); });
-        all += colours_.lit(index, Colours::sunlight, base, light.by_base, D)
-            + colours_.lit(-1, Colours::sunlight, glm::dvec3(1), light.white, D);
+        all += colours_.lit(index, Colours::sunlight, base, daylight * light.by_base, D)
+            + colours_.lit(-1, Colours::sunlight, glm::dvec3(1), daylight * light.white, D);
     } else
-        all += colours_.lit(index, Colours::sunlight, base, scene_.ambient, D);
-    const glm::dvec3 place = eye_event_.place + met.place;
+        all += colours_.lit(index, Colours::sunlight, base, daylight * scene_.ambient, D);
     for (std::size_t i = 0; i < sources_.size(); ++i) {
         const Shine light = shine(i, place, met.sent);
         const double facing = glm::dot(normal, light.towards);
-        if (light.strength == 0 || !(facing > 0))
+        if (light.strength == 0 || !(facing > 0) || (shaded && hidden(i, place, side, light.towards)))
             continue;
         const GlossyHit::Parts parts = gloss ? gloss->of_lamp(light.towards) : GlossyHit::Parts{facing, 0};
         const Source& source = sources_[i];

@@ -1,5 +1,6 @@
 #pragma once
 #include "colours.h"
+#include "runtime/shadow/occluders.h"
 #include "trace.h"
 
 namespace starbow {
@@ -7,9 +8,10 @@ namespace starbow {
 /// The light on the surfaces that rest in one frame, and the light that they reflect.
 class Lighting {
 public:
-    /// All arguments must outlive the object; it prepares `colours` for the lamps.
-    Lighting(
-        const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours, const EyeEvent& eye_event);
+    /// All arguments must outlive the object; it prepares `colours` for the lamps. occluders: of a scene with shadows, else
+    /// null.
+    Lighting(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
+        const EyeEvent& eye_event, const Occluders* occluders);
 
     /// The colour, seen at D, of a surface where a ray met it, without the headlight effect.
     glm::dvec3 seen(const Met& met, double D) const;
@@ -27,6 +29,13 @@ private:
     /// The light that glossy surfaces reflect from a direction, as a sunlit colour.
     glm::dvec3 around(const glm::dvec3& way) const;
 
+    /// The facet's normal at a hit on the seen side, unit.
+    glm::dvec3 facet(const Met& met, const glm::dmat4& frame_from_local) const;
+    /// The part of the ambient light that reaches a place: of the sky, and from the surfaces that hide it; by 64 rays.
+    double ambient_part(const glm::dvec3& place, const glm::dvec3& facet, const glm::dvec3& normal) const;
+    /// True if something still hides a lamp from a place.
+    bool hidden(std::size_t lamp, const glm::dvec3& place, const glm::dvec3& facet, const glm::dvec3& towards) const;
+
     struct Source {
         const Light* light;
         glm::dvec3 radiance;
@@ -39,6 +48,8 @@ private:
     const Pictures& pictures_;
     const Colours& colours_;
     EyeEvent eye_event_;
+    const Occluders* occluders_;
+    std::vector<bool> shadowed_; ///< by the scene's lights: it has shadows
     std::vector<Source> sources_; ///< by World::lamps
 };
 

@@ -86,9 +86,11 @@ public:
             views_.push_back({&compiled, ViewRays(compiled, samples_), index, turns ? beside * scale : glm::dvec3(0), 0, 0,
                 ViewShade(layout, compiled, ramps.empty() ? std::span<const float>() : ramps[own_ramp])});
         }
+        if (input.scene.shadows)
+            occluders_ = std::make_unique<Occluders>(input.world, input.world.instances);
         eyes_.reserve(places.size());
         for (const EyeAt& at : places)
-            eyes_.emplace_back(input.world, input.scene, pictures_, colours_, globe_colours_.get(),
+            eyes_.emplace_back(input.world, input.scene, pictures_, colours_, globe_colours_.get(), occluders_.get(),
                 starbow::observer_of(input.world, shot, at.observer), at.place, at.beside);
         if (globe_colours_)
             for (ViewAt& view : views_) {
@@ -292,6 +294,7 @@ private:
     Pictures pictures_;
     Colours colours_;
     std::unique_ptr<const GlobeColours> globe_colours_;
+    std::unique_ptr<const Occluders> occluders_; ///< of a scene with shadows
     double exposure_;
     std::vector<ViewAt> views_;
     std::vector<TracingEye> eyes_;

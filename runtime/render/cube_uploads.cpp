@@ -2,6 +2,8 @@
 #include "debug.h"
 #include "lamp.h"
 #include "runtime/world/clock.h"
+#include "runtime/world/shadows.h"
+#include <algorithm>
 #include <cstring>
 
 namespace starbow {
@@ -20,12 +22,20 @@ CubeUploads::CubeUploads(Device& device, const Pipelines& pipelines, const GpuWo
     name_object(device, tiles_, "cube pass: tiles");
     tiles_view_ = device.device.createBufferView({{}, *tiles_.buffer, exact_format, 0, VK_WHOLE_SIZE});
     name_object(device, tiles_view_, "cube pass: tiles view");
-    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBufferDynamic, 1},
-        {vk::DescriptorType::eUniformBuffer, 1}, {vk::DescriptorType::eStorageBuffer, 3}};
+    std::vector<vk::DescriptorPoolSize> sizes
+        = {{vk::DescriptorType::eUniformBufferDynamic, 1}, {vk::DescriptorType::eUniformBuffer, 1},
+            {vk::DescriptorType::eStorageBuffer, 3}, {vk::DescriptorType::eCombinedImageSampler, 2}};
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
     name_object(device, pool_, "cube pass: descriptor pool");
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.layouts.eye_set}).front());
     name_object(device, set_, "cube pass: descriptor set");
+    const vk::DescriptorImageInfo maps(
+        *world.nearest_sampler, *world.shadow_maps.view, vk::ImageLayout::eShaderReadOnlyOptimal),
+        cells(*world.sky_sampler, *world.sky_cells.view, vk::ImageLayout::eShaderReadOnlyOptimal);
+    device.device.updateDescriptorSets(
+        {vk::WriteDescriptorSet(*set_, 5, 0, vk::DescriptorType::eCombinedImageSampler, maps),
+            vk::WriteDescriptorSet(*set_, 6, 0, vk::DescriptorType::eCombinedImageSampler, cells)},
+        {});
 }
 
 void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_events, StoredLight light, double pre_exposure)
@@ -93,10 +103,52 @@ shared::CubeConstants CubeUploads::constants_of(const EyeEvent& eye_event, Store
     const std::array<glm::dvec3, 3> around = surroundings_of(scene, eye_event.frame);
     for (std::size_t i = 0; i < around.size(); ++i)
         constants.around[i] = glm::vec4(around[i] * scale, 0);
+    if (world_.world.shadows && eye_event.frame == 0)
+        write_shadows(constants, eye_event);
     constants.now[0] = glm::vec4(0, 0, eye_event.beta, eye_event.now);
     for (std::size_t i = 0; i < world_.world.lamps.size(); ++i)
         constants.lights[i] = light_entry(world_, world_.world.lamps[i], eye_event, scale);
     return constants;
+}
+
+void CubeUploads::write_shadows(shared::CubeConstants& constants, const EyeEvent& eye_event) const
+{
+    const Shadows& shadows = *world_.world.shadows;
+    // The row that takes a place from the eye, in the cube map's axes, to `scale` times its place along an axis of the
+    // frame from `zero`.
+    const auto row = [&](const glm::dvec3& axis, double zero, double scale) {
+        return glm::vec4(scale * (eye_event.cube_from_frame * axis), scale * (glm::dot(axis, eye_event.place) - zero));
+    };
+    for (int k = 0; k < 3; ++k) {
+        glm::dvec3 axis(0);
+        axis[k] = 1;
+        constants.sky_cells[k] = row(axis, shadows.low[k], 1 / shadows.cell);
+    }
+    for (std::size_t i = 0; i < world_.world.lamps.size(); ++i)
+        for (const ShadowMap& map : shadows.maps) {
+            if (map.light != world_.world.lamps[i].light)
+                continue;
+            shared::ShadowEntry& entry = constants.shadows[i];
+            const double per_unit = 1 / (map.nearest - map.nothing), step = 1.0 / 65535;
+            entry.map = glm::vec4(map.layer, 1.0 / shadows.size, 0, 2 * step);
+            if (map.point) {
+                glm::vec4* rows[] = {&entry.u, &entry.v, &entry.depth};
+                for (int k = 0; k < 3; ++k) {
+                    glm::dvec3 axis(0);
+                    axis[k] = 1;
+                    *rows[k] = row(axis, map.place[k], 1);
+                }
+                entry.coarse = glm::vec4(-per_unit, -map.nothing * per_unit, 0, 0);
+                continue;
+            }
+            entry.u = row(map.axes[0], map.low[0].x, 1 / map.texel[0].x);
+            entry.v = row(map.axes[1], map.low[0].y, 1 / map.texel[0].y);
+            entry.depth = row(map.axes[2], map.nothing, per_unit);
+            const glm::dvec2 scale = map.texel[0] / map.texel[1], offset = (map.low[0] - map.low[1]) / map.texel[1];
+            entry.coarse = glm::vec4(scale, offset);
+            // Of a surface 1.15 degrees from the light.
+            entry.map.z = float(50 * std::max(map.texel[0].x, map.texel[0].y) * per_unit);
+        }
 }
 
 } // namespace starbow

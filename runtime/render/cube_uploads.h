@@ -23,6 +23,7 @@ public:
 
 private:
     shared::CubeConstants constants_of(const EyeEvent& eye_event, StoredLight light, double pre_exposure) const;
+    void write_shadows(shared::CubeConstants& constants, const EyeEvent& eye_event) const;
     void write_set(const Buffer& columns);
 
     Device& device_;

@@ -5,6 +5,7 @@
 #include "runtime/light/srgb.h"
 #include "runtime/world/instances.h"
 #include "runtime/world/moving.h"
+#include "runtime/world/shadows.h"
 #include "runtime/world/worldline.h"
 #include <algorithm>
 #include <array>
@@ -167,7 +168,55 @@ void put_materials(Device& device, Pipelines& pipelines, GpuWorld& gpu, const Wo
     }
 }
 
+/// Sixteen bits where the device reads them, else floats.
+Image make_shadow_maps(Device& device, int size, std::uint32_t layers, const std::vector<std::uint16_t>& texels)
+{
+    const auto sampled = device.physical.getFormatProperties(vk::Format::eR16Unorm).optimalTilingFeatures;
+    if (sampled & vk::FormatFeatureFlagBits::eSampledImage)
+        return make_texture_array(device, vk::Format::eR16Unorm, glm::ivec2(size), layers, std::as_bytes(std::span(texels)));
+    std::vector<float> floats;
+    for (const std::uint16_t texel : texels)
+        floats.push_back(float(texel) / 65535);
+    return make_texture_array(device, vk::Format::eR32Sfloat, glm::ivec2(size), layers, std::as_bytes(std::span(floats)));
+}
+
+/// The maps of the world's shadows; they leave the world.
+void put_shadows(Device& device, GpuWorld& gpu, World& world)
+{
+    const std::vector<std::uint16_t> far_away(1, 0);
+    const std::vector<std::uint8_t> open(4, 255);
+    const Shadows* from = world.shadows.get();
+    const auto layers = std::uint32_t(from ? from->texels.size() / (std::size_t(from->size) * std::size_t(from->size)) : 0);
+    gpu.shadow_maps
+        = make_shadow_maps(device, layers > 0 ? from->size : 1, std::max(layers, 1u), layers > 0 ? from->texels : far_away);
+    name_object(device, gpu.shadow_maps, "world: shadow maps");
+    gpu.sky_cells = make_texture_array(device, vk::Format::eR8G8B8A8Unorm, from ? glm::ivec2(from->cells) : glm::ivec2(1),
+        from ? std::uint32_t(from->cells.z) : 1, std::as_bytes(std::span(from ? from->sky : open)));
+    name_object(device, gpu.sky_cells, "world: sky cells");
+    gpu.nearest_sampler = make_sampler(
+        device, {.u = Wrap::clamp, .v = Wrap::clamp, .magnify_linear = false, .minify_linear = false, .mipmaps = false});
+    gpu.sky_sampler = make_sampler(device, {.u = Wrap::clamp, .v = Wrap::clamp, .mipmaps = false});
+    if (!from)
+        return;
+    auto kept = std::make_shared<Shadows>();
+    kept->size = from->size, kept->maps = from->maps;
+    kept->cells = from->cells, kept->low = from->low, kept->cell = from->cell;
+    world.shadows = std::move(kept);
+}
+
 } // namespace
+
+int GpuWorld::shadows() const
+{
+    if (!world.shadows)
+        return 0;
+    int bits = 1 << 16;
+    for (std::size_t i = 0; i < world.lamps.size(); ++i)
+        for (const ShadowMap& map : world.shadows->maps)
+            if (map.light == world.lamps[i].light)
+                bits |= 1 << i | (map.point ? 256 << i : 0);
+    return bits;
+}
 
 SurfaceVariant GpuWorld::variant(int material, StoredLight light) const
 {
@@ -276,6 +325,7 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
         texture.rgba = {};
     }
     put_materials(device, pipelines, gpu, world);
+    put_shadows(device, gpu, world);
     put_stars(gpu, stars);
     if (world.globes)
         gpu.globes = std::make_unique<GpuGlobes>(device, world.globes, scene.globes.value(), scene.seconds_per_time_unit(),

@@ -43,6 +43,9 @@ struct GpuWorld {
     vk::raii::DescriptorPool pool = nullptr;
     std::vector<vk::raii::DescriptorSet> materials; ///< and last the sky's, which is like a material
 
+    Image shadow_maps, sky_cells; ///< of World::shadows, which has no texels any more; one texel without shadows
+    vk::raii::Sampler nearest_sampler = nullptr, sky_sampler = nullptr; ///< theirs
+
     StarField stars; ///< empty without stars
     std::unique_ptr<GpuGlobes> globes; ///< null: none
 
@@ -72,6 +75,8 @@ struct GpuWorld {
                                                   : CoefficientCounts{};
     }
     SurfaceVariant variant(int material, StoredLight light) const;
+    /// SurfaceVariant::shadows of still surfaces.
+    int shadows() const;
 };
 
 /// The sky's constants for the passes. cube_from_frame: the turn to the axes of the world's cube map.

@@ -35,7 +35,8 @@ PipelineLayouts::PipelineLayouts(const Device& device)
     constexpr Type picture = Type::eCombinedImageSampler;
     constexpr Type constants = Type::eUniformBuffer;
     eye_set = make_set_layout(device, "eye descriptor set layout", both,
-        {Type::eUniformBufferDynamic, Type::eStorageBuffer, Type::eStorageBuffer, constants, Type::eStorageBuffer});
+        {Type::eUniformBufferDynamic, Type::eStorageBuffer, Type::eStorageBuffer, constants, Type::eStorageBuffer, picture,
+            picture});
     material_set = make_set_layout(device, "material descriptor set layout", fragment,
         {picture, picture, picture, picture, picture, picture, constants});
     warp_set = make_set_layout(device, "warp descriptor set layout", both,

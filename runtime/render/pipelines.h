@@ -73,6 +73,7 @@ struct SurfaceVariant {
     bool blink = false;
     bool moves = false; ///< animated
     bool unshifted = false; ///< light is stored as its colour at D = 1
+    int shadows = 0; ///< constant_id 20 of cube.frag
     bool mapped = false; ///< gloss, or maps with coordinates of their own; the following hold for it alone
     bool matt = false, roughness_map = false, normal_map = false, occlusion_map = false;
     auto operator<=>(const SurfaceVariant&) const = default;

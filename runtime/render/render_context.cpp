@@ -2,6 +2,7 @@
 #include "config/model/shipped.h"
 #include "displays/compile/compiled_view.h"
 #include "runtime/operation/progress.h"
+#include "runtime/shadow/bake.h"
 #include "runtime/world/detail_cache.h"
 #include "runtime/world/open_scene.h"
 #include <cstdlib>
@@ -15,6 +16,9 @@ LoadedScene load_scene(const std::filesystem::path& file)
     Progress progress;
     const auto show = [&](double part) { progress.show("levels of detail of " + scene.name, part); };
     if (add_kept_detail_levels(world, map_cache_folder(), show))
+        bound_cache(map_cache_folder());
+    const auto show_shadows = [&](double part) { progress.show("shadows of " + scene.name, part); };
+    if (add_shadows(world, scene, map_cache_folder(), show_shadows))
         bound_cache(map_cache_folder());
     std::vector<Star> stars;
     if (scene.stars)

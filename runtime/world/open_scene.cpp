@@ -149,6 +149,7 @@ SceneFile scene_around(const std::filesystem::path& gltf)
                 + std::to_string(scene.lights.size()) + " shine: the brightest at its middle");
     }
     scene.ambient = {0.24, 0.26, 0.30};
+    scene.shadows = true;
     scene.sky = {.zenith = {0.07, 0.14, 0.30}, .horizon = {0.42, 0.48, 0.55}, .nadir = {0.15, 0.14, 0.12}};
     scene.notes.push_back("it has no scene file: a unit is taken as 1 m, and light flies " + digits(scene.light_speed_m_s)
         + " m/s and crosses the world's " + digits(size) + " m in " + digits(size / scene.light_speed_m_s)
@@ -172,7 +173,8 @@ std::string scene_text(const SceneFile& scene, const std::filesystem::path& fold
         << ", // slower light makes the effects stronger at the same speed\n"
         << "    \"sky\": { \"zenith\": " << list(scene.sky.zenith) << ", \"horizon\": " << list(scene.sky.horizon)
         << ", \"nadir\": " << list(scene.sky.nadir) << " },\n"
-        << "    \"ambient\": " << list(scene.ambient) << ",\n    \"lights\": [";
+        << "    \"ambient\": " << list(scene.ambient) << ",\n    \"shadows\": " << (scene.shadows ? "true" : "false")
+        << ",\n    \"lights\": [";
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         out << (i > 0 ? ",\n        " : "\n        ");
         if (const auto* far = std::get_if<DirectionalLight>(&scene.lights[i]))

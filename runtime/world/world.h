@@ -15,6 +15,7 @@
 namespace starbow {
 
 struct SceneFile;
+struct Shadows;
 
 /// A world as plain arrays, ready for the device. Everything is at rest in its own frame, apart from animations; most of
 /// it is at rest in the world's frame. Lengths are in scene units.
@@ -206,6 +207,7 @@ struct World {
     std::vector<Motion> motions; ///< this and the following are empty without animation
     std::vector<Joint> joints;
     std::vector<Track> tracks;
+    std::shared_ptr<const Shadows> shadows; ///< null: none
     double seconds_per_time_unit = 1; ///< the scene's, from place_bodies on
     std::vector<std::string> notes; ///< unsupported optional parts of the file, each once
 };

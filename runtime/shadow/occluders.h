@@ -1,0 +1,38 @@
+#pragma once
+#include "runtime/world/world.h"
+#include <memory>
+#include <span>
+
+namespace starbow {
+
+/// True for an instance that hides light for ever: it rests in the world's frame, exists always, is not animated, and does
+/// not shine itself, as the glass around a lamp does.
+bool hides_light(const World& world, const Instance& instance);
+
+/// The still triangles of a world, for rays. Any side of a triangle hides light; where a mask cuts it out, it does not.
+/// Several threads may use it.
+class Occluders {
+public:
+    /// world: must outlive the object, with vertices, indices and texels. instances: the world's, after place_bodies.
+    Occluders(const World& world, std::span<const Instance> instances);
+    ~Occluders();
+    Occluders(Occluders&&) noexcept;
+
+    struct Hit {
+        double distance;
+        bool back; ///< of a triangle with one visible side: the other
+    };
+    /// The first triangle along a ray; nullopt within `far`: none. Places are the world frame's, `way` is a unit vector.
+    std::optional<Hit> first(const glm::dvec3& from, const glm::dvec3& way, double far) const;
+    /// True if any triangle is there.
+    bool hidden(const glm::dvec3& from, const glm::dvec3& way, double far) const;
+
+    std::size_t triangles() const;
+    double extent() const; ///< greatest coordinate, scene units: rays begin at least 1e-6 of it above a surface
+
+private:
+    struct Scene;
+    std::unique_ptr<Scene> scene_;
+};
+
+} // namespace starbow

@@ -1,0 +1,78 @@
+// Shadows and daylight of still things under still lamps, in the world's rest frame (runtime/world/shadows.h). Places are from
+// the eye, in the cube map's axes. A driver in software takes both ways of a branch, so there is none.
+
+layout(set = 0, binding = 5) uniform sampler2DArray shadow_maps;
+layout(set = 0, binding = 6) uniform sampler2DArray sky_cells; // layers along z
+
+// The part of the four texels around that the light reaches: interpolated. at: in texels. depths: the surface's own at the
+// texels' middles, in the order of textureGather.
+float reached(ShadowEntry map, vec2 at, vec2 part, float layer, vec4 depths)
+{
+    vec4 lit = vec4(lessThanEqual(textureGather(shadow_maps, vec3(at * map.map.y, layer)), depths));
+    return mix(mix(lit.w, lit.z, part.x), mix(lit.x, lit.y, part.x), part.y);
+}
+
+vec3 rows(vec4 u, vec4 v, vec4 w, vec3 at) { return vec3(dot(u.xyz, at), dot(v.xyz, at), dot(w.xyz, at)); }
+
+// The part of a directional lamp's light that reaches a place. The triangle's own plane tells the depth at each texel, so that
+// it does not shade itself and yet is shaded by things that touch it.
+float reached_from_afar(ShadowEntry map, vec3 place)
+{
+    vec3 from_eye = rows(map.u, map.v, map.depth, place), at = from_eye + vec3(map.u.w, map.v.w, map.depth.w);
+    vec3 x = dFdx(from_eye), y = dFdy(from_eye); // without the offset, beside which near steps would be rounded away
+    float area = x.x * y.y - x.y * y.x;
+    vec2 slope = vec2(x.z * y.y - y.z * x.y, y.z * x.x - x.z * y.x) / (abs(area) > 0.0 ? area : 1e-30);
+    slope = clamp(slope, vec2(-map.map.z), vec2(map.map.z));
+    float half_ = 0.5 / map.map.y;
+    bool fine = all(lessThan(abs(at.xy - half_), vec2(half_ - 2.0)));
+    vec4 scale = fine ? vec4(1.0, 1.0, 0.0, 0.0) : map.coarse;
+    vec2 texel = at.xy * scale.xy + scale.zw;
+    slope /= scale.xy;
+    vec2 part = fract(texel - 0.5);
+    vec4 change = slope.x * (vec4(0.0, 1.0, 1.0, 0.0) - part.x) + slope.y * (vec4(1.0, 1.0, 0.0, 0.0) - part.y);
+    float lit = reached(map, texel, part, map.map.x + (fine ? 0.0 : 1.0), at.z + map.map.w + change);
+    return all(lessThan(abs(texel - half_), vec2(half_))) ? lit : 1.0;
+}
+
+// The direction of a place on a face of the cube around a point light.
+vec3 cube_direction(vec2 side, bool x, bool y, float sign_)
+{
+    return x ? vec3(sign_, side) : y ? vec3(side.x, sign_, side.y) : vec3(side, sign_);
+}
+
+// The same for a resting point lamp.
+float reached_from_near(ShadowEntry map, vec3 place)
+{
+    vec3 from_eye = rows(map.u, map.v, map.depth, place), way = from_eye + vec3(map.u.w, map.v.w, map.depth.w);
+    vec3 facet = cross(dFdx(from_eye), dFdy(from_eye)), size = abs(way);
+    bool x = size.x >= size.y && size.x >= size.z, y = !x && size.y >= size.z;
+    float along = x ? way.x : y ? way.y : way.z, sign_ = along < 0.0 ? -1.0 : 1.0;
+    vec2 side = (x ? way.yz : y ? way.xz : way.xy) / max(abs(along), 1e-30);
+    vec2 texel = (0.5 + 0.5 * side) / map.map.y, part = fract(texel - 0.5), first = texel - part;
+    float distance_ = length(way), to_plane = dot(facet, way);
+    facet *= sign(to_plane);
+    vec4 depths;
+    for (int k = 0; k < 4; ++k) {
+        vec2 middle = 2.0 * (first + vec2(k == 1 || k == 2, k < 2)) * map.map.y - 1.0;
+        float cosine = dot(facet, normalize(cube_direction(middle, x, y, sign_)));
+        float there = cosine > 0.0 ? min(abs(to_plane) / cosine, 2.0 * distance_) : distance_;
+        depths[k] = there * map.coarse.x + map.coarse.y + map.map.w;
+    }
+    return reached(map, texel, part, map.map.x + (x ? 0.0 : y ? 2.0 : 4.0) + (along < 0.0 ? 1.0 : 0.0), depths);
+}
+
+// The part of the ambient light that reaches a place with the unit normal n: of the sky, and from the surfaces that hide it.
+float ambient_part(vec3 place, vec3 n)
+{
+    vec3 size = vec3(textureSize(sky_cells, 0));
+    vec3 normal = rows(cube.sky_cells[0], cube.sky_cells[1], cube.sky_cells[2], n); // over the cells' width
+    vec3 cells = rows(cube.sky_cells[0], cube.sky_cells[1], cube.sky_cells[2], place)
+        + vec3(cube.sky_cells[0].w, cube.sky_cells[1].w, cube.sky_cells[2].w);
+    normal *= inversesqrt(dot(normal, normal));
+    cells = clamp(cells + 0.75 * normal, vec3(0.0), size - 1.001);
+    vec2 across = (cells.xy + 0.5) / size.xy;
+    float layer = floor(cells.z);
+    vec4 sky = mix(textureLod(sky_cells, vec3(across, layer), 0.0), textureLod(sky_cells, vec3(across, layer + 1.0), 0.0), cells.z - layer);
+    float seen = clamp(sky.a + dot(2.0 * sky.rgb - 1.0, normal), 0.0, 1.0);
+    return mix(HIDDEN_SKY_PART, 1.0, seen);
+}
