@@ -43,7 +43,7 @@ def around(left, near, right, far, reach, y):
 def skyline(seed, least, most, waves=7):
     """A function of the angle: heights of peaks all around, from about `least` to `most`."""
     rng = random.Random(seed)
-    terms = [(rng.randint(2 + 2 * k, 4 + 4 * k), rng.uniform(0, 2 * pi), 0.62 ** k) for k in range(waves)]
+    terms = [(rng.randint(2 + 2 * k, 4 + 4 * k), rng.uniform(0, 2 * pi), 0.72 ** k) for k in range(waves)]
     whole = sum(weight for _, _, weight in terms)
 
     def height(a):
