@@ -99,7 +99,7 @@ def cloud(seed):
     shape = shapes.Shape()
     for k in range(7):
         r = rng.uniform(4, 7.5)
-        shape.add(shapes.sphere(12, 7, r), (6.0 * (k - 3) + rng.uniform(-1, 1), rng.uniform(0, 3) - 0.3 * (k - 3) ** 2, rng.uniform(-5, 5)))
+        shape.add(shapes.sphere(10, 6, r), (6.0 * (k - 3) + rng.uniform(-1, 1), rng.uniform(0, 3) - 0.3 * (k - 3) ** 2, rng.uniform(-5, 5)))
     shape.positions = [(x, y * (0.75 if y > 0 else 0.35), z) for x, y, z in shape.positions]
     return shape
 
