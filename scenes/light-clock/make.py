@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Writes light-clock.glb, two mirrors 2 light-seconds apart and what a pulse between them is made of, on a promenade by a lake in
-the evening, and with it
-config/scenes/light-clock.json, where each flash of each pulse is a body of its own. Needs Python 3's own library only; the same
-bytes come out every time.
+the evening, and with it config/scenes/light-clock.json, where each flash of each pulse is a body of its own. Needs Python 3's own
+library only; the same bytes come out every time.
 
 A pulse is flashes: balls that rest in their clock, each for a good quarter of a second of its time, one after the other where the
 light is. Where a flash of the moving clock was, a spark stays in the world, and they draw its way."""
