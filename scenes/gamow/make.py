@@ -77,7 +77,7 @@ def paints(town):
     town.paint("rails", (0.50, 0.51, 0.53))
     town.paint("red", (0.58, 0.05, 0.04))
     town.paint("tram green", (0.025, 0.20, 0.11))
-    town.paint("tram cream", (0.80, 0.72, 0.52))
+    town.paint("tram cream", (0.56, 0.50, 0.38))  # its front meets the sun at 0.6 c, twice as bright as the houses do
     town.paint("black", (0.02, 0.02, 0.022))
     town.paint("coat", (0.05, 0.12, 0.36))
     town.paint("trousers", (0.12, 0.11, 0.10))
@@ -500,7 +500,7 @@ def add_tram(town):
                 wheel = shapes.cylinder_along_x(20, 1, 0.12, 0.30, lambda a, b: (a, b))
                 pole.add(wheel, (x * 1.4, 0.30, z + dz))
     put("tram's iron", pole, "black")
-    dials = Dials(town.glb, 0.36, rim=(0.70, 0.50, 0.12), name="tram dial", sides=36)
+    dials = Dials(town.glb, 0.36, face=(0.60, 0.58, 0.50), rim=(0.70, 0.50, 0.12), name="tram dial", sides=36)
     for side in (-1, 1):
         dials.put("tram's clock", (side * 1.15, 0.92, 0), below=tram, turn=side * QUARTER)
     dials.put("tram's clock", (0, 2.98, 4.3), below=tram)
@@ -577,8 +577,9 @@ SCENE = """// A street where light flies at 5 metres a second (after George Gamo
     "sky": { "zenith": [0.075, 0.220, 0.600], "horizon": [0.620, 0.740, 0.840], "nadir": [0.140, 0.200, 0.110] },
     "ambient": [0.34, 0.38, 0.45],
     "lights": [
-        // A morning's sun over the houses on the right.
-        { "type": "directional", "towards": [0.50, 0.62, 0.60], "radiance": [0.92, 0.78, 0.58] }
+        // A morning's sun over the houses on the right. It stands across the street, so that neither the trams nor the cyclists fly
+        // straight into its light.
+        { "type": "directional", "towards": [0.60, 0.70, 0.27], "radiance": [0.92, 0.78, 0.58] }
     ],
     "bodies": [
 BODIES
@@ -588,7 +589,15 @@ BODIES
     "goals": [
         { "ask": "goal.gamow.tram", "reward": "goal.gamow.tram-done", "conditions": [{ "measure": { "quantity": "beta" }, "from": 0.55, "below": 0.65 }] }
     ],
-    "start": { "position": [1.0, 1.7, 17], "look": [0, 0, -1], "up": [0, 1, 0] }
+    // The visit begins with shapes alone, as in Gamow's tale, and a tram and a cyclist have their colours. With the Doppler and headlight
+    // effects a coming tram (0.6 c) shines blue, sixteen times as bright, and a cyclist who flees (0.8 c) is black: each is a switch.
+    "start": {
+        "time": 13,
+        "position": [1.0, 1.7, 17],
+        "look": [0, 0, -1],
+        "up": [0, 1, 0],
+        "effects": { "aberration": true, "doppler": false, "headlight": false }
+    }
 }
 """
 

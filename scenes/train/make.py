@@ -2,6 +2,7 @@
 """Writes train.glb: a tunnel of ribs, 15 light-seconds long, and a train of 20, modelled at rest around its own middle. What
 moves and when doors are shut is in config/scenes/train.json. Needs Python 3's own library only; the same bytes come out every
 time."""
+import random
 import sys
 from math import cos, pi, sin, sqrt
 from pathlib import Path
@@ -11,11 +12,14 @@ sys.path.insert(0, str(HERE.parent / "avenue"))
 import shapes
 from dials import Dials
 from glb import Glb
+from land import Kit, around, cloud, fir, house, mountains, pavement, quad, skyline, tree
 
 TUNNEL, TRAIN = 15, 20
 INNER, SPRING = 1.45, 1.5  # half the bore's width, and the height at which its vault begins
 SIDE, MIDDLE, TALL = 0.95, 1.38, 1.03  # the train's half width, its axis above the ground, its half height
 CARS = 4
+REACH, SLEEPERS = 240, 20  # half the length of the rails, and the sleepers of one mesh
+MEADOW, FIELD = 5, 15  # sides of the squares of the mown meadow along the line, and of the fields beyond it
 DIAL_AT = 7.0  # from the train's middle: the clocks at its ends
 
 
@@ -150,15 +154,27 @@ def add_train(glb, dials):
 
 
 def add_track(glb, stone):
-    rails, sleepers = shapes.Shape(), shapes.Shape()
+    """Rails on sleepers in a bed of gravel, beyond the boundary of the flight on both sides."""
+    kit = Kit(glb)
+    kit.paint("gravel", (0.30, 0.28, 0.25))
+    kit.paint("steel", (0.42, 0.43, 0.46))
+    kit.paint("timber", (0.16, 0.10, 0.06))
+    rails, sleepers, bed = shapes.Shape(), shapes.Shape(), shapes.Shape()
     for z in (-0.62, 0.62):
-        rails.add(shapes.box((80, 0.04, 0.05), (0, 0.06, z)))
-    for x in range(-80, 81):
-        sleepers.add(shapes.box((0.13, 0.02, 1.0), (x, 0.02, 0)))
-    glb.put("rails", rails, glb.material("steel", (0.42, 0.43, 0.46)))
-    glb.put("sleepers", sleepers, glb.material("timber", (0.16, 0.10, 0.06)))
+        rails.add(shapes.box((REACH, 0.04, 0.05), (0, 0.10, z)))
+    for k in range(SLEEPERS):
+        sleepers.add(shapes.box((0.13, 0.02, 1.0), (k - (SLEEPERS - 1) / 2, 0.05, 0)))
+    flat, foot, high = 1.12, 1.38, 0.035
+    for corners in (((flat, high), (-flat, high)), ((foot, 0.0), (flat, high)), ((-flat, high), (-foot, 0.0))):
+        (z0, y0), (z1, y1) = corners
+        bed.add(quad((-REACH, y0, z0), (REACH, y0, z0), (REACH, y1, z1), (-REACH, y1, z1)))
+    kit.build("rails", rails, "steel")
+    kit.build("bed", bed, "gravel")
+    kit.make("sleepers", sleepers, "timber")
+    for k in range(-REACH // SLEEPERS, REACH // SLEEPERS + 1):
+        kit.put("sleepers", (SLEEPERS * k, 0, 0))
     # Before the tunnel a field for each light-second, from one door to the other.
-    geometry = glb.geometry(shapes.box((0.5, 0.08, 0.22)))
+    geometry = glb.geometry(shapes.box((0.5, 0.08, 0.22)), uvs=False)
     paints = [glb.mesh(f"{name} field", geometry, glb.material(f"{name} field", colour))
               for name, colour in (("white", (0.75, 0.75, 0.72)), ("blue", (0.05, 0.16, 0.48)))]
     for k in range(TUNNEL):
@@ -166,38 +182,80 @@ def add_track(glb, stone):
             glb.node("field", paints[k % 2], (k - (TUNNEL - 1) / 2, 0.08, z))
 
 
+def add_fields(kit):
+    """Two greens along the line, in squares of 5 light-seconds, and crops beyond; all on one level, none above another."""
+    crops = (("light grass", (0.170, 0.270, 0.085)), ("dark grass", (0.140, 0.232, 0.072)), ("wheat", (0.52, 0.40, 0.15)),
+             ("clover", (0.11, 0.25, 0.075)), ("rye", (0.42, 0.39, 0.17)), ("young corn", (0.22, 0.34, 0.09)), ("earth", (0.24, 0.155, 0.095)))
+    meadow = pavement(-150, -30, 60, 12, MEADOW, 0)
+    beyond = [pavement(-150, far, 20, 5, FIELD, 0, lambda i, j: (7 * (i // 2) + 3 * j + (i // 2) * j) % 5, 5) for far in (-105, 30)]
+    for k, (name, colour) in enumerate(crops):
+        shape = meadow[k] if k < 2 else beyond[0][k - 2]
+        if k >= 2:
+            shape.add(beyond[1][k - 2])
+        kit.paint(name, colour, infrared=0.18 if name in ("wheat", "rye", "earth") else 0.45)
+        kit.build(name, shape, name)
+    kit.build("grass", around(-150, 105, 150, -105, 420, 0), "dark grass")
+
+
 def add_land(glb):
-    grass = (shapes.Shape(), shapes.Shape())
-    side = 5
-    for i in range(-20, 20):
-        for j in range(-10, 10):
-            grass[(i + j) % 2].add(shapes.level(side * i, side * (j + 1), side * (i + 1), side * j, 0))
-    for name, shape, colour in (("light grass", grass[0], (0.130, 0.185, 0.075)), ("dark grass", grass[1], (0.100, 0.150, 0.062))):
-        glb.node(name, glb.mesh(name, glb.geometry(shape), glb.material(name, colour, starbow={"infrared": 0.45})))
-    # Hills around, on both sides of the line.
-    ridge = lambda x: 5.0 + 2.2 * sin(0.11 * x + 1) + 1.3 * sin(0.23 * x) + 0.7 * sin(0.57 * x + 2)
-    hills = shapes.Shape()
-    for way in (-1, 1):
-        def slope(u, v, way=way):
-            x = way * -150 + way * 300 * u
-            return (x, ridge(x + 40 * way) * (1 - (1 - v) ** 2) - 0.2, way * (46 + 14 * v)), (u, v)
-        hills.add(shapes.grid(90, 4, shapes.smooth(lambda u, v: slope(1 - u, v))))
-    glb.put("hills", hills, glb.material("hills", (0.12, 0.19, 0.20)))
-    crown, stem = shapes.Shape(), shapes.Shape()
-    for low, high, r in ((0.5, 1.9, 0.75), (1.2, 2.5, 0.58), (1.9, 3.1, 0.4)):
-        crown.add(shapes.revolved(14, 1, lambda t: (r * (1 - t) + 0.002, low + (high - low) * t), 1))
-        crown.add(shapes.fan([(r * sin(-2 * pi * k / 14), low, r * cos(-2 * pi * k / 14)) for k in range(14)]))
-    stem.add(shapes.bar(8, (0, 0, 0), (0, 0.7, 0), 0.12))
-    fir = [glb.mesh(name, glb.geometry(shape), glb.material(name, colour, starbow=extra)) for name, shape, colour, extra in (
-        ("fir", crown, (0.045, 0.14, 0.075), {"infrared": 0.5}), ("stem", stem, (0.13, 0.085, 0.05), None))]
-    for k in range(-13, 14):
-        for z in (-1, 1):
-            x, z = 5.1 * k + 1.9 * sin(2.3 * k), z * (12.5 + 3.5 * sin(1.7 * k + z)) - (0 if z < 0 else -14)
-            size = 1.15 + 0.3 * sin(3.1 * k + z)
-            if z > 0 and abs(x) < 16:
+    """Meadows, fields, woods, a village and mountains."""
+    kit = Kit(glb)
+    add_fields(kit)
+    for name, colour, radius, deep, low, high in (("hills", (0.13, 0.23, 0.15), 190, 60, 8, 34), ("far hills", (0.26, 0.36, 0.44), 330, 60, 20, 74)):
+        kit.paint(name, colour)
+        kit.build(name, mountains(radius, deep, skyline(len(name), low, high), -0.3), name)
+    add_trees(kit)
+    add_village(kit)
+    kit.paint("cloud", (0.90, 0.90, 0.92), (0.16, 0.17, 0.19))
+    kit.make("cloud", cloud(3), "cloud")
+    for x, y, z, turn, size in ((-150, 112, -230, 0.3, 1.3), (60, 92, -260, 2.6, 1.5), (170, 80, -120, 1.4, 1.2), (-220, 80, -60, 1.8, 1.4),
+                                (-150, 85, 160, 2.4, 1.3), (40, 95, 240, 0.4, 1.4), (210, 90, 90, 1.2, 1.2)):
+        kit.put("cloud", (x, y, z), turn, size)
+
+
+def add_trees(kit):
+    """Firs and broad trees behind the line and far behind the visitor, and woods on the slopes; none where a visitor looks on."""
+    for name, colour in (("fir", (0.045, 0.14, 0.075)), ("leaves", (0.10, 0.25, 0.06)), ("light leaves", (0.16, 0.32, 0.075))):
+        kit.paint(name, colour, infrared=0.5)
+    kit.paint("bark", (0.13, 0.085, 0.05))
+    green, stem = fir()
+    kit.make("fir", green, "fir", stem, "bark")
+    dark, light, trunk = tree()
+    kit.make("tree", dark, "leaves", light, "light leaves", trunk, "bark")
+    for k in range(-15, 16):
+        for side in (-1, 1):
+            x, z = 5.1 * k + 1.9 * sin(2.3 * k), side * (14.5 + 4.5 * sin(1.7 * k + side)) + (0 if side < 0 else 14)
+            if side > 0 and -20 < x < 60:
                 continue  # nothing before a visitor who watches from there
-            for mesh in fir:
-                glb.node("fir", mesh, (round(x, 3), 0, round(z, 3)), scale=(size, size, size))
+            kit.put("fir" if k % 3 else "tree", (x, 0, z), k, 1.15 + 0.3 * sin(3.1 * k + side))
+    rng = random.Random(8)
+    for _ in range(60):
+        x = rng.choice((-1, 1)) * rng.uniform(4, 115)
+        kit.put("fir" if rng.random() < 0.5 else "tree", (x, 0, rng.choice((-1, 1, -1)) * rng.uniform(42, 96)), rng.uniform(0, 6), rng.uniform(1.3, 2.3))
+
+
+def add_village(kit):
+    """Houses and a church on the far side of the line."""
+    for name, colour in (("rose wall", (0.62, 0.36, 0.28)), ("white wall", (0.76, 0.72, 0.64)), ("ochre wall", (0.66, 0.48, 0.22)),
+                         ("tiles", (0.40, 0.13, 0.075)), ("slate", (0.13, 0.16, 0.21)), ("panes", (0.06, 0.08, 0.11))):
+        kit.paint(name, colour)
+    walls, roof, panes = house(1.6, 2.2, 4.6, 3.9)
+    for name in ("rose", "white", "ochre"):
+        kit.make(f"{name} house", walls, f"{name} wall", roof, "tiles", panes, "panes")
+    rng = random.Random(21)
+    for k in range(15):
+        x, z = -30 + 4.9 * (k % 8) + rng.uniform(-0.7, 0.7), (-29 if k < 8 else -38) + rng.uniform(-1.2, 1.2)
+        if abs(x + 5) > 3.5 or k < 8:
+            kit.put(f"{('rose', 'white', 'ochre')[k % 3]} house", (x, 0, z), rng.uniform(-0.4, 0.4), rng.uniform(0.85, 1.1))
+    tower = shapes.box((1.3, 4.2, 1.3), (0, 4.2, 0))
+    spire = shapes.Shape()
+    for k in range(4):
+        corner = [(1.5 * (1 if j in (0, 1) else -1), 8.4, 1.5 * (1 if j in (0, 3) else -1)) for j in (k, (k + 1) % 4)]
+        spire.add(facing([corner[0], corner[1], (0, 14.0, 0)], tuple(a + b for a, b in zip(*corner))))
+    kit.make("church tower", tower, "white wall", spire, "slate")
+    kit.make("nave", walls, "white wall", roof, "slate", panes, "panes")
+    kit.put("church tower", (-5, 0, -38))
+    kit.put("nave", (-6.4, 0, -38), -pi / 2, 1.5)
 
 
 def main():

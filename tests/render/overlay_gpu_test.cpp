@@ -231,7 +231,7 @@ dvec3 linear(const dvec3& encoded)
 dvec3 scale_colour_at(double part)
 {
     constexpr double steps[7][3] = {{0.983, 0.799, 0.018}, {0.411, 0.638, 0.093}, {0.060, 0.462, 0.184},
-        {0.014, 0.280, 0.263}, {0.029, 0.145, 0.268}, {0.059, 0.042, 0.207}, {0.058, 0.002, 0.089}};
+        {0.014, 0.280, 0.263}, {0.029, 0.145, 0.268}, {0.059, 0.042, 0.207}, {0.040, 0.001, 0.055}};
     const double at = 6 * std::clamp(part, 0.0, 1.0);
     const int i = std::min(int(at), 5);
     dvec3 colour;
