@@ -12,6 +12,24 @@ float reached(ShadowEntry map, vec2 at, vec2 part, float layer, vec4 depths)
     return mix(mix(lit.w, lit.z, part.x), mix(lit.x, lit.y, part.x), part.y);
 }
 
+// The same of nine texels around, by a quadratic B-spline, about as wide as the Sun's own blur. depth: the surface's own at
+// the place; slope: its change per texel.
+float reached_smoothly(ShadowEntry map, vec2 at, float layer, float depth, vec2 slope)
+{
+    vec2 middle = floor(at) + 0.5, off = at - middle;
+    vec2 low = 0.5 * (0.5 - off) * (0.5 - off), high = 0.5 * (0.5 + off) * (0.5 + off), here = 1.0 - low - high;
+    float lit = 0.0;
+    for (int k = 0; k < 4; ++k) { // four texels each, of which the outer rows count once
+        vec2 corner = vec2(k & 1, k >> 1); // 0: the two texels up to the middle, 1: the one after it
+        vec4 nearest = textureGather(shadow_maps, vec3((middle - 0.5 + 2.0 * corner) * map.map.y, layer));
+        vec2 first = 2.0 * corner - 1.0 - off; // from the place to the block's lowest texel
+        vec4 x = first.x + vec4(0.0, 1.0, 1.0, 0.0), y = first.y + vec4(1.0, 1.0, 0.0, 0.0);
+        vec2 a = (k & 1) == 0 ? vec2(low.x, here.x) : vec2(high.x, 0.0), b = k < 2 ? vec2(low.y, here.y) : vec2(high.y, 0.0);
+        lit += dot(a.xyyx * b.yyxx, vec4(lessThanEqual(nearest, depth + slope.x * x + slope.y * y)));
+    }
+    return lit;
+}
+
 vec3 rows(vec4 u, vec4 v, vec4 w, vec3 at) { return vec3(dot(u.xyz, at), dot(v.xyz, at), dot(w.xyz, at)); }
 
 // The part of a directional lamp's light that reaches a place. The triangle's own plane tells the depth at each texel, so that
@@ -28,9 +46,8 @@ float reached_from_afar(ShadowEntry map, vec3 place)
     vec4 scale = fine ? vec4(1.0, 1.0, 0.0, 0.0) : map.coarse;
     vec2 texel = at.xy * scale.xy + scale.zw;
     slope /= scale.xy;
-    vec2 part = fract(texel - 0.5);
-    vec4 change = slope.x * (vec4(0.0, 1.0, 1.0, 0.0) - part.x) + slope.y * (vec4(1.0, 1.0, 0.0, 0.0) - part.y);
-    float lit = reached(map, texel, part, map.map.x + (fine ? 0.0 : 1.0), at.z + map.map.w + change);
+    // What lies beyond the maps' depth has the number 0, as a ground does that is far larger than the things on it.
+    float lit = reached_smoothly(map, texel, map.map.x + (fine ? 0.0 : 1.0), max(at.z, 0.0) + map.map.w, slope);
     return all(lessThan(abs(texel - half_), vec2(half_))) ? lit : 1.0;
 }
 
@@ -56,7 +73,7 @@ float reached_from_near(ShadowEntry map, vec3 place)
         vec2 middle = 2.0 * (first + vec2(k == 1 || k == 2, k < 2)) * map.map.y - 1.0;
         float cosine = dot(facet, normalize(cube_direction(middle, x, y, sign_)));
         float there = cosine > 0.0 ? min(abs(to_plane) / cosine, 2.0 * distance_) : distance_;
-        depths[k] = there * map.coarse.x + map.coarse.y + map.map.w;
+        depths[k] = max(there * map.coarse.x + map.coarse.y, 0.0) + map.map.w;
     }
     return reached(map, texel, part, map.map.x + (x ? 0.0 : y ? 2.0 : 4.0) + (along < 0.0 ? 1.0 : 0.0), depths);
 }

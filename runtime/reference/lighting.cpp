@@ -2,9 +2,10 @@
 #include "clock_face.h"
 #include "config/json/hash.h"
 #include "gloss.h"
-#include "runtime/shadow/bake.h"
+#include "runtime/shadow/still_things.h"
 #include "runtime/world/clock.h"
 #include "runtime/world/moving.h"
+#include "runtime/world/shadows.h"
 #include "runtime/world/worldline.h"
 #include "shaders/physics/physics.h"
 #include <cmath>
@@ -41,7 +42,7 @@ Lighting::Lighting(const World& world, const SceneFile& scene, const Pictures& p
     , colours_(colours)
     , eye_event_(eye_event)
     , occluders_(eye_event.frame == 0 ? occluders : nullptr)
-    , shadowed_(lights_with_shadows(scene))
+    , shadowed_(lights_with_shadows(world, scene))
 {
     for (const Lamp& lamp : world.lamps) {
         const Light& light = scene.lights[lamp.light];

@@ -2,7 +2,7 @@
 #include "config/model/shipped.h"
 #include "displays/compile/compiled_view.h"
 #include "runtime/operation/progress.h"
-#include "runtime/shadow/bake.h"
+#include "runtime/shadow/add_shadows.h"
 #include "runtime/world/detail_cache.h"
 #include "runtime/world/open_scene.h"
 #include <cstdlib>

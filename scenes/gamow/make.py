@@ -576,6 +576,7 @@ SCENE = """// A street where light flies at 5 metres a second (after George Gamo
     "light_speed_m_s": 5,
     "sky": { "zenith": [0.075, 0.220, 0.600], "horizon": [0.620, 0.740, 0.840], "nadir": [0.140, 0.200, 0.110] },
     "ambient": [0.34, 0.38, 0.45],
+    "shadows": true,
     "lights": [
         // A morning's sun over the houses on the right. It stands across the street, so that neither the trams nor the cyclists fly
         // straight into its light.

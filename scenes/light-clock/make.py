@@ -220,6 +220,7 @@ SCENE = """// Two light clocks: a pulse of light goes up and down between mirror
     "light_speed_m_s": 299792458,
     "sky": { "zenith": [0.005, 0.016, 0.065], "horizon": [0.060, 0.098, 0.190], "nadir": [0.010, 0.015, 0.025] },
     "ambient": [0.17, 0.18, 0.24],
+    "shadows": true,
     "lights": [
         // The last of the sun, from behind the visitor's left shoulder.
         { "type": "directional", "towards": [-0.55, 0.40, 0.72], "radiance": [0.85, 0.72, 0.58] }

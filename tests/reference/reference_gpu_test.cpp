@@ -3,6 +3,7 @@
 #include "runtime/images/picture_errors.h"
 #include "runtime/light/srgb.h"
 #include "runtime/reference/reference.h"
+#include "runtime/shadow/add_shadows.h"
 #include "tests/support/gpu_environment.h"
 #include <set>
 
@@ -106,6 +107,7 @@ TEST(LivePicture, EqualsTheReferenceInEveryWorld)
         const auto file = starbow::testing::source_dir() / "config/scenes" / (shot.scene + ".json");
         const ReferenceWorld world = open_reference_world(file);
         World again = load_world(world.scene);
+        add_shadows(again, world.scene, map_cache_folder());
         const GpuWorld gpu = upload(device(), pipelines(), std::move(again), world.scene, world.stars);
         const Layout layout = one_view(Planar{.fov_y_deg = 60}, {240, 180});
         OffscreenRenderer live = renderer(gpu, layout, true);
@@ -180,6 +182,7 @@ TEST(LivePicture, DistancesAreTheRaysInEveryWorld)
         const ReferenceWorld world
             = open_reference_world(starbow::testing::source_dir() / "config/scenes" / (shot.scene + ".json"));
         World again = load_world(world.scene);
+        add_shadows(again, world.scene, map_cache_folder());
         const GpuWorld gpu = upload(device(), pipelines(), std::move(again), world.scene, world.stars);
         std::vector<Shot> all{shot};
         if (starbow::testing::all_cases())

@@ -1,6 +1,7 @@
 // llvmpipe takes a number that decides a branch for a constant and compiles the shader again for each draw, where that makes
 // the shader much shorter, and keeps every copy until the pipeline's end (Mesa 22.3; shaders/shared.h has the remedy). This
 // file stands in for a function of LLVM that starts each compilation, and counts.
+#include "runtime/shadow/add_shadows.h"
 #include "tests/support/gpu_environment.h"
 #include <atomic>
 #include <dlfcn.h>
@@ -48,7 +49,9 @@ TEST(Recompiles, AFlightThatWasDrawnBeforeCompilesNothing)
     for (const std::string name : {"gamow", "light-clock", "clocks"}) {
         SCOPED_TRACE(name);
         const SceneFile scene = load_scene_file(testing::source_dir() / "config/scenes" / (name + ".json"));
-        const GpuWorld world = upload(device(), pipelines(), load_world(scene), scene, {});
+        World made = load_world(scene);
+        add_shadows(made, scene, map_cache_folder());
+        const GpuWorld world = upload(device(), pipelines(), std::move(made), scene, {});
         OffscreenRenderer offscreen(
             device(), pipelines(), world, one_view(Planar{60}, {48, 32}), default_quality(device(), false), false);
         const auto draw = [&](Comparison comparison, Overlay overlay, double at) {

@@ -2,6 +2,7 @@
 // test is that both have plans of the same kinds.
 #include "config/model/shipped.h"
 #include "runtime/render/warm_up.h"
+#include "runtime/shadow/add_shadows.h"
 #include "runtime/world/worldline.h"
 #include "tests/support/gpu_environment.h"
 
@@ -21,7 +22,9 @@ TEST_P(WarmUpIn, AFlightAfterItMakesNoPipeline)
     const Place& place = GetParam();
     const SceneFile scene = load_scene_file(shipped_file("scenes", place.scene));
     Pipelines own(device());
-    const GpuWorld world = upload(device(), own, load_world(scene), scene, {});
+    World made = load_world(scene);
+    add_shadows(made, scene, map_cache_folder());
+    const GpuWorld world = upload(device(), own, std::move(made), scene, {});
     Layout layout = load_layout(shipped_file("layouts", place.layout));
     layout.outputs[0].size = place.size;
     const Quality quality = within(device(), load_quality(shipped_file("qualities", "balanced")));

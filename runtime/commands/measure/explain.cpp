@@ -238,11 +238,9 @@ double cost_of(const Part& part, const Made& made, RenderContext& context, MadeF
 
 void explain(const Trial& trial, const Device::Options& options)
 {
-    Made made{{}, open_scene(trial.scene), {}, trial.layout, trial.shots[0].second, trial.standard};
-    made.world = load_world(made.scene);
-    add_detail_levels(made.world);
-    if (made.scene.stars)
-        made.stars = stars_in_depth(*made.scene.stars);
+    LoadedScene loaded = load_scene(trial.scene);
+    const Made made{std::move(loaded.world), std::move(loaded.scene), std::move(loaded.stars), trial.layout,
+        trial.shots[0].second, trial.standard};
     RenderContext context(trial.scene, options, trial.standard.spectra);
     MadeFrame all(context.device, context.pipelines, made);
     all.ms(context.device);

@@ -14,9 +14,6 @@ namespace starbow {
 bool add_shadows(World& world, const SceneFile& scene, const std::filesystem::path& folder = {},
     const std::function<void(double)>& progress = {});
 
-/// True for each of the scene's lights that has shadows: all directional ones, and the first three point lights that rest.
-std::vector<bool> lights_with_shadows(const SceneFile& scene);
-
 /// The computation; empty where nothing hides light. world: after place_bodies.
 Shadows shadows_of(const World& world, const SceneFile& scene, const std::function<void(double)>& progress = {});
 

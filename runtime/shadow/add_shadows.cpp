@@ -1,0 +1,93 @@
+#include "add_shadows.h"
+#include "fill.h"
+#include "runtime/world/worldline.h"
+#include "shadow_cache.h"
+#include <algorithm>
+
+namespace starbow {
+namespace {
+
+constexpr std::size_t most_triangles = 12'000'000; // some 150 bytes each
+
+/// Everything of a world but its arrays of vertices, indices and texels, with its bodies in their places.
+World placed(const World& world, const SceneFile& scene)
+{
+    World all;
+    all.materials = world.materials, all.primitives = world.primitives, all.instances = world.instances;
+    all.nodes = world.nodes, all.motions = world.motions, all.joints = world.joints, all.tracks = world.tracks;
+    place_bodies(all, scene);
+    return all;
+}
+
+Shadows without_texels(const World& world, const SceneFile& scene, Boxes& boxes, int& layers)
+{
+    Shadows shadows;
+    boxes = boxes_of(world);
+    shadows.maps = maps_of(world, scene, boxes, shadows.size, layers);
+    return shadows;
+}
+
+void fill(Shadows& shadows, const Boxes& boxes, int layers, const Occluders& occluders,
+    const std::function<void(double)>& progress)
+{
+    shadows.texels.resize(std::size_t(layers) * std::size_t(shadows.size) * std::size_t(shadows.size));
+    for (const ShadowMap& map : shadows.maps)
+        fill_map(
+            shadows, map, occluders, progress, 0.5 * map.layer / layers, 0.5 * (map.layer + (map.point ? 6 : 2)) / layers);
+    fill_sky(shadows, boxes.around_middle, occluders, progress, 0.5);
+}
+
+} // namespace
+
+Shadows shadows_of(const World& world, const SceneFile& scene, const std::function<void(double)>& progress)
+{
+    if (std::none_of(world.instances.begin(), world.instances.end(),
+            [&](const Instance& instance) { return hides_light(world, instance); }))
+        return {};
+    Boxes boxes;
+    int layers = 0;
+    Shadows shadows = without_texels(world, scene, boxes, layers);
+    fill(shadows, boxes, layers, Occluders(world, world.instances), progress);
+    return shadows;
+}
+
+bool add_shadows(
+    World& world, const SceneFile& scene, const std::filesystem::path& folder, const std::function<void(double)>& progress)
+{
+    if (!scene.shadows)
+        return false;
+    const World all = placed(world, scene);
+    std::size_t triangles = 0;
+    for (const Instance& instance : all.instances)
+        if (hides_light(all, instance))
+            triangles += world.primitives[instance.primitive].index_count / 3;
+    if (triangles == 0)
+        return false;
+    if (triangles > most_triangles) {
+        world.notes.push_back("its still things have " + std::to_string(triangles)
+            + " triangles, too many for shadows: at most " + std::to_string(most_triangles) + " are right");
+        return false;
+    }
+    Boxes boxes;
+    int layers = 0;
+    auto shadows = std::make_shared<Shadows>(without_texels(all, scene, boxes, layers));
+    if (shadows->maps.size() < scene.lights.size())
+        world.notes.push_back("of its " + std::to_string(scene.lights.size()) + " lamps "
+            + std::to_string(shadows->maps.size())
+            + " have shadows: those that rest near its still things, of point lamps the first three");
+    const std::uint64_t key = shadows_key(world, all, scene);
+    char name[32];
+    std::snprintf(name, sizeof name, "%016llx.shadow", (unsigned long long)key);
+    bool written = false;
+    if (folder.empty() || !read_kept_shadows(folder / name, key, *shadows)) {
+        fill(*shadows, boxes, layers, Occluders(world, all.instances), progress);
+        written = !folder.empty() && write_kept_shadows(folder / name, key, *shadows);
+    } else {
+        std::error_code ignored; // marks the file as just read
+        std::filesystem::last_write_time(folder / name, std::filesystem::file_time_type::clock::now(), ignored);
+    }
+    world.shadows = std::move(shadows);
+    return written;
+}
+
+} // namespace starbow

@@ -1,0 +1,252 @@
+// Shadows and daylight of still things, against places and parts of the sky known in closed form.
+#include "runtime/shadow/add_shadows.h"
+#include "runtime/shadow/occluders.h"
+#include "runtime/shadow/still_things.h"
+#include "runtime/world/shadows.h"
+#include "runtime/world/worldline.h"
+#include "tests/support/gltf_fixture.h"
+#include <cmath>
+
+namespace starbow::gltf_test::shadows_test {
+namespace {
+
+class ShadowsTest : public GltfTest {
+protected:
+    /// A scene around a document, in the test's own folder.
+    SceneFile scene_of(const Doc& doc, Json json) const
+    {
+        write("world.gltf", doc.text());
+        json["gltf"] = "world.gltf";
+        json["shadows"] = true;
+        return load_scene_file(write("scene.json", json.dump()));
+    }
+};
+
+/// Adds a rectangle with its front towards cross(right, up).
+void wall(Doc& doc, const glm::dvec3& centre, const glm::dvec3& right, const glm::dvec3& up, Json material = Json::object(),
+    Json node = Json::object())
+{
+    std::vector<float> places;
+    for (const glm::dvec3& at : {centre - right - up, centre + right - up, centre + right + up, centre - right + up})
+        places.insert(places.end(), {float(at.x), float(at.y), float(at.z)});
+    const int uv = doc.accessor<float>({0, 1, 1, 1, 1, 0, 0, 0}, "VEC2");
+    doc.show({{"attributes", {{"POSITION", doc.accessor(places, "VEC3")}, {"TEXCOORD_0", uv}}},
+        {"indices", doc.accessor<std::uint16_t>({0, 1, 2, 0, 2, 3}, "SCALAR")},
+        {"material", doc.put("materials", std::move(material))}});
+    doc.json["nodes"].back().update(node);
+}
+
+/// A ground of 20 by 20 at height 0.
+void ground(Doc& doc) { wall(doc, {0, 0, 0}, {10, 0, 0}, {0, 0, -10}); }
+
+const Json sun = {{"type", "directional"}, {"towards", {1, 1, 0}}, {"radiance", {1, 1, 1}}};
+
+TEST_F(ShadowsTest, RaysMeetStillTrianglesAndTellTheirSides)
+{
+    Doc doc;
+    wall(doc, {0, 0, -5}, {1, 0, 0}, {0, 1, 0}); // its front towards +z
+    wall(doc, {0, 0, -9}, {1, 0, 0}, {0, 1, 0}, {{"doubleSided", true}});
+    const World world = load(doc);
+    const Occluders rays(world, world.instances);
+    ASSERT_EQ(rays.triangles(), 4u);
+    const auto front = rays.first({0.5, 0.5, 0}, {0, 0, -1}, 100);
+    ASSERT_TRUE(front);
+    EXPECT_NEAR(front->distance, 5, 1e-5);
+    EXPECT_FALSE(front->back);
+    const auto back = rays.first({0.5, 0.5, -8}, {0, 0, 1}, 100);
+    ASSERT_TRUE(back);
+    EXPECT_NEAR(back->distance, 3, 1e-5);
+    EXPECT_TRUE(back->back);
+    EXPECT_FALSE(rays.first({0.5, 0.5, -12}, {0, 0, 1}, 100)->back) << "it has two fronts";
+    EXPECT_FALSE(rays.first({0.5, 0.5, 0}, {0, 0, -1}, 4.9));
+    EXPECT_TRUE(rays.hidden({0.5, 0.5, 0}, {0, 0, -1}, 5.1));
+    EXPECT_FALSE(rays.hidden({1.1, 0, 0}, {0, 0, -1}, 100));
+}
+
+TEST_F(ShadowsTest, MasksLetLightThrough)
+{
+    Doc doc;
+    // Left opaque, right cut out.
+    const Bytes image = png(2, 1, {255, 255, 255, 255, 255, 255, 255, 0});
+    doc.put("images", {{"bufferView", doc.view(image)}, {"mimeType", "image/png"}});
+    doc.json["samplers"] = {{{"magFilter", 9728}, {"minFilter", 9728}}};
+    doc.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    wall(doc, {0, 0, -5}, {1, 0, 0}, {0, 1, 0},
+        {{"alphaMode", "MASK"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    const World world = load(doc);
+    const Occluders rays(world, world.instances);
+    EXPECT_TRUE(rays.hidden({-0.5, 0, 0}, {0, 0, -1}, 100));
+    EXPECT_FALSE(rays.hidden({0.5, 0, 0}, {0, 0, -1}, 100));
+    EXPECT_FALSE(rays.first({0.5, 0, 0}, {0, 0, -1}, 100));
+}
+
+TEST_F(ShadowsTest, ThingsThatMoveOrShineHideNothing)
+{
+    Doc doc;
+    wall(doc, {0, 0, -5}, {1, 0, 0}, {0, 1, 0}, {{"emissiveFactor", {1, 1, 1}}});
+    wall(doc, {0, 0, -6}, {1, 0, 0}, {0, 1, 0}, {{"extensions", {{"KHR_materials_unlit", Json::object()}}}});
+    wall(doc, {0, 0, -7}, {1, 0, 0}, {0, 1, 0}, Json::object(), {{"name", "body"}});
+    wall(doc, {0, 0, -8}, {1, 0, 0}, {0, 1, 0});
+    const Json body = {{"name", "body"}, {"nodes", {"body"}}, {"velocity", {{"direction", {1, 0, 0}}, {"beta", 0.5}}},
+        {"at", {{"time", 0}, {"position", {0, 0, 0}}}}};
+    const SceneFile scene = scene_of(doc, {{"lights", {sun}}, {"bodies", {body}}});
+    World world = load_world(scene);
+    EXPECT_EQ(world.notes, std::vector<std::string>{"things that move cast no shadows and receive none"});
+    place_bodies(world, scene);
+    const Occluders rays(world, world.instances);
+    EXPECT_EQ(rays.triangles(), 2u);
+    EXPECT_NEAR(rays.first({0, 0, 0}, {0, 0, -1}, 100)->distance, 8, 1e-5);
+}
+
+/// The number that a directional lamp's fine map holds of a place, as a place along the light; and the place's own.
+std::pair<double, double> along_light(const Shadows& shadows, const ShadowMap& map, const glm::dvec3& place, int level)
+{
+    const glm::dvec2 at
+        = (glm::dvec2(glm::dot(map.axes[0], place), glm::dot(map.axes[1], place)) - map.low[level]) / map.texel[level];
+    const glm::ivec2 texel(glm::floor(at));
+    const std::size_t size = std::size_t(shadows.size);
+    const double part
+        = shadows.texels[(std::size_t(map.layer + level) * size + std::size_t(texel.y)) * size + std::size_t(texel.x)]
+        / 65535.0;
+    return {map.nothing + part * (map.nearest - map.nothing), glm::dot(map.axes[2], place)};
+}
+
+TEST_F(ShadowsTest, ASunsMapsHoldWhatItsLightMeets)
+{
+    Doc doc;
+    wall(doc, {0, 0, 0}, {2.9, 0, 0}, {0, 0, -2.9});
+    wall(doc, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}); // a roof 1 above the ground: under 45 degrees its shadow is 1 to the left
+    const SceneFile scene = scene_of(doc, {{"lights", {sun}}});
+    World world = load_world(scene);
+    place_bodies(world, scene);
+    const Shadows shadows = shadows_of(world, scene);
+    ASSERT_EQ(shadows.maps.size(), 1u);
+    const ShadowMap& map = shadows.maps[0];
+    EXPECT_NEAR(glm::distance(map.axes[2], glm::normalize(glm::dvec3(1, 1, 0))), 0, 1e-12);
+    EXPECT_NEAR(glm::determinant(glm::dmat3(map.axes[0], map.axes[1], map.axes[2])), 1, 1e-12);
+    for (int level = 0; level < 2; ++level)
+        for (double x = -2.8; x <= 2.8; x += 0.17)
+            for (double z = -2.8; z <= 2.8; z += 0.23) {
+                const auto [met, own] = along_light(shadows, map, {x, 0, z}, level);
+                const bool shaded = std::abs(x + 1) < 1 && std::abs(z) < 1;
+                EXPECT_NEAR(met - own, shaded ? std::sqrt(2.0) : 0, 0.02) << x << ' ' << z;
+            }
+}
+
+TEST_F(ShadowsTest, APointLampsMapsHoldDistances)
+{
+    Doc doc;
+    wall(doc, {0, 0, 0}, {2.9, 0, 0}, {0, 0, -2.9});
+    wall(doc, {0, 1, 0}, {1, 0, 0}, {0, 0, -1});
+    const Json lamp = {{"type", "point"}, {"position", {0, 3, 0}}, {"distance", 3}, {"radiance", {1, 1, 1}}};
+    Json far = lamp;
+    far["position"] = {0, 300, 0};
+    const SceneFile scene = scene_of(doc, {{"lights", {lamp, far, lamp, lamp, lamp}}});
+    World world = load_world(scene);
+    place_bodies(world, scene);
+    EXPECT_EQ(lights_with_shadows(world, scene), (std::vector<bool>{true, false, true, true, false}))
+        << "not of the far one, and of three at most";
+    const Shadows shadows = shadows_of(world, scene);
+    ASSERT_EQ(shadows.maps.size(), 3u);
+    const ShadowMap& map = shadows.maps[0];
+    for (double x = -2.8; x < 2.8; x += 0.21)
+        for (double z = -2.8; z < 2.8; z += 0.23) {
+            const glm::dvec3 way = glm::dvec3(x, 0, z) - glm::dvec3(0, 3, 0);
+            glm::dvec2 at;
+            const int face = cube_face(way, at);
+            EXPECT_LT(glm::distance(cube_direction(face, at), glm::normalize(way)), 1e-12);
+            const glm::ivec2 texel(glm::floor((0.5 + 0.5 * at) * double(shadows.size)));
+            const std::size_t size = std::size_t(shadows.size);
+            const double part
+                = shadows.texels[(std::size_t(map.layer + face) * size + std::size_t(texel.y)) * size + std::size_t(texel.x)]
+                / 65535.0;
+            const double distance = -(map.nothing + part * (map.nearest - map.nothing));
+            // The roof is two thirds as far: its shadow is half as wide again.
+            const bool shaded = std::abs(x) < 1.5 && std::abs(z) < 1.5;
+            EXPECT_NEAR(distance, glm::length(way) * (shaded ? 2.0 / 3 : 1), 0.03) << x << ' ' << z;
+        }
+}
+
+/// The part of the sky that the grid tells for a surface: without interpolation.
+double sky_part(const Shadows& shadows, const glm::dvec3& place, const glm::dvec3& normal)
+{
+    const glm::ivec3 at
+        = glm::clamp(glm::ivec3(glm::round((place - shadows.low) / shadows.cell)), glm::ivec3(0), shadows.cells - 1);
+    const std::uint8_t* four = &shadows.sky[4
+        * ((std::size_t(at.z) * std::size_t(shadows.cells.y) + std::size_t(at.y)) * std::size_t(shadows.cells.x)
+            + std::size_t(at.x))];
+    double part = four[3] / 255.0;
+    for (int k = 0; k < 3; ++k)
+        part += (2 * four[k] / 255.0 - 1) * normal[k];
+    return part;
+}
+
+TEST_F(ShadowsTest, TheGridTellsTheVisiblePartOfTheSky)
+{
+    Doc doc;
+    ground(doc);
+    wall(doc, {-4, 5, 0}, {0, 0, -10}, {0, 5, 0}); // a wall as high as the ground is wide, its front towards +x
+    const SceneFile scene = scene_of(doc, {{"lights", {sun}}});
+    World world = load_world(scene);
+    place_bodies(world, scene);
+    const Shadows shadows = shadows_of(world, scene);
+    // Far from the wall the ground sees the whole sky, a surface at right angles half of it. The ground ends after 10.
+    EXPECT_NEAR(sky_part(shadows, {9, 0.2, 0}, {0, 1, 0}), 0.97, 0.06);
+    EXPECT_NEAR(sky_part(shadows, {0, 0.3, 0}, {0, -1, 0}), 0, 0.07);
+    // Beside a wall that fills a quarter of the sphere the ground sees half of its hemisphere by the cosine, and so does the
+    // wall. The wall's end lets a little more in.
+    EXPECT_NEAR(sky_part(shadows, {-3.8, 0.2, 0}, {0, 1, 0}), 0.5, 0.08);
+    EXPECT_NEAR(sky_part(shadows, {-3.8, 0.2, 0}, {1, 0, 0}), 0.5, 0.08);
+    // In the middle of the ground, d from a wall of height h and great width: (1 + d / sqrt(h^2 + d^2)) / 2, for the ground.
+    EXPECT_NEAR(sky_part(shadows, {2, 0.2, 0}, {0, 1, 0}), 0.5 * (1 + 6 / std::hypot(10.0, 6.0)), 0.09);
+}
+
+TEST_F(ShadowsTest, KeptShadowsAreReadAgainAndDamagedOnesAreNot)
+{
+    Doc doc;
+    ground(doc);
+    wall(doc, {0, 2, 0}, {1, 0, 0}, {0, 0, -1});
+    SceneFile scene = scene_of(doc, {{"lights", {sun}}});
+    const std::filesystem::path kept = folder / "kept";
+    std::filesystem::create_directories(kept);
+    World first = load_world(scene);
+    double last = -1;
+    EXPECT_TRUE(add_shadows(first, scene, kept, [&](double part) {
+        EXPECT_GE(part, last);
+        EXPECT_LE(part, 1);
+        last = part;
+    }));
+    EXPECT_GT(last, 0.5);
+    World second = load_world(scene);
+    EXPECT_FALSE(add_shadows(second, scene, kept, [](double) { FAIL() << "they are computed again"; }));
+    EXPECT_EQ(second.shadows->texels, first.shadows->texels);
+    EXPECT_EQ(second.shadows->sky, first.shadows->sky);
+    EXPECT_EQ(second.shadows->cells, first.shadows->cells);
+    EXPECT_EQ(second.shadows->low, first.shadows->low);
+    const auto file = std::filesystem::directory_iterator(kept)->path();
+    EXPECT_EQ(file.extension(), ".shadow");
+    {
+        std::fstream damaged(file, std::ios::in | std::ios::out | std::ios::binary);
+        damaged.seekp(100'000);
+        damaged.put('\x55');
+        damaged.put('\x77');
+    }
+    World third = load_world(scene);
+    EXPECT_TRUE(add_shadows(third, scene, kept));
+    EXPECT_EQ(third.shadows->texels, first.shadows->texels);
+    std::filesystem::resize_file(file, 50);
+    World fourth = load_world(scene);
+    EXPECT_TRUE(add_shadows(fourth, scene, kept));
+    // Another sun has other shadows; a scene without them has none.
+    Json moved = sun;
+    moved["towards"] = {0, 1, 1};
+    const SceneFile other = scene_of(doc, {{"lights", {moved}}});
+    EXPECT_TRUE(add_shadows(fourth, other, kept));
+    scene.shadows = false;
+    World without = load_world(scene);
+    EXPECT_FALSE(add_shadows(without, scene, kept));
+    EXPECT_FALSE(without.shadows);
+}
+
+} // namespace
+} // namespace starbow::gltf_test::shadows_test
