@@ -81,15 +81,16 @@ float reached_from_near(ShadowEntry map, vec3 place)
 // The part of the ambient light that reaches a place with the unit normal n: of the sky, and from the surfaces that hide it.
 float ambient_part(vec3 place, vec3 n)
 {
-    vec3 size = vec3(textureSize(sky_cells, 0));
+    vec3 size = vec3(textureSize(sky_cells, 0)) * vec3(1.0, 1.0, 0.5);
     vec3 normal = rows(cube.sky_cells[0], cube.sky_cells[1], cube.sky_cells[2], n); // over the cells' width
     vec3 cells = rows(cube.sky_cells[0], cube.sky_cells[1], cube.sky_cells[2], place)
         + vec3(cube.sky_cells[0].w, cube.sky_cells[1].w, cube.sky_cells[2].w);
     normal *= inversesqrt(dot(normal, normal));
     cells = clamp(cells + 0.75 * normal, vec3(0.0), size - 1.001);
     vec2 across = (cells.xy + 0.5) / size.xy;
-    float layer = floor(cells.z);
-    vec4 sky = mix(textureLod(sky_cells, vec3(across, layer), 0.0), textureLod(sky_cells, vec3(across, layer + 1.0), 0.0), cells.z - layer);
-    float seen = clamp(sky.a + dot(2.0 * sky.rgb - 1.0, normal), 0.0, 1.0);
+    float plane = floor(cells.z), part = cells.z - plane;
+    vec3 b = mix(textureLod(sky_cells, vec3(across, 2.0 * plane), 0.0).rgb, textureLod(sky_cells, vec3(across, 2.0 * plane + 2.0), 0.0).rgb, part);
+    vec3 s = mix(textureLod(sky_cells, vec3(across, 2.0 * plane + 1.0), 0.0).rgb, textureLod(sky_cells, vec3(across, 2.0 * plane + 3.0), 0.0).rgb, part);
+    float seen = clamp(dot(b - 0.5, normal) + dot(s, normal * normal), 0.0, 1.0);
     return mix(HIDDEN_SKY_PART, 1.0, seen);
 }

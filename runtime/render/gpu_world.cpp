@@ -191,7 +191,7 @@ void put_shadows(Device& device, GpuWorld& gpu, World& world)
         = make_shadow_maps(device, layers > 0 ? from->size : 1, std::max(layers, 1u), layers > 0 ? from->texels : far_away);
     name_object(device, gpu.shadow_maps, "world: shadow maps");
     gpu.sky_cells = make_texture_array(device, vk::Format::eR8G8B8A8Unorm, from ? glm::ivec2(from->cells) : glm::ivec2(1),
-        from ? std::uint32_t(from->cells.z) : 1, std::as_bytes(std::span(from ? from->sky : open)));
+        from ? 2 * std::uint32_t(from->cells.z) : 1, std::as_bytes(std::span(from ? from->sky : open)));
     name_object(device, gpu.sky_cells, "world: sky cells");
     gpu.nearest_sampler = make_sampler(
         device, {.u = Wrap::clamp, .v = Wrap::clamp, .magnify_linear = false, .minify_linear = false, .mipmaps = false});

@@ -10,16 +10,15 @@ namespace {
 constexpr int most_cells = 1'000'000, cells_along = 160; // of the grid; along its longest side
 constexpr int sky_rays = 64; // from a cell's middle
 
-/// A cell of the grid: the visible part of the sky and its first moment; `inside`: the cell is within a body.
+/// A cell of the grid, as Shadows::sky has it; `inside`: the cell is within a body.
 struct Cell {
-    double part = 0;
-    glm::dvec3 moment{0};
+    glm::dvec3 b{0}, s{0};
     bool inside = false;
 };
 
 Cell cell_at(const Occluders& occluders, const glm::dvec3& place)
 {
-    Cell cell;
+    glm::dvec3 seen[2]{}, all[2]{}; // by surfaces that face along each axis, and against it
     int backs = 0;
     for (int i = 0; i < sky_rays; ++i) {
         // Evenly over the sphere: a Fibonacci lattice.
@@ -27,13 +26,16 @@ Cell cell_at(const Occluders& occluders, const glm::dvec3& place)
         const double level = std::sqrt(1 - y * y);
         const glm::dvec3 way(level * std::cos(turn), y, level * std::sin(turn));
         const auto hit = occluders.first(place, way, 1e37);
-        if (!hit)
-            cell.part += 1.0 / sky_rays, cell.moment += 3.0 / sky_rays * way;
-        else if (hit->back)
-            ++backs;
+        for (int side = 0; side < 2; ++side) {
+            const glm::dvec3 cosine = glm::max(side == 0 ? way : -way, 0.0);
+            all[side] += cosine;
+            if (!hit)
+                seen[side] += cosine;
+        }
+        backs += hit && hit->back;
     }
-    cell.inside = backs > sky_rays / 5;
-    return cell;
+    const glm::dvec3 plus = seen[0] / all[0], minus = seen[1] / all[1];
+    return {0.5 * (plus - minus), 0.5 * (plus + minus), backs > sky_rays / 5};
 }
 
 /// Cells within bodies take the mean of their neighbours, until all have a value.
@@ -57,11 +59,11 @@ void spread(std::vector<Cell>& cells, const glm::ivec3& count)
                         at[side / 2] += side % 2 ? 1 : -1;
                         if (at[side / 2] < 0 || at[side / 2] >= count[side / 2] || cells[index(at)].inside)
                             continue;
-                        sum.part += cells[index(at)].part, sum.moment += cells[index(at)].moment;
+                        sum.b += cells[index(at)].b, sum.s += cells[index(at)].s;
                         ++neighbours;
                     }
                     if (neighbours > 0)
-                        found.push_back({index({x, y, z}), {sum.part / neighbours, sum.moment / double(neighbours), false}});
+                        found.push_back({index({x, y, z}), {sum.b / double(neighbours), sum.s / double(neighbours), false}});
                 }
         for (const auto& [at, cell] : found)
             cells[at] = cell, changed = true;
@@ -91,12 +93,14 @@ void fill_sky(Shadows& shadows, const AlignedBox& box, const Occluders& occluder
     in_parallel(std::size_t(count.y) * std::size_t(count.z), row, progress, from, 1);
     spread(cells, count);
     const auto byte = [](double value) { return std::uint8_t(std::lround(255 * std::clamp(value, 0.0, 1.0))); };
-    for (const Cell& cell : cells) {
-        // A surface's cosine-weighted part of visibility a + b . w is a + 2/3 b . n (Ramamoorthi and Hanrahan 2001).
-        for (int k = 0; k < 3; ++k)
-            shadows.sky.push_back(byte(0.5 + 0.5 * (2.0 / 3) * cell.moment[k]));
-        shadows.sky.push_back(byte(cell.part));
-    }
+    const std::size_t plane = std::size_t(count.x) * std::size_t(count.y);
+    for (std::size_t z = 0; z < std::size_t(count.z); ++z)
+        for (const bool straight : {true, false})
+            for (std::size_t i = z * plane; i < (z + 1) * plane; ++i) {
+                for (int k = 0; k < 3; ++k)
+                    shadows.sky.push_back(byte(straight ? 0.5 + cells[i].b[k] : cells[i].s[k]));
+                shadows.sky.push_back(0);
+            }
 }
 
 } // namespace starbow

@@ -74,4 +74,11 @@ std::vector<bool> lights_with_shadows(const World& world, const SceneFile& scene
     return has;
 }
 
+std::string lacking_shadows(const World& world, const SceneFile& scene)
+{
+    if (!scene.shadows || (scene.bodies.empty() && world.motions.empty()))
+        return "";
+    return "things that move cast no shadows and receive none";
+}
+
 } // namespace starbow

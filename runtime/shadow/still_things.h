@@ -20,4 +20,7 @@ Boxes boxes_of(const World& world);
 /// place_bodies.
 std::vector<bool> lights_with_shadows(const World& world, const SceneFile& scene);
 
+/// A sentence about the shadows that a scene's pictures lack; empty: none. world: before place_bodies or after it.
+std::string lacking_shadows(const World& world, const SceneFile& scene);
+
 } // namespace starbow

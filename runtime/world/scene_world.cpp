@@ -33,8 +33,6 @@ World load_world(const SceneFile& scene)
         world.notes.insert(world.notes.begin(),
             "nothing in this world shines, and every picture of it is black: \"lights\", \"ambient\" or a \"sky\" in "
                 + scene.file + " are right; starbow check " + one_line(scene.gltf.string()) + " suggests some");
-    if (scene.shadows && (!scene.bodies.empty() || !world.motions.empty()))
-        world.notes.push_back("things that move cast no shadows and receive none");
     if (scene.globes) {
         world.globes = load_globes(scene.globes->file);
         const std::vector<Globe>& globes = world.globes->system.globes;

@@ -32,8 +32,9 @@ struct Shadows {
     /// Layers of size x size texels: the place of what the light meets first, from 0 (nothing) to 65535.
     std::vector<std::uint16_t> texels;
 
-    /// A grid of cells. In each, the part of the sky that a surface sees is a + dot(b, n), n its normal: four bytes, the
-    /// components of b from -1 to 1, then a from 0 to 1.
+    /// A grid of cells. In each, the part of the sky that a surface sees is dot(b, n) + dot(s, n * n), n its normal: exact
+    /// for surfaces along the axes, and for an open sky above a ground. Eight bytes: the components of b, -0.5 to 0.5, and
+    /// 0; those of s, 0 to 1, and 0. In planes along z: of each first b's, then s's.
     glm::ivec3 cells{0};
     glm::dvec3 low{0}; ///< the lowest cell's middle
     double cell = 1; ///< a cell's width, scene units

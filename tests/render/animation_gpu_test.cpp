@@ -19,8 +19,8 @@ quad::V4 into(const dvec3& u, const quad::V4& e) { return quad::boosted(quad::of
 int blinking(Doc& doc, const dvec3& colour, const Json& blink)
 {
     return doc.put("materials",
-        {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}}}, {"emissiveFactor", numbers_of(colour)},
-            {"extras", {{"starbow", {{"blink", blink}}}}}});
+        {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorFactor", {0, 0, 0, 1}}}},
+            {"emissiveFactor", numbers_of(colour)}, {"extras", {{"starbow", {{"blink", blink}}}}}});
 }
 
 Json slow() { return {{"light_speed_m_s", 1}}; } // one unit is a metre, and light flies one metre a second

@@ -184,7 +184,8 @@ Doc still_life()
         const int material = doc.put("materials",
             {{"doubleSided", true},
                 {"pbrMetallicRoughness",
-                    {{"baseColorFactor", {0.2 + 0.8 * part(random), 0.2 + 0.8 * part(random), 0.5, 1}}}}});
+                    {{"metallicFactor", 0},
+                        {"baseColorFactor", {0.2 + 0.8 * part(random), 0.2 + 0.8 * part(random), 0.5, 1}}}}});
         quad(doc, {4 * std::cos(angle), 4 * std::sin(angle), -9 + 5 * part(random)}, random_way(random),
             random_way(random) * 0.8, material, {{"name", "things"}});
     }

@@ -341,8 +341,8 @@ TEST(Clocks, MarksEmitTheMaterialsLight)
     const Dial dial{{0, 0, -6}, {1, 0, 0}, {0, 1, 0}, 1};
     Doc doc;
     const int material = doc.put("materials",
-        {{"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.1, 0.1, 1}}}}, {"emissiveFactor", {0.2, 0.5, 0.1}},
-            {"extras", {{"starbow", {{"clock", Json::object()}}}}}});
+        {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorFactor", {0.1, 0.1, 0.1, 1}}}},
+            {"emissiveFactor", {0.2, 0.5, 0.1}}, {"extras", {{"starbow", {{"clock", Json::object()}}}}}});
     quad(doc, dial.middle, dial.right, dial.up, material);
     const GpuWorld world = open_world("shining", doc, {{"light_speed_m_s", 1}, {"ambient", {1, 1, 1}}});
     const std::vector<Spot> spots = look_at(world, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}), dial, 256);

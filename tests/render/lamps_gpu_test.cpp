@@ -53,7 +53,8 @@ Doc plates(bool body)
     for (int i = 0; i < 3; ++i)
         quad(doc, {1.1 * (i - 1), 0, -3}, {0.5, 0, 0}, {0, 0.5, 0},
             doc.put("materials",
-                {{"pbrMetallicRoughness", {{"baseColorFactor", {colours[i].r, colours[i].g, colours[i].b, 1}}}}}));
+                {{"pbrMetallicRoughness",
+                    {{"metallicFactor", 0}, {"baseColorFactor", {colours[i].r, colours[i].g, colours[i].b, 1}}}}}));
     if (body)
         quad(doc, {0, 0, 100}, {1, 0, 0}, {0, 1, 0}, unlit(doc, {1, 1, 1}), {{"name", "body"}});
     return doc;

@@ -11,7 +11,10 @@ namespace {
 /// A world needs at least one object; this one is never seen.
 void speck(Doc& doc) { quad(doc, {0, 0, 1e6}, {1e-3, 0, 0}, {0, 1e-3, 0}, unlit(doc, {0, 0, 0})); }
 
-Json starbow_extras(const Json& members) { return {{"extras", {{"starbow", members}}}}; }
+const Json matt = {{"metallicFactor", 0}, {"roughnessFactor", 1}};
+
+/// A matt material with these members in its extras.
+Json starbow_extras(const Json& members) { return {{"extras", {{"starbow", members}}}, {"pbrMetallicRoughness", matt}}; }
 
 dvec3 xyz_of(const dvec3& light) { return glm::inverse(rec709_from_sunlit_xyz()) * light; }
 dvec2 chromaticity(const dvec3& xyz) { return dvec2(xyz) / (xyz.x + xyz.y + xyz.z); }
@@ -219,8 +222,8 @@ Doc spectral_walls(bool body)
 {
     Doc doc;
     const auto wall = [&](const Json& extras, const Json& emissive) {
-        Json material = extras.empty() ? Json::object() : starbow_extras(extras);
-        material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.4, 0.3, 0.2, 1}}};
+        Json material = extras.empty() ? Json{{"pbrMetallicRoughness", matt}} : starbow_extras(extras);
+        material["pbrMetallicRoughness"]["baseColorFactor"] = {0.4, 0.3, 0.2, 1};
         if (!emissive.empty())
             material["emissiveFactor"] = emissive;
         return doc.put("materials", material);
@@ -304,7 +307,7 @@ TEST(Spectra, ARoomTemperatureWallGlowsDullRedFromGammaOneAndAHalf)
 {
     Doc doc;
     Json material = starbow_extras({{"temperature_K", 288}, {"emissivity", 0.9}});
-    material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.1, 0.1, 0.1, 1}}};
+    material["pbrMetallicRoughness"]["baseColorFactor"] = {0.1, 0.1, 0.1, 1};
     quad(doc, {0, 0, -5}, {50, 0, 0}, {0, 50, 0}, doc.put("materials", material));
     const GpuWorld world = open_world("wall", doc);
     OffscreenRenderer offscreen = renderer(world, one_view(Planar{20}, {64, 48}));
@@ -374,7 +377,7 @@ TEST(Spectra, FalseColoursShowTheInfraredRedAndTheUltravioletBlue)
     Doc doc;
     auto material = [&](const Json& beyond) {
         Json material = starbow_extras(beyond);
-        material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.2, 0.2, 0.2, 1}}};
+        material["pbrMetallicRoughness"]["baseColorFactor"] = {0.2, 0.2, 0.2, 1};
         return doc.put("materials", material);
     };
     quad(doc, {-1, 0, -4}, {0.9, 0, 0}, {0, 2, 0}, material({{"infrared", 0.9}, {"ultraviolet", 0.05}}));

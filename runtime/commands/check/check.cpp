@@ -12,6 +12,7 @@
 #include "flashes.h"
 #include "runtime/commands/commands.h"
 #include "runtime/images/capture.h"
+#include "runtime/shadow/still_things.h"
 #include "runtime/world/ephemeris.h"
 #include "runtime/world/open_scene.h"
 #include "runtime/world/spectral_errors.h"
@@ -118,6 +119,8 @@ int check_scene(const std::string& name)
     if (world.globes)
         print_globes(scene, *world.globes);
     place_bodies(world, scene);
+    if (const std::string lacking = lacking_shadows(world, scene); !lacking.empty())
+        world.notes.push_back(lacking);
     for (const std::string& note : world.notes)
         std::printf("note: %s\n", note.c_str());
     const NeededLevel needed = needed_level(world, scene);

@@ -13,6 +13,7 @@
 #include "runtime/render/offscreen.h"
 #include "runtime/render/pass_timer.h"
 #include "runtime/render/render_context.h"
+#include "runtime/shadow/still_things.h"
 #include "runtime/world/boxes.h"
 #include "runtime/world/open_scene.h"
 #include "runtime/world/outline.h"
@@ -191,7 +192,10 @@ int check_world(const std::string& name, const std::string& page_name, const std
     for (const Fact& fact : facts)
         out << "<tr><td>" << escaped_html(fact.name) << "</td><td>" << escaped_html(fact.value) << "</td></tr>\n";
     out << "</table>\n";
-    const std::vector<std::string>& notes = context.world.world.notes;
+    std::vector<std::string> notes = context.world.world.notes;
+    if (const std::string lacking = lacking_shadows(context.world.world, context.world.scene);
+        !lacking.empty() && std::ranges::find(notes, lacking) == notes.end())
+        notes.push_back(lacking);
     if (!notes.empty()) {
         out << "<h2>To know</h2>\n<ul>\n";
         for (const std::string& note : notes)
