@@ -86,7 +86,8 @@ void fill_sky(Shadows& shadows, const AlignedBox& box, const Occluders& occluder
     std::vector<Cell> cells(std::size_t(count.x) * std::size_t(count.y) * std::size_t(count.z));
     const auto row = [&](std::size_t line) {
         for (int x = 0; x < count.x; ++x) {
-            const glm::dvec3 at(x, double(line % std::size_t(count.y)), double(line / std::size_t(count.y)));
+            const std::size_t y = line % std::size_t(count.y), z = line / std::size_t(count.y);
+            const glm::dvec3 at(x, double(y), double(z));
             cells[line * std::size_t(count.x) + std::size_t(x)] = cell_at(occluders, shadows.low + shadows.cell * at);
         }
     };

@@ -151,13 +151,13 @@ SceneFile scene_around(const std::filesystem::path& gltf)
     scene.ambient = {0.24, 0.26, 0.30};
     scene.shadows = true;
     scene.sky = {.zenith = {0.07, 0.14, 0.30}, .horizon = {0.42, 0.48, 0.55}, .nadir = {0.15, 0.14, 0.12}};
-    if (outline.moves)
-        scene.notes.push_back("things that move cast no shadows and receive none");
     scene.notes.push_back("it has no scene file: a unit is taken as 1 m, and light flies " + digits(scene.light_speed_m_s)
         + " m/s and crosses the world's " + digits(size) + " m in " + digits(size / scene.light_speed_m_s)
         + (slowest > 0 && slowest == scene.light_speed_m_s ? " s, for its animations may not be faster than a fifth of it"
                                                            : " s")
         + "; starbow check " + scene.file + " --write " + scene.name + ".json writes both for you to change");
+    if (outline.moves)
+        scene.notes.push_back("things that move cast no shadows and receive none");
     return scene;
 }
 

@@ -59,7 +59,7 @@ TEST(GlossTable, RoughSurfacesReflectTheSumOverAllDirections)
                 metal += part * (1 - grazing), white += part * grazing;
                 grazing_mean += grazing * light.z / pi_ * angle;
             });
-            const GlossTexel& texel = table()[std::size_t(row * GLOSS_TABLE + column)];
+            const GlossTexel& texel = table()[std::size_t(row) * GLOSS_TABLE + std::size_t(column)];
             EXPECT_NEAR(double(texel.metal), metal, 0.002) << row << ' ' << column;
             EXPECT_NEAR(double(texel.white), white, 0.002) << row << ' ' << column;
             EXPECT_NEAR(double(texel.grazing), grazing_mean, 0.002) << column;
@@ -71,7 +71,7 @@ TEST(GlossTable, TheUpperAndTheLowerSkyShareTheRest)
 {
     for (int row = 0; row < GLOSS_TABLE; ++row)
         for (int column = 0; column < GLOSS_TABLE; ++column) {
-            const auto above = [&](int at) { return table()[std::size_t(row * GLOSS_TABLE + at)].above; };
+            const auto above = [&](int at) { return table()[std::size_t(row) * GLOSS_TABLE + std::size_t(at)].above; };
             EXPECT_LE(above(column) + above(GLOSS_TABLE - 1 - column), 1.0001f);
             if (column > 0)
                 EXPECT_GE(above(column), above(column - 1) - 1e-4f) << row << ' ' << column;
