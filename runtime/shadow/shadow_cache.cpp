@@ -17,6 +17,21 @@ struct Header {
     std::uint64_t content = 0;
 };
 
+/// True if the numbers of a header are those of the shadows' maps, and of a grid.
+bool fits(const Header& header, const Shadows& shadows)
+{
+    std::uint64_t layers = 0, cells = 1;
+    for (const ShadowMap& map : shadows.maps)
+        layers += map.point ? 6 : 2;
+    for (const std::int64_t count : header.cells) {
+        if (count < 2 || count > 1'000'000 || cells > header.sky)
+            return false;
+        cells *= std::uint64_t(count);
+    }
+    return header.size == shadows.size && header.sky == 8 * cells
+        && header.texels == layers * std::uint64_t(shadows.size) * std::uint64_t(shadows.size);
+}
+
 std::uint64_t content_of(const Shadows& shadows)
 {
     ContentHash hash;
@@ -68,14 +83,14 @@ bool read_kept_shadows(const std::filesystem::path& path, std::uint64_t key, Sha
     const Header right;
     const auto read = [&](void* to, std::size_t bytes) { return file.read({static_cast<char*>(to), bytes}) == bytes; };
     if (!read(&header, sizeof header) || std::memcmp(header.magic, right.magic, sizeof right.magic) != 0 || header.key != key
-        || header.texels > file.size() || header.sky > file.size()
+        || header.texels > file.size() || header.sky > file.size() || !fits(header, shadows)
         || file.size()
             != sizeof header + header.texels * sizeof(std::uint16_t) + header.sky + sizeof shadows.low + sizeof shadows.cell)
         return false;
     shadows.texels.resize(header.texels), shadows.sky.resize(header.sky);
     if (!read(shadows.texels.data(), header.texels * sizeof(std::uint16_t)) || !read(shadows.sky.data(), header.sky)
         || !read(&shadows.low, sizeof shadows.low) || !read(&shadows.cell, sizeof shadows.cell)
-        || content_of(shadows) != header.content || header.size != shadows.size)
+        || content_of(shadows) != header.content)
         return false;
     shadows.cells = glm::ivec3(int(header.cells[0]), int(header.cells[1]), int(header.cells[2]));
     return true;

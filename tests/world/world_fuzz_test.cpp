@@ -27,6 +27,7 @@ Doc rich()
     first["attributes"]["TEXCOORD_0"] = doc.accessor<std::uint16_t>({0, 0, 65535, 0, 0, 65535}, "VEC2", true);
     first["attributes"]["COLOR_0"] = doc.accessor<float>({0, 0, 0, 1, 1, 1, 1, 0, 1}, "VEC3");
     first["material"] = 0;
+    first["attributes"]["TEXCOORD_1"] = doc.accessor<float>({0, 0, 1, 0, 0, 1}, "VEC2");
     int strip = doc.accessor<std::uint16_t>({0, 1, 2, 1}, "SCALAR");
     int normals = doc.accessor<float>({0, 0, 1, 0, 1, 0, 1, 0, 0}, "VEC3");
     int indices = doc.view({1}), values = doc.view(bytes_of(std::vector<float>{5, 6, 7}));
@@ -62,6 +63,17 @@ Doc rich()
             {{"emissiveFactor", {1, 0, 0}}, {"emissiveTexture", {{"index", 1}}},
                 {"extras", {{"starbow", "{\"emission\": {\"table\": [[400, 1], [500, 2]]}}"}}},
                 {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 9}}}}}}};
+    // Gloss and its maps: computed tangents on the first surface, the file's on the second.
+    Json& first_material = doc.json["materials"][0];
+    first_material["normalTexture"] = {{"index", 1}, {"scale", 0.5}, {"texCoord", 1}};
+    first_material["occlusionTexture"] = {{"index", 0}, {"strength", 0.5}};
+    first_material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 1}, {"texCoord", 1}};
+    first_material["pbrMetallicRoughness"]["metallicFactor"] = 0.5;
+    first_material["pbrMetallicRoughness"]["roughnessFactor"] = 0.25;
+    doc.json["materials"][1]["normalTexture"] = {{"index", 1}};
+    doc.json["materials"][1]["extensions"]["KHR_materials_ior"] = {{"ior", 1.3}};
+    doc.json["meshes"][1]["primitives"][0]["attributes"]["TANGENT"]
+        = doc.accessor<float>({1, 0, 0, 1, 0, 1, 0, -1, 0, 0, 1, 1}, "VEC4");
     // Animated parts: tracks of each kind on two nodes, one below the other, a spin, and a blinking light.
     const int times = doc.accessor<float>({0, 1, 3}, "SCALAR"),
               places = doc.accessor<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}, "VEC3");
