@@ -67,7 +67,7 @@ vec2 beyond_visible(vec3 lit, vec3 light)
         push.beyond.y < 0.0 ? mean(lit) : push.beyond.y * mean(light));
 }
 
-// Adds a surface's coefficients under a light of one kind, and those of the sunlit colour that it emits.
+// Adds the coefficients of reflected light of one kind, by a set's columns. lit: the colour; beyond: ultraviolet and infrared.
 void add_columns(inout vec4 coefficients[MAX_GROUPS + 1], int set, int kind, vec3 lit, vec2 beyond)
 {
     int at = (UNSHIFTED ? OWN : 0) + (set * KINDS + kind) * (GROUPS * 5);
@@ -77,6 +77,7 @@ void add_columns(inout vec4 coefficients[MAX_GROUPS + 1], int set, int kind, vec
             + columns[column + 3] * beyond.x + columns[column + 4] * beyond.y;
     }
 }
+// Adds a surface's coefficients under a light of one kind, and those of the sunlit colour that it emits.
 void add_lit(inout vec4 coefficients[MAX_GROUPS + 1], int kind, vec3 base, vec3 light, vec3 emitted)
 {
     vec3 lit = base * light;

@@ -1,5 +1,6 @@
 #include "world_loader.h"
 #include <chrono>
+#include <sys/resource.h>
 
 namespace starbow {
 
@@ -9,7 +10,11 @@ void WorldLoader::open(const std::filesystem::path& scene)
     if (work_.valid() && (reading_ == wanted_ || work_.wait_for(std::chrono::seconds(0)) != std::future_status::ready))
         return; // a future waits for its thread, so a reading in vain ends by itself first
     reading_ = wanted_;
-    work_ = std::async(std::launch::async, [scene] { return load_scene(scene); });
+    work_ = std::async(std::launch::async, [scene] {
+        // Of this thread and those that it starts: frames come first while a world's shadows are computed.
+        setpriority(PRIO_PROCESS, 0, 3);
+        return load_scene(scene);
+    });
 }
 
 bool WorldLoader::ready()
