@@ -28,6 +28,8 @@ layout(constant_id = 15) const bool UNSHIFTED = false; // light is stored as its
 
 layout(constant_id = 20) const int SHADOWS = 0; // bits: lamps with maps; from the 8th on: point lamps; the 16th: daylight
 
+layout(constant_id = 21) const int BLENDED = 0; // 1: the part of what is behind that shows through; 2: the own light's part
+
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // Spectra::columns
 layout(set = 0, binding = 4) readonly buffer Times { TimeEntry times[]; };
@@ -232,13 +234,15 @@ void add_reflected(inout vec4 coefficients[MAX_GROUPS + 1], vec3 light[KEPT], ve
     }
 }
 
-void write(vec4 coefficients[MAX_GROUPS + 1])
+void write(vec4 coefficients[MAX_GROUPS + 1], float alpha)
 {
     // 60000 is below fp16's greatest number: a light very close to a surface must not become infinite.
     for (int group = 0; group < GROUPS; ++group)
         coefficients[group] = clamp(coefficients[group], vec4(-60000.0), vec4(60000.0));
     if (SEVERAL_REST_FRAMES) // a texel's samples are averaged: its coverage, and the sum of its depths
         coefficients[GROUPS] = vec4(1.0, gl_FragCoord.z, 0.0, 0.0);
+    for (int group = 0; group < MAX_GROUPS + 1 && BLENDED > 0; ++group)
+        coefficients[group] = BLENDED == 1 ? vec4(1.0 - alpha) : coefficients[group] * alpha;
     const int outputs = SEVERAL_REST_FRAMES ? GROUPS + 1 : GROUPS;
     coefficients0 = coefficients[0];
     if (outputs > 1)
@@ -305,5 +309,5 @@ void main()
         else
             coefficients[(REFLECTED + i) / 4][(REFLECTED + i) % 4] += own;
     }
-    write(coefficients);
+    write(coefficients, clamp(base.a, 0.0, 1.0));
 }

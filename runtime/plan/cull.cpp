@@ -1,4 +1,5 @@
 #include "cull.h"
+#include "painters_order.h"
 #include "runtime/world/instances.h"
 #include "runtime/world/moving.h"
 #include "scratch.h"
@@ -339,7 +340,11 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
                 Draw draw{i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()), detail.first_index,
                     detail.index_count, kind.first, kind.second};
                 list.visible.insert(list.visible.end(), seen.begin(), seen.end());
-                if (detail.clusters.count == 0 || kind.second) {
+                if (world.materials[std::size_t(primitive.material)].blended) {
+                    draw.blended = true, draw.count = 1;
+                    for (std::size_t k = 0; k < seen.size(); ++k, ++draw.first)
+                        list.draws.push_back(draw);
+                } else if (detail.clusters.count == 0 || kind.second) {
                     list.draws.push_back(draw);
                 } else {
                     const bool one_sided = !world.materials[std::size_t(primitive.material)].double_sided;
@@ -358,10 +363,12 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
         }
         // Nearest first, as the instances of a draw. What is large and around everything, such as a ground, comes last.
         const auto order = [&](const Draw& draw) {
-            return std::tuple(boxes[list.visible[draw.first]].farthest, draw.first, draw.first_index);
+            return std::tuple(draw.blended, boxes[list.visible[draw.first]].farthest, draw.first, draw.first_index);
         };
-        std::sort(list.draws.begin() + std::ptrdiff_t(first_draw), list.draws.end(),
-            [&](const Draw& a, const Draw& b) { return order(a) < order(b); });
+        const auto own = list.draws.begin() + std::ptrdiff_t(first_draw);
+        std::sort(own, list.draws.end(), [&](const Draw& a, const Draw& b) { return order(a) < order(b); });
+        const auto blended = std::find_if(own, list.draws.end(), [](const Draw& draw) { return draw.blended; });
+        sort_from_behind(std::span(blended, list.draws.end()), list);
     }
     reserve_headroom(list.draws);
     reserve_headroom(list.visible);

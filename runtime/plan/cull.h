@@ -11,6 +11,7 @@ struct Draw {
     std::uint32_t first_index, index_count;
     bool finite_existence = false; ///< its instances need the existence test
     bool moves = false; ///< animated
+    bool blended = false; ///< one instance of a blended surface
 };
 
 /// The draws of one eye's cube pass.
@@ -20,7 +21,8 @@ struct DrawList {
     std::vector<std::uint32_t> first_pose; ///< by rest frame, in `instances`
     std::vector<std::uint32_t> first; ///< by rest frame, in `instances`
     std::vector<std::uint32_t> visible; ///< indices into `instances`
-    std::vector<Draw> draws; ///< by image, then from the nearest: hidden surfaces fail the depth test unshaded
+    std::vector<Draw> draws; ///< by image, then from the nearest: hidden surfaces fail the depth test unshaded. After them
+                             ///< the blended ones, from behind
 
     /// Memory of cull, kept from frame to frame.
     struct OrientedBox {

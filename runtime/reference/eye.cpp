@@ -56,7 +56,7 @@ physics::AberratedRay TracingEye::sight(const glm::dvec3& n, double E) const
 }
 
 TracingEye::Nearest TracingEye::nearest(
-    const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world) const
+    const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world, double after) const
 {
     // Without aberration, directions are the world's, and moving things are seen as from there; the ship's D comes on top.
     const bool aberration = observer_.shot.effects.aberration;
@@ -81,15 +81,39 @@ TracingEye::Nearest TracingEye::nearest(
             line.from = physics::eye_place(rest_frame.shot.u, apart);
             line.time += physics::eye_time(rest_frame.shot.u, apart);
         }
-        const auto met = view.tracer.nearest(line);
+        const double per_distance = (worlds && !aberration ? 1 : own.D) / stretch;
+        const auto met = view.tracer.nearest(line, after / per_distance * (1 + 1e-9));
         if (!met)
             continue;
         const double D = worlds ? world.D : own.D * D_beside;
-        const double in_ship = (worlds && !aberration ? 1 : own.D) * met->distance / stretch;
+        const double in_ship = per_distance * met->distance;
         if (in_ship < found.way)
             found = {&view, *met, D, in_ship};
     }
     return found;
+}
+
+TracingEye::Along TracingEye::along(
+    const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world, bool lights) const
+{
+    const Effects& effects = observer_.shot.effects;
+    Along out;
+    double after = 0;
+    while (out.left > 1e-6) {
+        const Nearest found = nearest(way, beside, world, after);
+        const Instance* instance = found.view ? &world_.instances[found.met.instance] : nullptr;
+        if (!instance || !world_.materials[std::size_t(world_.primitives[instance->primitive].material)].blended) {
+            out.solid = found;
+            return out;
+        }
+        const double alpha = std::clamp(base_of(world_, pictures_, found.met).a, 0.0, 1.0);
+        if (lights && alpha > 0)
+            out.light += out.left * alpha * (effects.headlight ? found.D * found.D * found.D : 1)
+                * found.view->lighting.seen(found.met, effects.doppler ? found.D : 1);
+        out.left *= 1 - alpha;
+        after = found.way;
+    }
+    return out;
 }
 
 /// The colour of the sky at rest, in a unit direction of the world.
@@ -145,7 +169,8 @@ LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside, std::
     out.world = glm::transpose(rest_frame.motion_from_frame) * world.n;
     out.D = world.D;
     out.distance = INFINITY;
-    const Nearest found = nearest(way, beside, world);
+    const Along ray = along(way, beside, world, true);
+    const Nearest& found = ray.solid;
     if (found.view) {
         out.D = found.D;
         out.distance = found.way / (effects.aberration ? world.D : 1);
@@ -177,25 +202,29 @@ LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside, std::
         out.light *= out.D * out.D * out.D;
         out.sun *= out.D * out.D * out.D;
     }
+    out.light = ray.light + ray.left * out.light;
+    out.sun *= ray.left;
     return out;
 }
 
 double TracingEye::sky_part(const glm::dvec3& way, const glm::dvec3& beside, std::span<const double> parts) const
 {
     const physics::AberratedRay world = world_ray(way);
-    if (nearest(way, beside, world).view)
+    const Along ray = along(way, beside, world, false);
+    if (ray.solid.view)
         return 0;
-    return globes_ ? among_globes(world, beside, parts, -1).through : 1;
+    return ray.left * (globes_ ? among_globes(world, beside, parts, -1).through : 1);
 }
 
 glm::dvec3 TracingEye::globe_light(std::size_t body, const glm::dvec3& way, const glm::dvec3& beside) const
 {
     const Effects& effects = observer_.shot.effects;
     const physics::AberratedRay world = world_ray(way);
-    if (nearest(way, beside, world).view)
+    const Along along_ray = along(way, beside, world, false);
+    if (along_ray.solid.view)
         return glm::dvec3(0);
     const GlobeSight::Ray ray = among_globes(world, beside, {}, int(body));
-    const glm::dvec3 light = globe_colours_->seen(ray.terms, effects.doppler ? world.D : 1);
+    const glm::dvec3 light = along_ray.left * globe_colours_->seen(ray.terms, effects.doppler ? world.D : 1);
     return effects.headlight ? light * (world.D * world.D * world.D) : light;
 }
 

@@ -61,7 +61,17 @@ private:
         double D = 1, way = INFINITY; ///< way: in the ship
     };
     physics::AberratedRay sight(const glm::dvec3& n, double E) const;
-    Nearest nearest(const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world) const;
+    /// after: the hit lies farther away in the ship than this.
+    Nearest nearest(
+        const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world, double after = 0) const;
+
+    /// A ray up to the first surface that is not blended.
+    struct Along {
+        Nearest solid;
+        glm::dvec3 light{0}; ///< of the blended ones before it, with the headlight effect
+        double left = 1; ///< the part that shows through them
+    };
+    Along along(const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world, bool lights) const;
 
     glm::dvec3 sky(const glm::dvec3& n) const;
 

@@ -93,6 +93,7 @@ struct Tracer::Scene {
         RTCIntersectContext embree; // first: Embree hands it on
         const Scene* scene;
         const SightLine* line;
+        double beyond;
         std::optional<Met> met;
     };
 
@@ -240,7 +241,7 @@ struct Tracer::Scene {
         const SightLine& line = *query.line;
         double time = 0;
         const auto at = crossing_of(triangle, line, time);
-        if (!at || !at->inside || !(at->distance > 0) || (query.met && query.met->distance <= at->distance))
+        if (!at || !at->inside || !(at->distance > query.beyond) || (query.met && query.met->distance <= at->distance))
             return;
         const Met met{triangle.instance, {triangle.corners[0], triangle.corners[1], triangle.corners[2]}, at->weights,
             line.from + line.way * at->distance, line.way, at->distance, time, at->front};
@@ -309,11 +310,11 @@ Tracer::Tracer(const World& world, const Pictures& pictures, const EyeEvent& eye
 Tracer::~Tracer() = default;
 Tracer::Tracer(Tracer&&) noexcept = default;
 
-std::optional<Met> Tracer::nearest(const SightLine& line) const
+std::optional<Met> Tracer::nearest(const SightLine& line, double beyond) const
 {
     if (scene_->triangles.empty())
         return {};
-    Scene::Query query{{}, scene_.get(), &line, {}};
+    Scene::Query query{{}, scene_.get(), &line, beyond, {}};
     rtcInitIntersectContext(&query.embree);
     RTCRayHit hit{};
     hit.ray.org_x = float(line.from.x), hit.ray.org_y = float(line.from.y), hit.ray.org_z = float(line.from.z);

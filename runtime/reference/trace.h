@@ -40,9 +40,9 @@ public:
     ~Tracer();
     Tracer(Tracer&&) noexcept;
 
-    /// The nearest visible surface: not cut out by its mask, not a back face unless it has two sides, and existing at its
-    /// retarded time.
-    std::optional<Met> nearest(const SightLine& line) const;
+    /// The nearest visible surface farther than `beyond`: not cut out by its mask, not a back face unless it has two sides,
+    /// and existing at its retarded time.
+    std::optional<Met> nearest(const SightLine& line, double beyond = 0) const;
 
     const EyeEvent& eye_event() const;
     std::size_t triangles() const;

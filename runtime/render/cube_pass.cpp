@@ -138,28 +138,38 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
                     vk::ClearRect(rect_of(image.atlas + first, last - first), 0, 1));
         }
         int material = -1;
-        for (; draw != list_.draws.end() && draw->image == i; ++draw) {
-            const Primitive& primitive = world.primitives[draw->primitive];
-            if (vk::Pipeline pipeline = pipelines_.surface(variant_of(*draw, use_.light), kind); pipeline != bound)
+        const auto bind = [&](vk::Pipeline pipeline) {
+            if (pipeline != bound)
                 commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
-            if (primitive.material != material) {
-                material = primitive.material;
-                const Material& m = world.materials[material];
-                commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.surface_layout, 1,
-                    *world_.materials[material], {});
-                commands.setCullMode(m.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
-                push.base_colour = m.base_colour;
-                const Spectra::Surface& surface = world_.spectra.surfaces[std::size_t(material)];
-                push.emissive = glm::vec4(m.emissive * float(surface.emission * pre_exposure_), m.alpha_cutoff);
-                push.beyond = surface.beyond;
-                push.own = glm::vec4(surface.own * pre_exposure_);
-                commands.pushConstants<shared::CubePush>(*pipelines_.layouts.surface_layout, stages, 0, push);
-            }
-            commands.drawIndexed(draw->index_count, draw->count, draw->first_index, primitive.vertex_offset, draw->first);
+        };
+        const auto put_material = [&](int index) {
+            if (index == material)
+                return;
+            material = index;
+            const Material& m = world.materials[material];
+            commands.bindDescriptorSets(
+                vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.surface_layout, 1, *world_.materials[material], {});
+            commands.setCullMode(m.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+            push.base_colour = m.base_colour;
+            const Spectra::Surface& surface = world_.spectra.surfaces[std::size_t(material)];
+            push.emissive = glm::vec4(m.emissive * float(surface.emission * pre_exposure_), m.alpha_cutoff);
+            push.beyond = surface.beyond;
+            push.own = glm::vec4(surface.own * pre_exposure_);
+            commands.pushConstants<shared::CubePush>(*pipelines_.layouts.surface_layout, stages, 0, push);
+        };
+        const auto draw_one = [&](const Draw& one) {
+            commands.drawIndexed(
+                one.index_count, one.count, one.first_index, world.primitives[one.primitive].vertex_offset, one.first);
+        };
+        for (; draw != list_.draws.end() && draw->image == i && !draw->blended; ++draw) {
+            bind(pipelines_.surface(variant_of(*draw, use_.light), kind));
+            put_material(world.primitives[draw->primitive].material);
+            draw_one(*draw);
         }
+        const shared::CubePush surfaces_push = push;
         if (sky_ && !use_.several_rest_frames) {
             set_area(commands, image.atlas, image.size);
-            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipelines_.sky(world.milky_way >= 0, kind));
+            bind(pipelines_.sky(world.milky_way >= 0, kind));
             commands.bindDescriptorSets(
                 vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.surface_layout, 1, *world_.materials.back(), {});
             glm::dvec3 origin = face_direction(image.face, image.low);
@@ -168,6 +178,25 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
             push.clip_row2 = glm::vec4(b * (image.high.y - image.low.y), 0);
             commands.pushConstants<shared::CubePush>(*pipelines_.layouts.surface_layout, stages, 0, push);
             commands.draw(3, 1, 0, 0);
+            push = surfaces_push, material = -1;
+            set_guarded_area(commands, image);
+        }
+        // Blended surfaces, from behind: each takes its part from what is there, then adds its own; first those that show
+        // their backs.
+        for (; draw != list_.draws.end() && draw->image == i; ++draw) {
+            SurfaceVariant variant = variant_of(*draw, use_.light);
+            put_material(world.primitives[draw->primitive].material);
+            const bool both = world.materials[std::size_t(material)].double_sided;
+            for (const vk::CullModeFlagBits culled : {vk::CullModeFlagBits::eFront, vk::CullModeFlagBits::eBack}) {
+                if (culled == vk::CullModeFlagBits::eFront && !both)
+                    continue;
+                commands.setCullMode(culled);
+                for (variant.blend = 1; variant.blend <= 2; ++variant.blend) {
+                    bind(pipelines_.surface(variant, kind));
+                    draw_one(*draw);
+                }
+            }
+            material = -1; // its sides are to be culled anew
         }
         if (device_.keeper)
             device_.keeper->hold(commands); // a scene ends whenever its memory is full

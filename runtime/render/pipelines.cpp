@@ -67,7 +67,7 @@ struct Pipelines::Pass {
     TargetKind target;
     SpecializationConstants constants; ///< the same in both stages
     bool depth = false, vertices = false, maps = false, blend = false; ///< maps: beside the vertices, VertexMaps
-    bool points = false, added = false;
+    bool points = false, added = false, multiplied = false;
 };
 
 namespace {
@@ -167,7 +167,7 @@ vk::raii::Pipeline Pipelines::make(const Pass& pass) const
     vk::PipelineMultisampleStateCreateInfo samples({}, pass.target.samples);
     vk::PipelineDepthStencilStateCreateInfo depth;
     depth.depthTestEnable = pass.depth;
-    depth.depthWriteEnable = pass.depth && pass.vertices;
+    depth.depthWriteEnable = pass.depth && pass.vertices && !pass.added && !pass.multiplied;
     depth.depthCompareOp = vk::CompareOp::eGreaterOrEqual;
     vk::PipelineColorBlendAttachmentState blend;
     blend.colorWriteMask = vk::FlagTraits<vk::ColorComponentFlagBits>::allFlags;
@@ -176,6 +176,11 @@ vk::raii::Pipeline Pipelines::make(const Pass& pass) const
         blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = vk::BlendFactor::eOne;
         blend.dstColorBlendFactor = blend.dstAlphaBlendFactor
             = pass.added ? vk::BlendFactor::eOne : vk::BlendFactor::eOneMinusSrcAlpha;
+    }
+    if (pass.multiplied) {
+        blend.blendEnable = true;
+        blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = vk::BlendFactor::eZero;
+        blend.dstColorBlendFactor = vk::BlendFactor::eSrcColor, blend.dstAlphaBlendFactor = vk::BlendFactor::eSrcAlpha;
     }
     std::vector<vk::PipelineColorBlendAttachmentState> blends(pass.target.colours.size(), blend);
     vk::PipelineColorBlendStateCreateInfo blending({}, false, {}, blends);
@@ -206,10 +211,12 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
         .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
             std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), std::uint32_t(v.kinds), v.matrices,
             v.clock, v.finite_existence, v.several_rest_frames, v.lamps_move, v.blink, v.moves, v.unshifted, v.matt,
-            v.roughness_map, v.normal_map, v.occlusion_map, std::uint32_t(v.shadows)},
+            v.roughness_map, v.normal_map, v.occlusion_map, std::uint32_t(v.shadows), std::uint32_t(v.blend)},
         .depth = true,
         .vertices = true,
-        .maps = v.mapped});
+        .maps = v.mapped,
+        .added = v.blend == 2,
+        .multiplied = v.blend == 1});
 }
 
 vk::Pipeline Pipelines::sky(bool milky_way, const TargetKind& target)

@@ -74,6 +74,7 @@ struct SurfaceVariant {
     bool moves = false; ///< animated
     bool unshifted = false; ///< light is stored as its colour at D = 1
     int shadows = 0; ///< constant_id 20 of cube.frag
+    int blend = 0; ///< of a blended surface: 1: takes its part from what is behind it; 2: adds its own light
     bool mapped = false; ///< gloss, or maps with coordinates of their own; the following hold for it alone
     bool matt = false, roughness_map = false, normal_map = false, occlusion_map = false;
     auto operator<=>(const SurfaceVariant&) const = default;

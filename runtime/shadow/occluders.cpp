@@ -29,7 +29,7 @@ double alpha_at(const Texture& texture, const glm::dvec2& uv)
 bool hides_light(const World& world, const Instance& instance)
 {
     const Material& material = world.materials[std::size_t(world.primitives[instance.primitive].material)];
-    return instance.frame == 0 && instance.motion < 0 && instance.existence < 0 && !material.unlit
+    return instance.frame == 0 && instance.motion < 0 && instance.existence < 0 && !material.unlit && !material.blended
         && material.emissive == glm::vec3(0) && material.temperature_K == 0;
 }
 

@@ -5,8 +5,8 @@
 
 namespace starbow {
 
-/// True for an instance that hides light for ever: it rests in the world's frame, exists always, is not animated, and does
-/// not shine itself, as the glass around a lamp does.
+/// True for an instance that hides light for ever: it rests in the world's frame, exists always, is not animated, and neither
+/// shines itself, as the glass around a lamp does, nor is blended.
 bool hides_light(const World& world, const Instance& instance);
 
 /// The still triangles of a world, for rays. Any side of a triangle hides light; where a mask cuts it out, it does not.

@@ -85,6 +85,7 @@ struct Material {
     glm::vec3 emissive{0}; ///< Rec. 709 linear radiance
     int base_texture = -1, emissive_texture = -1;
     float alpha_cutoff = 0; ///< above 0: a masked material; anything with less alpha is cut out
+    bool blended = false; ///< what is behind it shows through by its alpha
     bool double_sided = false;
     bool unlit = false; ///< KHR_materials_unlit: the base colour is the radiance
     std::optional<Gloss> gloss; ///< none: matt

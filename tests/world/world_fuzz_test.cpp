@@ -70,6 +70,7 @@ Doc rich()
     first_material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 1}, {"texCoord", 1}};
     first_material["pbrMetallicRoughness"]["metallicFactor"] = 0.5;
     first_material["pbrMetallicRoughness"]["roughnessFactor"] = 0.25;
+    doc.json["materials"][1]["alphaMode"] = "BLEND";
     doc.json["materials"][1]["normalTexture"] = {{"index", 1}};
     doc.json["materials"][1]["extensions"]["KHR_materials_ior"] = {{"ior", 1.3}};
     doc.json["meshes"][1]["primitives"][0]["attributes"]["TANGENT"]

@@ -85,16 +85,10 @@ template <typename Info> Info as(const tinygltf::TextureInfo& from)
     return written;
 }
 
-void guard_alpha(const Spot& material, tinygltf::Material& written, GuardedGltf& out)
+void guard_alpha(const Spot& material, tinygltf::Material& written)
 {
     std::string mode = material.has("alphaMode") ? text(material["alphaMode"]) : "OPAQUE";
-    if (mode == "BLEND") {
-        note_once(out.notes, "blended transparency: surfaces are drawn where they cover half or more of what is behind");
-        written.alphaMode = "MASK";
-        written.alphaCutoff = 0.5;
-        return;
-    }
-    if (mode == "MASK")
+    if (mode == "MASK" || mode == "BLEND")
         written.alphaMode = mode;
     else if (mode != "OPAQUE")
         material["alphaMode"].fail("is " + in_quotes(mode) + "; should be \"OPAQUE\", \"MASK\" or \"BLEND\"");
@@ -122,7 +116,7 @@ void guard_material(const Spot& material, tinygltf::Material& written, const Spo
         written.emissiveTexture = guard_texture_info(material["emissiveTexture"], root);
     if (material.has("emissiveFactor"))
         written.emissiveFactor = numbers(material["emissiveFactor"], 3, 0, 1);
-    guard_alpha(material, written, out);
+    guard_alpha(material, written);
     if (material.has("doubleSided"))
         written.doubleSided = boolean(material["doubleSided"]);
     if (!material.has("extensions"))

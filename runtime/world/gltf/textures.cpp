@@ -403,6 +403,7 @@ void add_materials(WorldBuild& build)
         to.base_texture = shelf.place(pbr.baseColorTexture.index);
         to.double_sided = from.doubleSided;
         to.alpha_cutoff = from.alphaMode == "MASK" ? float(from.alphaCutoff) : 0;
+        to.blended = from.alphaMode == "BLEND";
         to.unlit = from.extensions.contains("KHR_materials_unlit");
         UvSource uv = uv_source(pbr.baseColorTexture);
         std::array<int, 2> sets{-1, -1};
