@@ -46,7 +46,7 @@ float reached_from_afar(ShadowEntry map, vec3 place)
     vec4 scale = fine ? vec4(1.0, 1.0, 0.0, 0.0) : map.coarse;
     vec2 texel = at.xy * scale.xy + scale.zw;
     slope /= scale.xy;
-    // What lies beyond the maps' depth has the number 0, as a ground does that is far larger than the things on it.
+    // A ground that is far larger than the things on it lies beyond the maps' depth, and has the number 0 there.
     float lit = reached_smoothly(map, texel, map.map.x + (fine ? 0.0 : 1.0), max(at.z, 0.0) + map.map.w, slope);
     return all(lessThan(abs(texel - half_), vec2(half_))) ? lit : 1.0;
 }

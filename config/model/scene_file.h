@@ -40,6 +40,7 @@ using Light = std::variant<DirectionalLight, PointLight>;
 struct Sky {
     glm::dvec3 zenith{0}, horizon{0}, nadir{0}; ///< Rec. 709 linear
     double temperature_K = 0; ///< 0: no glow. 2.725 is the microwave background's
+    bool has_colour() const { return zenith + horizon + nadir != glm::dvec3(0); } ///< beside its glow
 };
 
 /// The light of the stars that are too many to be told apart: a picture of the whole sky.

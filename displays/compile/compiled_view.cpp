@@ -1,6 +1,7 @@
 #include "compiled_view.h"
 #include "config/json/error.h"
 #include "config/json/hash.h"
+#include "config/json/kept_file.h"
 #include "config/json/whole_file.h"
 #include <algorithm>
 #include <array>
@@ -87,9 +88,7 @@ std::string key_of(const View& view, const std::string& warp)
     Hash hash;
     hash.add(key.text.str());
     hash.add(warp);
-    char name[32];
-    std::snprintf(name, sizeof name, "%016llx", (unsigned long long)hash.value);
-    return name;
+    return kept_name(hash.value, "");
 }
 
 struct Header {
@@ -127,9 +126,7 @@ std::shared_ptr<DirectionMap> read_map(const std::filesystem::path& file, const 
     if (!read(map->texels.data(), texels * sizeof(glm::vec4)) || !read(map->intensity.data(), intensities * sizeof(float))
         || content_hash(*map) != header.hash)
         return {};
-    std::error_code ignored;
-    std::filesystem::last_write_time(
-        file, std::filesystem::file_time_type::clock::now(), ignored); // marks the file as just read
+    mark_as_read(file);
     return map;
 }
 

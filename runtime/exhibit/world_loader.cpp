@@ -11,7 +11,7 @@ void WorldLoader::open(const std::filesystem::path& scene)
         return; // a future waits for its thread, so a reading in vain ends by itself first
     reading_ = wanted_;
     work_ = std::async(std::launch::async, [scene] {
-        // Of this thread and those that it starts: frames come first while a world's shadows are computed.
+        // Frames come before this thread and those that it starts, which may compute a world's shadows.
         setpriority(PRIO_PROCESS, 0, 3);
         return load_scene(scene);
     });

@@ -82,9 +82,7 @@ double grazing_mean(double cosine)
     return sum / (steps * steps);
 }
 
-} // namespace
-
-std::vector<GlossTexel> gloss_table()
+std::vector<GlossTexel> computed_table()
 {
     std::vector<GlossTexel> table;
     for (int row = 0; row < GLOSS_TABLE; ++row) {
@@ -97,6 +95,14 @@ std::vector<GlossTexel> gloss_table()
             texel.grazing = row == 0 ? float(grazing_mean(cosine)) : table[std::size_t(column)].grazing;
         }
     }
+    return table;
+}
+
+} // namespace
+
+const std::vector<GlossTexel>& gloss_table()
+{
+    static const std::vector<GlossTexel> table = computed_table();
     return table;
 }
 

@@ -119,9 +119,7 @@ TracingEye::Along TracingEye::along(
 /// The colour of the sky at rest, in a unit direction of the world.
 glm::dvec3 TracingEye::sky(const glm::dvec3& n) const
 {
-    const double height = n.y, h = std::min(std::abs(height), 1.0), part = h * h * (3 - 2 * h);
-    const Sky& sky = scene_.sky;
-    glm::dvec3 colour = glm::mix(sky.horizon, height > 0 ? sky.zenith : sky.nadir, part);
+    glm::dvec3 colour = sky_gradient(scene_.sky, n.y);
     if (world_.milky_way >= 0) {
         const glm::dvec3 there = equatorial_from_world_ * n;
         const double right_ascension = std::atan2(there.y, there.x),

@@ -76,9 +76,9 @@ GlossyHit::Parts GlossyHit::of_lamp(const glm::dvec3& towards) const
     const double grazing = schlick(glm::dot(facet, towards)), fresnel = dielectric_ + (1 - dielectric_) * grazing;
     double mirrored = 0;
     if (along > 0) {
-        const double density
-            = width_ * width_ / (std::numbers::pi * std::pow(across * across + width_ * width_ * along * along, 2));
-        mirrored = std::numbers::pi * density / (1 + lambda(light, width_) + lambda(eye, width_)) / (4 * eye);
+        const double density // times pi
+            = width_ * width_ / std::pow(across * across + width_ * width_ * along * along, 2);
+        mirrored = density / (1 + lambda(light, width_) + lambda(eye, width_)) / (4 * eye);
     }
     return {(1 - metallic_) * (1 - fresnel) * light + metallic_ * (1 - grazing) * mirrored,
         ((1 - metallic_) * fresnel + metallic_ * grazing) * mirrored};
@@ -88,12 +88,10 @@ GlossyHit::Colours GlossyHit::of_surroundings(
     const glm::dvec3& ambient, const std::function<glm::dvec3(const glm::dvec3&)>& around) const
 {
     constexpr int steps = 16;
-    const glm::dvec3 x
-        = glm::normalize(glm::cross(normal_, std::abs(normal_.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0))),
-        y = glm::cross(normal_, x);
-    glm::dvec3 eye(glm::dot(x, eye_), glm::dot(y, eye_), std::max(glm::dot(normal_, eye_), 1e-3));
+    const LineAxes axes(normal_);
+    glm::dvec3 eye(glm::dot(axes.x, eye_), glm::dot(axes.y, eye_), std::max(glm::dot(normal_, eye_), 1e-3));
     eye = glm::normalize(eye);
-    // The microfacets that the eye sees, evenly distributed (Heitz 2018, Sampling the GGX Distribution of Visible Normals).
+    // The microfacets that the eye sees (Heitz 2018, Sampling the GGX Distribution of Visible Normals).
     const glm::dvec3 stretched = glm::normalize(glm::dvec3(width_ * eye.x, width_ * eye.y, eye.z));
     const double level = std::hypot(stretched.x, stretched.y);
     const glm::dvec3 first = level > 0 ? glm::dvec3(-stretched.y, stretched.x, 0) / level : glm::dvec3(1, 0, 0);
@@ -118,7 +116,7 @@ GlossyHit::Colours GlossyHit::of_surroundings(
                 continue;
             const double part = weight * (1 + lambda(eye.z, width_)) / (1 + lambda(eye.z, width_) + lambda(light.z, width_));
             const double grazing = schlick(glm::dot(eye, facet));
-            const glm::dvec3 from = part * around(light.x * x + light.y * y + light.z * normal_);
+            const glm::dvec3 from = part * around(light.x * axes.x + light.y * axes.y + light.z * normal_);
             sum.by_base += metallic_ * (1 - grazing) * from;
             sum.white += (metallic_ * grazing + (1 - metallic_) * (dielectric_ + (1 - dielectric_) * grazing)) * from;
         }

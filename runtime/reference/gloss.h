@@ -19,14 +19,14 @@ public:
     struct Parts {
         double by_base = 0, white = 0;
     };
-    /// Of a lamp's, whose unit direction is `towards`; 0 from behind.
+    /// A lamp's light; 0 from behind. towards: unit, to the lamp.
     Parts of_lamp(const glm::dvec3& towards) const;
 
     struct Colours {
         glm::dvec3 by_base{0}, white{0};
     };
-    /// Of the light from all around: `ambient` on the matt part; reflected, `around` of each direction: sums over 144
-    /// visible microfacets.
+    /// Light from all around, as a sum over 256 visible microfacets. ambient: on the matt part. around: the light that is
+    /// mirrored from a unit direction.
     Colours of_surroundings(const glm::dvec3& ambient, const std::function<glm::dvec3(const glm::dvec3&)>& around) const;
 
 private:

@@ -34,6 +34,12 @@ double middle_sent(const World& world, const Instance& instance, const EyeEvent&
 
 } // namespace
 
+glm::dvec3 sky_gradient(const Sky& sky, double height)
+{
+    const double h = std::min(std::abs(height), 1.0), part = h * h * (3 - 2 * h);
+    return glm::mix(sky.horizon, height > 0 ? sky.zenith : sky.nadir, part);
+}
+
 Lighting::Lighting(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
     const EyeEvent& eye_event, const Occluders* occluders)
     : world_(world)
@@ -42,7 +48,7 @@ Lighting::Lighting(const World& world, const SceneFile& scene, const Pictures& p
     , colours_(colours)
     , eye_event_(eye_event)
     , occluders_(eye_event.frame == 0 ? occluders : nullptr)
-    , shadowed_(lights_with_shadows(world, scene))
+    , shadowed_(occluders_ ? lights_with_shadows(boxes_of(world), scene) : std::vector<bool>{})
 {
     for (const Lamp& lamp : world.lamps) {
         const Light& light = scene.lights[lamp.light];
@@ -110,9 +116,7 @@ glm::dvec3 Lighting::facet(const Met& met, const glm::dmat4& frame_from_local) c
 double Lighting::ambient_part(const glm::dvec3& place, const glm::dvec3& facet, const glm::dvec3& normal) const
 {
     constexpr int rays = 64;
-    const glm::dvec3 x
-        = glm::normalize(glm::cross(normal, std::abs(normal.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0))),
-        y = glm::cross(normal, x);
+    const LineAxes axes(normal);
     // Each place has its own turn of the same rays, so that a pixel's mean is that of all its places' rays.
     Hash hash;
     hash.add(&place, sizeof place);
@@ -122,7 +126,7 @@ double Lighting::ambient_part(const glm::dvec3& place, const glm::dvec3& facet, 
     for (int i = 0; i < rays; ++i) {
         const double square = (i + 0.5) / rays, turn = first + 2.399963229728653 * i; // the golden angle
         const glm::dvec3 way
-            = std::sqrt(square) * (std::cos(turn) * x + std::sin(turn) * y) + std::sqrt(1 - square) * normal;
+            = std::sqrt(square) * (std::cos(turn) * axes.x + std::sin(turn) * axes.y) + std::sqrt(1 - square) * normal;
         open += glm::dot(way, facet) > 0 && !occluders_->hidden(from, way, INFINITY);
     }
     return hidden_sky_part + (1 - hidden_sky_part) * open / rays;
@@ -142,12 +146,7 @@ bool Lighting::hidden(std::size_t index, const glm::dvec3& place, const glm::dve
 
 glm::dvec3 Lighting::around(const glm::dvec3& way) const
 {
-    const Sky& sky = scene_.sky;
-    const bool black = sky.zenith == glm::dvec3(0) && sky.horizon == glm::dvec3(0) && sky.nadir == glm::dvec3(0);
-    if (black || eye_event_.frame != 0)
-        return scene_.ambient;
-    const double height = std::min(std::abs(way.y), 1.0);
-    return glm::mix(sky.horizon, way.y > 0 ? sky.zenith : sky.nadir, height * height * (3 - 2 * height));
+    return scene_.sky.has_colour() && eye_event_.frame == 0 ? sky_gradient(scene_.sky, way.y) : scene_.ambient;
 }
 
 glm::dvec3 Lighting::seen(const Met& met, double D) const

@@ -5,6 +5,9 @@
 
 namespace starbow {
 
+/// The sky's colours around the world, without its glow and its Milky Way. height: the sine of the elevation.
+glm::dvec3 sky_gradient(const Sky& sky, double height);
+
 /// The light on the surfaces that rest in one frame, and the light that they reflect.
 class Lighting {
 public:

@@ -1,10 +1,9 @@
 #include "trace.h"
+#include "runtime/shadow/embree_scene.h"
 #include "runtime/world/moving.h"
 #include <algorithm>
 #include <cmath>
-#include <embree3/rtcore.h>
 #include <limits>
-#include <stdexcept>
 #include <unordered_map>
 
 namespace starbow {
@@ -17,21 +16,6 @@ struct Crossing {
     glm::dvec3 weights;
     double distance;
     bool front, inside;
-};
-
-/// A line's own axes: z is its unit direction, from which x and y are at right angles to rounding.
-struct LineAxes {
-    glm::dvec3 x, y, z;
-    explicit LineAxes(const glm::dvec3& way)
-        : z(way)
-    {
-        const glm::dvec3 size = glm::abs(way);
-        const glm::dvec3 other = size.x <= size.y && size.x <= size.z ? glm::dvec3(1, 0, 0)
-            : size.y <= size.z                                        ? glm::dvec3(0, 1, 0)
-                                                                      : glm::dvec3(0, 0, 1);
-        x = glm::normalize(glm::cross(other, way));
-        y = glm::cross(way, x);
-    }
 };
 
 /// Twice the area of the origin with a and b. Exchanging them exchanges the sign and nothing else.
@@ -78,16 +62,7 @@ struct Tracer::Scene {
     EyeEvent eye_event;
     double farthest_eye;
     std::vector<Triangle> triangles;
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
-
-    ~Scene()
-    {
-        if (scene)
-            rtcReleaseScene(scene);
-        if (device)
-            rtcReleaseDevice(device);
-    }
+    EmbreeScene embree;
 
     struct Query {
         RTCIntersectContext embree; // first: Embree hands it on
@@ -273,17 +248,12 @@ glm::dvec4 base_of(const World& world, const Pictures& pictures, const Met& met)
 }
 
 Tracer::Tracer(const World& world, const Pictures& pictures, const EyeEvent& eye_event, double farthest_eye)
-    : scene_(new Scene{world, pictures, eye_event, farthest_eye, {}, nullptr, nullptr})
+    : scene_(new Scene{world, pictures, eye_event, farthest_eye, {}, {}})
 {
     for (std::uint32_t i = 0; i < world.instances.size(); ++i)
         if (world.instances[i].frame == eye_event.frame && scene_->may_be_seen(world.instances[i]))
             scene_->add(i);
-    scene_->device = rtcNewDevice(nullptr);
-    if (!scene_->device)
-        throw std::runtime_error("rtcNewDevice: error " + std::to_string(rtcGetDeviceError(nullptr)));
-    scene_->scene = rtcNewScene(scene_->device);
-    rtcSetSceneFlags(scene_->scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry all = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_USER);
+    RTCGeometry all = rtcNewGeometry(scene_->embree.device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(all, unsigned(scene_->triangles.size()));
     rtcSetGeometryUserData(all, scene_.get());
     rtcSetGeometryBoundsFunction(
@@ -299,12 +269,8 @@ Tracer::Tracer(const World& world, const Pictures& pictures, const EyeEvent& eye
         auto& hit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
         own.scene->meet(arguments->primID, own, hit.ray.tfar);
     });
-    rtcCommitGeometry(all);
-    rtcAttachGeometry(scene_->scene, all);
-    rtcReleaseGeometry(all);
-    rtcCommitScene(scene_->scene);
-    if (const RTCError error = rtcGetDeviceError(scene_->device); error != RTC_ERROR_NONE)
-        throw std::runtime_error("rtcCommitScene: error " + std::to_string(error));
+    scene_->embree.attach(all, 0);
+    scene_->embree.commit();
 }
 
 Tracer::~Tracer() = default;
@@ -322,7 +288,7 @@ std::optional<Met> Tracer::nearest(const SightLine& line, double beyond) const
     hit.ray.tfar = std::numeric_limits<float>::infinity();
     hit.ray.mask = ~0u;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_->scene, &query.embree, &hit);
+    rtcIntersect1(scene_->embree.scene, &query.embree, &hit);
     return query.met;
 }
 

@@ -13,6 +13,21 @@ struct SightLine {
     double time; ///< the eye's, in the frame
 };
 
+/// A line's own axes: z is its unit direction, from which x and y are at right angles to rounding.
+struct LineAxes {
+    glm::dvec3 x, y, z;
+    explicit LineAxes(const glm::dvec3& way)
+        : z(way)
+    {
+        const glm::dvec3 size = glm::abs(way);
+        const glm::dvec3 other = size.x <= size.y && size.x <= size.z ? glm::dvec3(1, 0, 0)
+            : size.y <= size.z                                        ? glm::dvec3(0, 1, 0)
+                                                                      : glm::dvec3(0, 0, 1);
+        x = glm::normalize(glm::cross(other, way));
+        y = glm::cross(way, x);
+    }
+};
+
 /// The hit of a line of sight on a surface.
 struct Met {
     std::uint32_t instance; ///< index into World::instances

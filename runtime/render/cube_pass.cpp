@@ -96,7 +96,7 @@ SurfaceVariant CubePass::variant_of(const Draw& draw, StoredLight light) const
     variant.several_rest_frames = use_.several_rest_frames;
     variant.moves = draw.moves && !plain;
     if (!plain && !variant.unlit && !draw.moves && images_[draw.image].rest_frame == 0)
-        variant.shadows = world_.shadows();
+        variant.shadows = world_.shadows;
     return variant;
 }
 

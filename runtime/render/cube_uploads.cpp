@@ -146,7 +146,7 @@ void CubeUploads::write_shadows(shared::CubeConstants& constants, const EyeEvent
             entry.depth = row(map.axes[2], map.nothing, per_unit);
             const glm::dvec2 scale = map.texel[0] / map.texel[1], offset = (map.low[0] - map.low[1]) / map.texel[1];
             entry.coarse = glm::vec4(scale, offset);
-            // Of a surface 1.15 degrees from the light.
+            // The slope of a surface that the light meets at 1.15 degrees.
             entry.map.z = float(50 * std::max(map.texel[0].x, map.texel[0].y) * per_unit);
         }
 }

@@ -198,6 +198,11 @@ void put_shadows(Device& device, GpuWorld& gpu, World& world)
     gpu.sky_sampler = make_sampler(device, {.u = Wrap::clamp, .v = Wrap::clamp, .mipmaps = false});
     if (!from)
         return;
+    gpu.shadows = 1 << 16;
+    for (std::size_t i = 0; i < world.lamps.size(); ++i)
+        for (const ShadowMap& map : from->maps)
+            if (map.light == world.lamps[i].light)
+                gpu.shadows |= 1 << i | (map.point ? 256 << i : 0);
     auto kept = std::make_shared<Shadows>();
     kept->size = from->size, kept->maps = from->maps;
     kept->cells = from->cells, kept->low = from->low, kept->cell = from->cell;
@@ -205,18 +210,6 @@ void put_shadows(Device& device, GpuWorld& gpu, World& world)
 }
 
 } // namespace
-
-int GpuWorld::shadows() const
-{
-    if (!world.shadows)
-        return 0;
-    int bits = 1 << 16;
-    for (std::size_t i = 0; i < world.lamps.size(); ++i)
-        for (const ShadowMap& map : world.shadows->maps)
-            if (map.light == world.lamps[i].light)
-                bits |= 1 << i | (map.point ? 256 << i : 0);
-    return bits;
-}
 
 SurfaceVariant GpuWorld::variant(int material, StoredLight light) const
 {

@@ -43,6 +43,7 @@ struct GpuWorld {
     vk::raii::DescriptorPool pool = nullptr;
     std::vector<vk::raii::DescriptorSet> materials; ///< and last the sky's, which is like a material
 
+    int shadows = 0; ///< SurfaceVariant::shadows of still surfaces
     Image shadow_maps, sky_cells; ///< of World::shadows, which has no texels any more; one texel without shadows
     vk::raii::Sampler nearest_sampler = nullptr, sky_sampler = nullptr; ///< theirs
 
@@ -75,8 +76,6 @@ struct GpuWorld {
                                                   : CoefficientCounts{};
     }
     SurfaceVariant variant(int material, StoredLight light) const;
-    /// SurfaceVariant::shadows of still surfaces.
-    int shadows() const;
 };
 
 /// The sky's constants for the passes. cube_from_frame: the turn to the axes of the world's cube map.

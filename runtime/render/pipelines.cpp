@@ -59,6 +59,10 @@ namespace starbow {
 
 using Spirv = std::span<const std::uint32_t>;
 
+/// What a pass does to the light that is in its target: replaces it; covers it by alpha, premultiplied; adds to it; or
+/// multiplies it.
+enum class Blending { none, over, add, multiply };
+
 /// One pass's pipeline. What is not its name, its constants or its target is the same in every pipeline of that name.
 struct Pipelines::Pass {
     const char* name; ///< also for debuggers
@@ -66,8 +70,9 @@ struct Pipelines::Pass {
     vk::PipelineLayout layout;
     TargetKind target;
     SpecializationConstants constants; ///< the same in both stages
-    bool depth = false, vertices = false, maps = false, blend = false; ///< maps: beside the vertices, VertexMaps
-    bool points = false, added = false, multiplied = false;
+    bool depth = false, vertices = false, maps = false; ///< maps: beside the vertices, VertexMaps
+    bool points = false;
+    Blending blending = Blending::none;
 };
 
 namespace {
@@ -167,21 +172,18 @@ vk::raii::Pipeline Pipelines::make(const Pass& pass) const
     vk::PipelineMultisampleStateCreateInfo samples({}, pass.target.samples);
     vk::PipelineDepthStencilStateCreateInfo depth;
     depth.depthTestEnable = pass.depth;
-    depth.depthWriteEnable = pass.depth && pass.vertices && !pass.added && !pass.multiplied;
+    depth.depthWriteEnable = pass.depth && pass.vertices && pass.blending == Blending::none;
     depth.depthCompareOp = vk::CompareOp::eGreaterOrEqual;
     vk::PipelineColorBlendAttachmentState blend;
     blend.colorWriteMask = vk::FlagTraits<vk::ColorComponentFlagBits>::allFlags;
-    if (pass.blend || pass.added) {
-        blend.blendEnable = true;
-        blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = vk::BlendFactor::eOne;
-        blend.dstColorBlendFactor = blend.dstAlphaBlendFactor
-            = pass.added ? vk::BlendFactor::eOne : vk::BlendFactor::eOneMinusSrcAlpha;
-    }
-    if (pass.multiplied) {
-        blend.blendEnable = true;
-        blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = vk::BlendFactor::eZero;
-        blend.dstColorBlendFactor = vk::BlendFactor::eSrcColor, blend.dstAlphaBlendFactor = vk::BlendFactor::eSrcAlpha;
-    }
+    using Factor = vk::BlendFactor;
+    const bool multiplies = pass.blending == Blending::multiply;
+    blend.blendEnable = pass.blending != Blending::none;
+    blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = multiplies ? Factor::eZero : Factor::eOne;
+    blend.dstColorBlendFactor = blend.dstAlphaBlendFactor
+        = pass.blending == Blending::add ? Factor::eOne : Factor::eOneMinusSrcAlpha;
+    if (multiplies)
+        blend.dstColorBlendFactor = Factor::eSrcColor, blend.dstAlphaBlendFactor = Factor::eSrcAlpha;
     std::vector<vk::PipelineColorBlendAttachmentState> blends(pass.target.colours.size(), blend);
     vk::PipelineColorBlendStateCreateInfo blending({}, false, {}, blends);
     std::vector<vk::DynamicState> dynamic = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
@@ -215,8 +217,9 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
         .depth = true,
         .vertices = true,
         .maps = v.mapped,
-        .added = v.blend == 2,
-        .multiplied = v.blend == 1});
+        .blending = v.blend == 0 ? Blending::none
+            : v.blend == 1       ? Blending::multiply
+                                 : Blending::add});
 }
 
 vk::Pipeline Pipelines::sky(bool milky_way, const TargetKind& target)
@@ -267,7 +270,7 @@ vk::Pipeline Pipelines::stars(const WarpVariant& v, vk::Format target)
         .target = {{target}},
         .constants = all,
         .points = true,
-        .added = true});
+        .blending = Blending::add});
 }
 
 vk::Pipeline Pipelines::measure(const WarpVariant& v)
@@ -300,7 +303,7 @@ vk::Pipeline Pipelines::overlay(const WarpVariant& v, int overlay, vk::Format ta
         .layout = *layouts.overlay_layout,
         .target = {{target}},
         .constants = all,
-        .blend = true});
+        .blending = Blending::over});
 }
 
 vk::Pipeline Pipelines::mip(vk::Format target)
@@ -343,7 +346,7 @@ vk::Pipeline Pipelines::bloom(bool up, bool first)
         .layout = *layouts.picture_layout,
         .target = {{light_format}},
         .constants = {up, first},
-        .blend = up});
+        .blending = up ? Blending::over : Blending::none});
 }
 
 vk::Pipeline Pipelines::bloomed(bool range, vk::Format target)
@@ -364,7 +367,7 @@ vk::Pipeline Pipelines::hud(bool map, vk::Format target, bool scale, bool light)
         .layout = *layouts.picture_layout,
         .target = {{target}},
         .constants = {map, scale, light},
-        .blend = true});
+        .blending = Blending::over});
 }
 
 vk::Pipeline Pipelines::lookup(vk::Format target)
@@ -394,7 +397,7 @@ vk::Pipeline Pipelines::layer(bool plain)
         .layout = *layouts.picture_layout,
         .target = {{light_format}},
         .constants = {plain},
-        .added = true});
+        .blending = Blending::add});
 }
 
 vk::Pipeline Pipelines::finish(const FinishVariant& v, vk::Format target)
@@ -414,7 +417,7 @@ vk::Pipeline Pipelines::fade(vk::Format target)
         .fragment = fade_frag,
         .layout = *layouts.picture_layout,
         .target = {{target}},
-        .blend = true});
+        .blending = Blending::over});
 }
 
 vk::Pipeline Pipelines::vignette(bool map, vk::Format target)
@@ -425,7 +428,7 @@ vk::Pipeline Pipelines::vignette(bool map, vk::Format target)
         .layout = *layouts.warp_layout,
         .target = {{target}},
         .constants = {map},
-        .blend = true});
+        .blending = Blending::over});
 }
 
 vk::Pipeline Pipelines::pattern(bool map, int pattern, vk::Format target)

@@ -1,8 +1,8 @@
 #include "add_shadows.h"
+#include "config/json/kept_file.h"
 #include "fill.h"
 #include "runtime/world/worldline.h"
 #include "shadow_cache.h"
-#include <algorithm>
 
 namespace starbow {
 namespace {
@@ -19,37 +19,7 @@ World placed(const World& world, const SceneFile& scene)
     return all;
 }
 
-Shadows without_texels(const World& world, const SceneFile& scene, Boxes& boxes, int& layers)
-{
-    Shadows shadows;
-    boxes = boxes_of(world);
-    shadows.maps = maps_of(world, scene, boxes, shadows.size, layers);
-    return shadows;
-}
-
-void fill(Shadows& shadows, const Boxes& boxes, int layers, const Occluders& occluders,
-    const std::function<void(double)>& progress)
-{
-    shadows.texels.resize(std::size_t(layers) * std::size_t(shadows.size) * std::size_t(shadows.size));
-    for (const ShadowMap& map : shadows.maps)
-        fill_map(
-            shadows, map, occluders, progress, 0.5 * map.layer / layers, 0.5 * (map.layer + (map.point ? 6 : 2)) / layers);
-    fill_sky(shadows, boxes.around_middle, occluders, progress, 0.5);
-}
-
 } // namespace
-
-Shadows shadows_of(const World& world, const SceneFile& scene, const std::function<void(double)>& progress)
-{
-    if (std::none_of(world.instances.begin(), world.instances.end(),
-            [&](const Instance& instance) { return hides_light(world, instance); }))
-        return {};
-    Boxes boxes;
-    int layers = 0;
-    Shadows shadows = without_texels(world, scene, boxes, layers);
-    fill(shadows, boxes, layers, Occluders(world, world.instances), progress);
-    return shadows;
-}
 
 bool add_shadows(
     World& world, const SceneFile& scene, const std::filesystem::path& folder, const std::function<void(double)>& progress)
@@ -68,24 +38,28 @@ bool add_shadows(
             + " triangles, too many for shadows: at most " + std::to_string(most_triangles) + " are right");
         return false;
     }
-    Boxes boxes;
+    const Boxes boxes = boxes_of(all);
+    auto shadows = std::make_shared<Shadows>();
     int layers = 0;
-    auto shadows = std::make_shared<Shadows>(without_texels(all, scene, boxes, layers));
+    shadows->maps = maps_of(scene, boxes, shadows->size, layers);
     if (shadows->maps.size() < scene.lights.size())
         world.notes.push_back("of its " + std::to_string(scene.lights.size()) + " lamps "
             + std::to_string(shadows->maps.size())
             + " have shadows: those that rest near its still things, of point lamps the first three");
     const std::uint64_t key = shadows_key(world, all, scene);
-    char name[32];
-    std::snprintf(name, sizeof name, "%016llx.shadow", (unsigned long long)key);
-    bool written = false;
-    if (folder.empty() || !read_kept_shadows(folder / name, key, *shadows)) {
-        fill(*shadows, boxes, layers, Occluders(world, all.instances), progress);
-        written = !folder.empty() && write_kept_shadows(folder / name, key, *shadows);
+    const std::filesystem::path file = folder / kept_name(key, ".shadow");
+    const bool known = !folder.empty() && read_kept_shadows(file, key, *shadows);
+    if (known) {
+        mark_as_read(file);
     } else {
-        std::error_code ignored; // marks the file as just read
-        std::filesystem::last_write_time(folder / name, std::filesystem::file_time_type::clock::now(), ignored);
+        const Occluders occluders(world, all.instances);
+        shadows->texels.resize(std::size_t(layers) * std::size_t(shadows->size) * std::size_t(shadows->size));
+        for (const ShadowMap& map : shadows->maps)
+            fill_map(*shadows, map, occluders, progress, 0.5 * map.layer / layers,
+                0.5 * (map.layer + (map.point ? 6 : 2)) / layers);
+        fill_sky(*shadows, boxes.around_middle, occluders, progress, 0.5);
     }
+    const bool written = !known && !folder.empty() && write_kept_shadows(file, key, *shadows);
     world.shadows = std::move(shadows);
     return written;
 }

@@ -1,6 +1,5 @@
 #pragma once
 #include "config/model/scene_file.h"
-#include "runtime/world/shadows.h"
 #include "runtime/world/world.h"
 #include <filesystem>
 #include <functional>
@@ -13,8 +12,5 @@ namespace starbow {
 /// not. progress: the done part, 0 to 1. Returns true if it has written a file.
 bool add_shadows(World& world, const SceneFile& scene, const std::filesystem::path& folder = {},
     const std::function<void(double)>& progress = {});
-
-/// The computation; empty where nothing hides light. world: after place_bodies.
-Shadows shadows_of(const World& world, const SceneFile& scene, const std::function<void(double)>& progress = {});
 
 } // namespace starbow

@@ -7,7 +7,7 @@
 namespace starbow {
 
 /// The maps that the scene's lamps get, the directional ones first. size: of a map; layers: the number of maps in all.
-std::vector<ShadowMap> maps_of(const World& world, const SceneFile& scene, const Boxes& boxes, int& size, int& layers);
+std::vector<ShadowMap> maps_of(const SceneFile& scene, const Boxes& boxes, int& size, int& layers);
 
 /// Fills a lamp's maps. progress: from `from` to `to`.
 void fill_map(Shadows& shadows, const ShadowMap& map, const Occluders& occluders,

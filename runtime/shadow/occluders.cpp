@@ -1,8 +1,8 @@
 #include "occluders.h"
+#include "embree_scene.h"
 #include <algorithm>
 #include <cmath>
-#include <embree3/rtcore.h>
-#include <stdexcept>
+#include <new>
 
 namespace starbow {
 namespace {
@@ -41,16 +41,7 @@ struct Occluders::Scene {
     const World& world;
     std::vector<Triangle> whole, masked;
     double extent = 0;
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
-
-    ~Scene()
-    {
-        if (scene)
-            rtcReleaseScene(scene);
-        if (device)
-            rtcReleaseDevice(device);
-    }
+    EmbreeScene embree;
 
     const Material& material_of(const Triangle& triangle) const
     {
@@ -104,7 +95,7 @@ struct Occluders::Scene {
 
     void attach(const std::vector<glm::vec3>& places, unsigned id, bool filtered)
     {
-        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        RTCGeometry geometry = rtcNewGeometry(embree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* to = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
             sizeof(glm::vec3), std::max<std::size_t>(places.size(), 1)));
         auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
@@ -119,9 +110,7 @@ struct Occluders::Scene {
             rtcSetGeometryIntersectFilterFunction(geometry, filter);
             rtcSetGeometryOccludedFilterFunction(geometry, filter);
         }
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(scene, geometry, id);
-        rtcReleaseGeometry(geometry);
+        embree.attach(geometry, id);
     }
 
     RTCRay ray(const glm::dvec3& from, const glm::dvec3& way, double far) const
@@ -136,24 +125,17 @@ struct Occluders::Scene {
 };
 
 Occluders::Occluders(const World& world, std::span<const Instance> instances)
-    : scene_(new Scene{world, {}, {}, 0, nullptr, nullptr})
+    : scene_(new Scene{world, {}, {}, 0, {}})
 {
     std::vector<glm::vec3> whole, masked;
     for (const Instance& instance : instances)
         if (hides_light(world, instance))
             scene_->add(instance, whole, masked);
-    scene_->device = rtcNewDevice(nullptr);
-    if (!scene_->device)
-        throw std::runtime_error("rtcNewDevice: error " + std::to_string(rtcGetDeviceError(nullptr)));
-    scene_->scene = rtcNewScene(scene_->device);
-    rtcSetSceneFlags(scene_->scene, RTC_SCENE_FLAG_ROBUST);
     if (!whole.empty())
         scene_->attach(whole, 0, false);
     if (!masked.empty())
         scene_->attach(masked, 1, true);
-    rtcCommitScene(scene_->scene);
-    if (const RTCError error = rtcGetDeviceError(scene_->device); error != RTC_ERROR_NONE)
-        throw std::runtime_error("rtcCommitScene: error " + std::to_string(error));
+    scene_->embree.commit();
 }
 
 Occluders::~Occluders() = default;
@@ -166,7 +148,7 @@ std::optional<Occluders::Hit> Occluders::first(const glm::dvec3& from, const glm
     RTCRayHit hit{};
     hit.ray = scene_->ray(from, way, far);
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_->scene, &context, &hit);
+    rtcIntersect1(scene_->embree.scene, &context, &hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return {};
     const Scene::Triangle& triangle = (hit.hit.geomID == 0 ? scene_->whole : scene_->masked)[hit.hit.primID];
@@ -179,7 +161,7 @@ bool Occluders::hidden(const glm::dvec3& from, const glm::dvec3& way, double far
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRay ray = scene_->ray(from, way, far);
-    rtcOccluded1(scene_->scene, &context, &ray);
+    rtcOccluded1(scene_->embree.scene, &context, &ray);
     return ray.tfar < 0;
 }
 

@@ -44,9 +44,9 @@ ShadowMap across(const glm::dvec3& towards, const Boxes& boxes, int size, double
 
 } // namespace
 
-std::vector<ShadowMap> maps_of(const World& world, const SceneFile& scene, const Boxes& boxes, int& size, int& layers)
+std::vector<ShadowMap> maps_of(const SceneFile& scene, const Boxes& boxes, int& size, int& layers)
 {
-    const std::vector<bool> has = lights_with_shadows(world, scene);
+    const std::vector<bool> has = lights_with_shadows(boxes, scene);
     std::vector<std::size_t> far, near;
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         if (has[i])

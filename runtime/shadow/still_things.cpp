@@ -2,6 +2,7 @@
 #include "occluders.h"
 #include "runtime/world/boxes.h"
 #include "runtime/world/outline.h"
+#include "runtime/world/shadows.h"
 #include <algorithm>
 #include <cmath>
 
@@ -47,9 +48,7 @@ Boxes boxes_of(const World& world)
     const double longest = std::max({size.x, size.y, size.z});
     double ground = boxes.middle.low.y;
     for (const AlignedBox& thing : things) {
-        const glm::dvec3 own = thing.high - thing.low;
-        const bool flat = own.y < 0.05 * std::max(own.x, own.z);
-        if (flat && thing.high.y < boxes.middle.low.y && thing.high.y > boxes.middle.low.y - 1.5 * longest)
+        if (is_flat(thing) && thing.high.y < boxes.middle.low.y && thing.high.y > boxes.middle.low.y - 1.5 * longest)
             ground = std::min(ground, thing.high.y);
     }
     // Things take the sky from the ground as far around as they are high.
@@ -59,9 +58,8 @@ Boxes boxes_of(const World& world)
     return boxes;
 }
 
-std::vector<bool> lights_with_shadows(const World& world, const SceneFile& scene)
+std::vector<bool> lights_with_shadows(const Boxes& boxes, const SceneFile& scene)
 {
-    const Boxes boxes = boxes_of(world);
     const glm::dvec3 centre = 0.5 * (boxes.around_middle.low + boxes.around_middle.high);
     const double reach = glm::distance(boxes.around_middle.low, boxes.around_middle.high);
     std::vector<bool> has;
@@ -74,11 +72,11 @@ std::vector<bool> lights_with_shadows(const World& world, const SceneFile& scene
     return has;
 }
 
-std::string lacking_shadows(const World& world, const SceneFile& scene)
+void note_lacking_shadows(const SceneFile& scene, const World& world, std::vector<std::string>& notes)
 {
-    if (!scene.shadows || (scene.bodies.empty() && world.motions.empty()))
-        return "";
-    return "things that move cast no shadows and receive none";
+    const bool moves = !scene.bodies.empty() || !world.motions.empty();
+    if (scene.shadows && moves && std::ranges::find(notes, no_moving_shadows) == notes.end())
+        notes.push_back(no_moving_shadows);
 }
 
 } // namespace starbow

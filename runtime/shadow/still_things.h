@@ -16,11 +16,11 @@ struct Boxes {
 Boxes boxes_of(const World& world);
 
 /// True for each of the scene's lights that has shadows: all directional ones, and the first three point lights that rest
-/// among the still things, or near them: a map around a lamp that is far away would be too coarse. world: after
-/// place_bodies.
-std::vector<bool> lights_with_shadows(const World& world, const SceneFile& scene);
+/// among the still things, or near them: a map around a lamp that is far away would be too coarse. boxes: boxes_of the
+/// world.
+std::vector<bool> lights_with_shadows(const Boxes& boxes, const SceneFile& scene);
 
-/// A sentence about the shadows that a scene's pictures lack; empty: none. world: before place_bodies or after it.
-std::string lacking_shadows(const World& world, const SceneFile& scene);
+/// Notes, once, that things that move have no shadows, where a scene's others have them.
+void note_lacking_shadows(const SceneFile& scene, const World& world, std::vector<std::string>& notes);
 
 } // namespace starbow

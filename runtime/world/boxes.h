@@ -1,5 +1,6 @@
 #pragma once
 #include "config/model/flying.h"
+#include <algorithm>
 
 namespace starbow {
 
@@ -21,6 +22,13 @@ inline AlignedBox transformed(const AlignedBox& box, const glm::dmat4& transform
     for (int which = 1; which < 8; ++which)
         out = around(out, {corner(which), corner(which)});
     return out;
+}
+
+/// True for a thing as flat as a ground: less than a tenth as high as wide.
+inline bool is_flat(const AlignedBox& box)
+{
+    const glm::dvec3 size = box.high - box.low;
+    return size.y < 0.1 * std::max(size.x, size.z);
 }
 
 } // namespace starbow

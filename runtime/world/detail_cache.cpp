@@ -1,6 +1,7 @@
 #include "detail_cache.h"
 #include "config/json/error.h"
 #include "config/json/hash.h"
+#include "config/json/kept_file.h"
 #include "config/json/whole_file.h"
 #include "detail.h"
 #include <meshoptimizer.h>
@@ -140,14 +141,11 @@ bool add_kept_detail_levels(World& world, const std::filesystem::path& folder, c
     }
     Header header;
     header.key = key_of(world);
-    char name[32];
-    std::snprintf(name, sizeof name, "%016llx.detail", (unsigned long long)header.key);
-    const std::filesystem::path file = folder / name;
+    const std::filesystem::path file = folder / kept_name(header.key, ".detail");
     Kept kept;
     if (read_kept(file, header.key, world, kept)) {
         take(std::move(kept), world);
-        std::error_code ignored; // marks the file as just read
-        std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), ignored);
+        mark_as_read(file);
         return false;
     }
     add_detail_levels(world, progress);

@@ -70,7 +70,7 @@ Meetings meetings_of(const World& world, const SceneFile& scene, const Reflectan
                     std::fill_n(set->begin() + kinds.first_shift, kinds.shifts, true);
         }
     }
-    if (scene.sky.zenith + scene.sky.horizon + scene.sky.nadir != glm::dvec3(0) || scene.milky_way() > 0)
+    if (scene.sky.has_colour() || scene.milky_way() > 0)
         meet[0][0] = true;
     return meet;
 }

@@ -5,6 +5,7 @@
 #include "config/model/file_kind.h"
 #include "moving.h"
 #include "outline.h"
+#include "shadows.h"
 #include "world.h"
 #include <algorithm>
 #include <array>
@@ -157,7 +158,7 @@ SceneFile scene_around(const std::filesystem::path& gltf)
                                                            : " s")
         + "; starbow check " + scene.file + " --write " + scene.name + ".json writes both for you to change");
     if (outline.moves)
-        scene.notes.push_back("things that move cast no shadows and receive none");
+        scene.notes.push_back(no_moving_shadows);
     return scene;
 }
 

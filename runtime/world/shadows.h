@@ -7,8 +7,11 @@
 
 namespace starbow {
 
-/// Of the ambient light that surfaces hide from a place, they send this part themselves: the reflectance of stone and soil.
+/// A surface that hides the sky from a place sends this part of the ambient light there: the reflectance of stone and soil.
 constexpr double hidden_sky_part = 0.4;
+
+/// Said of a scene with shadows in which something moves.
+constexpr const char* no_moving_shadows = "things that move cast no shadows and receive none";
 
 /// Square maps of how far the light of a resting lamp reaches, Shadows::size texels along each side.
 struct ShadowMap {
@@ -17,8 +20,8 @@ struct ShadowMap {
                         ///< the world, and one of all of it
     int layer = 0; ///< its first map
     glm::dvec3 place{0}; ///< of a point light
-    /// Of a directional one: unit axes across the light and towards the lamp. Both maps' lowest corners along the first
-    /// two, and a texel's size, scene units.
+    /// Unit axes of a directional light: two across it, and the third towards the lamp. Both maps' lowest corners along
+    /// the first two, and a texel's size, scene units.
     std::array<glm::dvec3, 3> axes{};
     glm::dvec2 low[2]{}, texel[2]{};
     /// The place along the third axis, or minus the distance from a point light, of a texel's 0 and of its 1.

@@ -99,7 +99,7 @@ std::array<glm::dvec3, 6> sky_colours(const SceneFile& scene)
 std::array<glm::dvec3, 3> surroundings_of(const SceneFile& scene, int frame)
 {
     const Sky& sky = scene.sky;
-    if (frame > 0 || (sky.zenith == glm::dvec3(0) && sky.horizon == glm::dvec3(0) && sky.nadir == glm::dvec3(0)))
+    if (frame > 0 || !sky.has_colour())
         return {scene.ambient, scene.ambient, scene.ambient};
     return {sky.zenith, sky.horizon, sky.nadir};
 }

@@ -13,6 +13,7 @@ sys.path.insert(0, str(HERE.parent / "avenue"))
 import shapes
 from dials import Dials
 from glb import Glb
+from land import quad
 
 ROAD, PAVED = 4.2, 6.6  # half widths of the roadway and of all between the houses
 NEAR, FAR = 34, -84  # walls with an archway, through which trams come and go
@@ -84,16 +85,6 @@ def paints(town):
     town.paint("skin", (0.62, 0.38, 0.27))
     town.paint("scarf", (0.70, 0.12, 0.05))
     town.paint("cloud", (0.90, 0.90, 0.92), emissive=(0.16, 0.17, 0.19))
-
-
-def quad(a, b, c, d):
-    """Counter-clockwise from the front; four vertices alone."""
-    shape = shapes.Shape()
-    normal = shapes.unit(shapes.cross(tuple(q - p for p, q in zip(a, b)), tuple(q - p for p, q in zip(a, d))))
-    for p in (a, b, c, d):
-        shape.vertex(p, normal, (p[0], p[2]))
-    shape.indices += [0, 1, 2, 0, 2, 3]
-    return shape
 
 
 def add_street(town):

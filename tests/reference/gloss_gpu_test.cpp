@@ -1,8 +1,6 @@
 // Glossy surfaces live, beside the reference, which has the reflection in other forms: sums over microfacets instead of a
 // table, the lobes by Smith's own function. Every kind of light and of spectrum meets gloss here.
-#include "runtime/images/picture_errors.h"
-#include "runtime/reference/reference.h"
-#include "tests/support/small_world.h"
+#include "tests/support/beside_rays.h"
 #include <cmath>
 
 namespace starbow::gpu_test::gloss_gpu_test {
@@ -112,29 +110,12 @@ struct Case {
 
 void compare(const Case& one)
 {
-    testing::write_text("gloss.gltf", one.doc.text());
     Json scene = one.scene;
-    scene["gltf"] = "gloss.gltf";
-    scene["unit_m"] = 299792458;
     scene["ambient"] = {0.3, 0.32, 0.35};
-    const ReferenceWorld world = open_reference_world(testing::write_text("gloss.json", scene.dump()));
-    const GpuWorld gpu = upload(device(), pipelines(), load_world(world.scene), world.scene);
-    const Layout layout = one_view(Planar{.fov_y_deg = 50}, {240, 160});
     Shot shot = shot_at({0, 0, 0}, one.u, {0, 0, -1});
     shot.effects = one.effects;
-    OffscreenRenderer live = renderer(gpu, layout, true);
-    const Bytes picture = live.picture(shot)[0];
-    const Reference truth = reference(world.input(), layout, shot, 0, {.samples = 8});
-    const double db = psnr_dB({layout.outputs[0].size, picture}, {layout.outputs[0].size, shown(truth)});
-    const Numbers numbers(live, shot);
-    std::vector<double> off;
-    for (int i = 0; i < numbers.count(); ++i)
-        if (!std::isinf(numbers.depth(i))) {
-            const dvec3 rays = truth.light[0][std::size_t(i)] / truth.exposure;
-            off.push_back(glm::length(numbers.light(i) - rays) / glm::length(rays));
-        }
+    const auto [db, off] = beside_rays(one.doc, scene, one_view(Planar{.fov_y_deg = 50}, {240, 160}), shot, 8, true, 0);
     ASSERT_GT(off.size(), 500u) << one.name;
-    std::sort(off.begin(), off.end());
     std::printf("%s: %.1f dB, light off by %.4f in the middle, %.4f at 9 of 10\n", one.name, db, off[off.size() / 2],
         off[off.size() * 9 / 10]);
     EXPECT_LT(off[off.size() / 2], one.median) << one.name;

@@ -1,7 +1,5 @@
 // Blended surfaces: sums known in closed form, their order, moving ones, and the reference beside the live picture.
-#include "runtime/images/picture_errors.h"
-#include "runtime/reference/reference.h"
-#include "tests/support/small_world.h"
+#include "tests/support/beside_rays.h"
 
 namespace starbow::gpu_test::blended_gpu_test {
 namespace {
@@ -90,27 +88,11 @@ Doc panes()
     return doc;
 }
 
-void compare(const char* name, const Doc& doc, Json scene, const dvec3& u, double floor_db)
+void compare(const char* name, const Doc& doc, const Json& scene, const dvec3& u, double floor_db)
 {
-    testing::write_text("panes.gltf", doc.text());
-    scene["gltf"] = "panes.gltf";
-    scene["unit_m"] = 299792458;
-    const ReferenceWorld world = open_reference_world(testing::write_text("panes.json", scene.dump()));
-    const GpuWorld gpu = upload(device(), pipelines(), load_world(world.scene), world.scene);
-    const Layout layout = one_view(Planar{.fov_y_deg = 60}, {240, 180});
     Shot shot = shot_at({0, 0, 0}, u);
     shot.effects = {true, true, true};
-    OffscreenRenderer live = renderer(gpu, layout, true);
-    const auto picture = live.picture(shot)[0];
-    const Reference truth = reference(world.input(), layout, shot, 0, {.samples = 16});
-    const double db = psnr_dB({layout.outputs[0].size, picture}, {layout.outputs[0].size, shown(truth)});
-    const Numbers numbers(live, shot);
-    std::vector<double> off;
-    for (int i = 0; i < numbers.count(); ++i) {
-        const dvec3 rays = truth.light[0][std::size_t(i)] / truth.exposure;
-        off.push_back(glm::length(numbers.light(i) - rays) / std::max(glm::length(rays), 1e-3));
-    }
-    std::sort(off.begin(), off.end());
+    const auto [db, off] = beside_rays(doc, scene, one_view(Planar{.fov_y_deg = 60}, {240, 180}), shot, 16, false, 1e-3);
     std::printf("%s: %.1f dB, light off by %.4f in the middle, %.4f at 9 of 10\n", name, db, off[off.size() / 2],
         off[off.size() * 9 / 10]);
     EXPECT_GT(db, floor_db) << name;

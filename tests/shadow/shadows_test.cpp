@@ -91,7 +91,10 @@ TEST_F(ShadowsTest, ThingsThatMoveOrShineHideNothing)
         {"at", {{"time", 0}, {"position", {0, 0, 0}}}}};
     const SceneFile scene = scene_of(doc, {{"lights", {sun}}, {"bodies", {body}}});
     World world = load_world(scene);
-    EXPECT_EQ(lacking_shadows(world, scene), "things that move cast no shadows and receive none");
+    std::vector<std::string> notes;
+    for (int again = 0; again < 2; ++again)
+        note_lacking_shadows(scene, world, notes);
+    EXPECT_EQ(notes, std::vector<std::string>{"things that move cast no shadows and receive none"});
     place_bodies(world, scene);
     const Occluders rays(world, world.instances);
     EXPECT_EQ(rays.triangles(), 2u);
@@ -118,8 +121,8 @@ TEST_F(ShadowsTest, ASunsMapsHoldWhatItsLightMeets)
     wall(doc, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}); // a roof 1 above the ground: under 45 degrees its shadow is 1 to the left
     const SceneFile scene = scene_of(doc, {{"lights", {sun}}});
     World world = load_world(scene);
-    place_bodies(world, scene);
-    const Shadows shadows = shadows_of(world, scene);
+    add_shadows(world, scene);
+    const Shadows& shadows = *world.shadows;
     ASSERT_EQ(shadows.maps.size(), 1u);
     const ShadowMap& map = shadows.maps[0];
     EXPECT_NEAR(glm::distance(map.axes[2], glm::normalize(glm::dvec3(1, 1, 0))), 0, 1e-12);
@@ -143,10 +146,10 @@ TEST_F(ShadowsTest, APointLampsMapsHoldDistances)
     far["position"] = {0, 300, 0};
     const SceneFile scene = scene_of(doc, {{"lights", {lamp, far, lamp, lamp, lamp}}});
     World world = load_world(scene);
-    place_bodies(world, scene);
-    EXPECT_EQ(lights_with_shadows(world, scene), (std::vector<bool>{true, false, true, true, false}))
+    EXPECT_EQ(lights_with_shadows(boxes_of(world), scene), (std::vector<bool>{true, false, true, true, false}))
         << "not of the far one, and of three at most";
-    const Shadows shadows = shadows_of(world, scene);
+    add_shadows(world, scene);
+    const Shadows& shadows = *world.shadows;
     ASSERT_EQ(shadows.maps.size(), 3u);
     const ShadowMap& map = shadows.maps[0];
     for (double x = -2.8; x < 2.8; x += 0.21)
@@ -191,8 +194,8 @@ TEST_F(ShadowsTest, TheGridTellsTheVisiblePartOfTheSky)
     wall(doc, {-4, 5, 0}, {0, 0, -10}, {0, 5, 0}); // a wall as high as the ground is wide, its front towards +x
     const SceneFile scene = scene_of(doc, {{"lights", {sun}}});
     World world = load_world(scene);
-    place_bodies(world, scene);
-    const Shadows shadows = shadows_of(world, scene);
+    add_shadows(world, scene);
+    const Shadows& shadows = *world.shadows;
     // Far from the wall the ground sees the whole sky, a surface at right angles half of it. The ground ends after 10.
     EXPECT_NEAR(sky_part(shadows, {9, 0.2, 0}, {0, 1, 0}), 0.97, 0.06);
     EXPECT_NEAR(sky_part(shadows, {0, 0.3, 0}, {0, -1, 0}), 0, 0.07);

@@ -119,8 +119,7 @@ int check_scene(const std::string& name)
     if (world.globes)
         print_globes(scene, *world.globes);
     place_bodies(world, scene);
-    if (const std::string lacking = lacking_shadows(world, scene); !lacking.empty())
-        world.notes.push_back(lacking);
+    note_lacking_shadows(scene, world, world.notes);
     for (const std::string& note : world.notes)
         std::printf("note: %s\n", note.c_str());
     const NeededLevel needed = needed_level(world, scene);

@@ -193,9 +193,7 @@ int check_world(const std::string& name, const std::string& page_name, const std
         out << "<tr><td>" << escaped_html(fact.name) << "</td><td>" << escaped_html(fact.value) << "</td></tr>\n";
     out << "</table>\n";
     std::vector<std::string> notes = context.world.world.notes;
-    if (const std::string lacking = lacking_shadows(context.world.world, context.world.scene);
-        !lacking.empty() && std::ranges::find(notes, lacking) == notes.end())
-        notes.push_back(lacking);
+    note_lacking_shadows(context.world.scene, context.world.world, notes);
     if (!notes.empty()) {
         out << "<h2>To know</h2>\n<ul>\n";
         for (const std::string& note : notes)

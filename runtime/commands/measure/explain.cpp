@@ -1,8 +1,6 @@
 #include "explain.h"
 #include "runtime/commands/median.h"
 #include "runtime/render/pass_timer.h"
-#include "runtime/world/detail.h"
-#include "runtime/world/open_scene.h"
 #include <cmath>
 #include <cstdio>
 #include <functional>

@@ -173,8 +173,10 @@ struct Source {
     Elements indices; ///< unset for a primitive without indices
     std::size_t triangles = 0;
     std::uint32_t vertex_offset = 0; ///< of its first vertex in the world
-    std::vector<std::uint32_t> touched; ///< the vertices with an entry in build.placed
-    std::vector<std::uint32_t> vertices; ///< of the file, in the order in which the world has them
+    bool mapped = false; ///< its material needs VertexMaps
+    /// The file's vertices in the order in which the world has them: of smooth triangles, with an entry in build.placed; of
+    /// flat ones only where VertexMaps are needed.
+    std::vector<std::uint32_t> vertices;
 };
 
 /// Opens a primitive's attributes and indices, and makes room for its triangles.
@@ -206,6 +208,7 @@ Source open_source(
     if (build.placed.size() < attributes.position.count)
         build.placed.resize(attributes.position.count, none);
     source.vertex_offset = std::uint32_t(build.world.vertices.size());
+    source.mapped = look.mapped();
     return source;
 }
 
@@ -234,7 +237,6 @@ void add_smooth(WorldBuild& build, Source& source, const std::array<std::uint32_
         if (placed == none) {
             make_room(build, source.place, 1, 0);
             placed = std::uint32_t(world.vertices.size()) - source.vertex_offset;
-            source.touched.push_back(vertex);
             source.vertices.push_back(vertex);
             world.vertices.push_back(read_vertex(build, source.attributes, vertex, source.uv, source.place));
         }
@@ -248,7 +250,8 @@ void add_flat(WorldBuild& build, Source& source, const std::array<std::uint32_t,
     World& world = build.world;
     for (std::uint32_t vertex : corner) {
         world.indices.push_back(std::uint32_t(world.vertices.size()) - source.vertex_offset);
-        source.vertices.push_back(vertex);
+        if (source.mapped)
+            source.vertices.push_back(vertex);
         world.vertices.push_back(read_vertex(build, source.attributes, vertex, source.uv, source.place));
     }
     const auto end = world.vertices.end();
@@ -292,14 +295,14 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
         else
             add_flat(build, source, corner);
     }
-    for (std::uint32_t vertex : source.touched)
+    for (std::uint32_t vertex : source.vertices)
         build.placed[vertex] = none;
     made.index_count = std::uint32_t(world.indices.size()) - made.first_index;
     if (made.index_count == 0)
         return false;
     set_bounds(world, made);
     world.primitives.push_back(made);
-    if (world.materials[std::size_t(material)].mapped())
+    if (source.mapped)
         add_vertex_maps(build, place, from, pose, source.vertices);
     return true;
 }

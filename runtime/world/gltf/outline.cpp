@@ -72,8 +72,6 @@ double across(const AlignedBox& box) { return glm::distance(box.low, box.high); 
 
 /// So many times as far across as all smaller things together.
 constexpr double backdrop = 3;
-/// A backdrop so flat is a ground.
-constexpr double flat = 0.1;
 
 } // namespace
 
@@ -90,8 +88,7 @@ Middle middle_of(std::vector<AlignedBox> things)
         --last;
     Middle middle{inner[last], inner[last].low.y};
     for (std::size_t i = last + 1; i < things.size(); ++i) {
-        const glm::dvec3 size = things[i].high - things[i].low;
-        if (size.y < flat * std::max(size.x, size.z) && things[i].high.y < 0.5 * (middle.box.low.y + middle.box.high.y))
+        if (is_flat(things[i]) && things[i].high.y < 0.5 * (middle.box.low.y + middle.box.high.y))
             middle.floor = std::max(middle.floor, things[i].high.y);
     }
     return middle;

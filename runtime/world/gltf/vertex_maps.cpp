@@ -104,7 +104,7 @@ void compute_tangents(WorldBuild& build, const std::string& place, const Map& ma
     }
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const glm::dvec3 n(world.vertices[first + i].normal);
-        // Where the map has no area, any direction along the surface will do.
+        // A map without area has no direction of its own: any one along the surface is right.
         glm::dvec3 along = glm::length(sum[i]) > 0
             ? sum[i]
             : glm::cross(n, std::abs(n.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0));
