@@ -7,11 +7,13 @@ layout(constant_id = 9) const bool CLOCK = false;
 layout(constant_id = 10) const bool FINITE_EXISTENCE = false;
 layout(constant_id = 13) const bool BLINK = false;
 layout(constant_id = 14) const bool MOVES = false; // animated
+layout(constant_id = 22) const bool DEFORMS = false; // and of a changing shape
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 1) readonly buffer Instances { InstanceEntry instances[]; };
 layout(set = 0, binding = 2) readonly buffer Visible { uint visible[]; };
 layout(set = 0, binding = 4) readonly buffer Times { TimeEntry times[]; };
+layout(set = 0, binding = 7) readonly buffer Deforming { vec4 deforming[]; }; // World::deforming
 layout(push_constant) uniform Push { CubePush push; };
 
 layout(location = 0) in vec3 position;
@@ -34,43 +36,96 @@ layout(location = 4) flat out uint out_instance;
 
 #include "light_travel_offset.glsl"
 
-vec4 placed(InstanceEntry at)
+// A vertex in its own coordinates, and its transform to the cube map's axes.
+struct Surface {
+    InstanceEntry at;
+    vec3 position, normal, tangent;
+};
+
+vec4 placed(Surface surface)
 {
-    vec4 local = vec4(position, 1.0);
-    return vec4(dot(at.row0, local), dot(at.row1, local), dot(at.row2, local), 1.0);
+    vec4 local = vec4(surface.position, 1.0);
+    return vec4(dot(surface.at.row0, local), dot(surface.at.row1, local), dot(surface.at.row2, local), 1.0);
 }
 
-// Finds the instance's pose at this point's retarded time: a fixed point whose error shrinks fivefold in each round.
-InstanceEntry as_seen(InstanceEntry at, TimeEntry time)
+// Adds a part of an entry of two neighbouring poses.
+void add_pose(inout InstanceEntry sum, float weight, int before, int step, float part)
 {
-    int first = int(cube.first.z) + int(time.poses.x);
+    sum.row0 += weight * mix(instances[before].row0, instances[before + step].row0, part);
+    sum.row1 += weight * mix(instances[before].row1, instances[before + step].row1, part);
+    sum.row2 += weight * mix(instances[before].row2, instances[before + step].row2, part);
+}
+
+const InstanceEntry nothing = InstanceEntry(vec4(0.0), vec4(0.0), vec4(0.0));
+
+// A deforming surface between two neighbouring poses (glTF 2.0, sections 3.7.2.2 and 3.7.3).
+Surface deformed(TimeEntry time, int before, float part)
+{
+    int entries = int(time.deforming.x), targets = int(time.deforming.y);
+    int row = floatBitsToInt(time.deforming.z) + DEFORMING_VERTEX_ROWS * gl_VertexIndex;
+    int displacement = floatBitsToInt(time.deforming.w) + DISPLACEMENT_ROWS * targets * gl_VertexIndex;
+    Surface surface = Surface(nothing, deforming[row].xyz, deforming[row + 1].xyz, deforming[row + 2].xyz);
+    vec4 weights = deforming[row + 3], bones = deforming[row + 4];
+    for (int k = 0; k < 4; ++k)
+        if (weights[k] > 0.0)
+            add_pose(surface.at, weights[k], before + int(bones[k]), entries, part);
+    int first_weights = before + entries - (targets + WEIGHTS_PER_ENTRY - 1) / WEIGHTS_PER_ENTRY;
+    InstanceEntry own = nothing;
+    for (int target = 0; target < targets; ++target) {
+        int within = target % WEIGHTS_PER_ENTRY;
+        if (within == 0) {
+            own = nothing;
+            add_pose(own, 1.0, first_weights + target / WEIGHTS_PER_ENTRY, entries, part);
+        }
+        vec4 four = within < 4 ? own.row0 : within < 8 ? own.row1 : own.row2;
+        surface.position += four[within % 4] * deforming[displacement + DISPLACEMENT_ROWS * target].xyz;
+        surface.normal += four[within % 4] * deforming[displacement + DISPLACEMENT_ROWS * target + 1].xyz;
+    }
+    return surface;
+}
+
+// Finds the surface at this point's retarded time: a fixed point whose error shrinks fivefold in each round.
+Surface as_seen(Surface surface, TimeEntry time)
+{
+    int first = int(cube.first.z) + int(time.poses.x), entries = DEFORMS ? int(time.deforming.x) : 1;
+    if (DEFORMS)
+        surface = deformed(time, first + POSES / 2 * entries, 0.0);
     for (int round_ = 0; round_ < 6; ++round_) {
-        float after = travel_offset_from(placed(at).xyz, time.middle) - time.poses.w;
+        float after = travel_offset_from(placed(surface).xyz, time.middle) - time.poses.w;
         float steps = float(POSES / 2) + after * (after < 0.0 ? time.poses.y : time.poses.z);
         steps = clamp(steps, 0.0, float(POSES) - 1.001);
-        int k = first + int(steps);
-        float part = fract(steps);
-        at.row0 = mix(instances[k].row0, instances[k + 1].row0, part);
-        at.row1 = mix(instances[k].row1, instances[k + 1].row1, part);
-        at.row2 = mix(instances[k].row2, instances[k + 1].row2, part);
+        int before = first + int(steps) * entries;
+        if (DEFORMS) {
+            surface = deformed(time, before, fract(steps));
+        } else {
+            surface.at = nothing;
+            add_pose(surface.at, 1.0, before, 1, fract(steps));
+        }
     }
-    return at;
+    return surface;
 }
 
 void main()
 {
-    InstanceEntry instance = instances[visible[gl_InstanceIndex]];
+#ifdef MAPPED
+    Surface surface = Surface(instances[visible[gl_InstanceIndex]], position, normal, tangent.xyz);
+#else
+    Surface surface = Surface(instances[visible[gl_InstanceIndex]], position, normal, vec3(0.0));
+#endif
     if (MOVES)
-        instance = as_seen(instance, times[visible[gl_InstanceIndex] - uint(cube.first.x) + uint(cube.first.y)]);
-    vec3 x = vec3(instance.row0.x, instance.row1.x, instance.row2.x);
-    vec3 y = vec3(instance.row0.y, instance.row1.y, instance.row2.y);
-    vec3 z = vec3(instance.row0.z, instance.row1.z, instance.row2.z);
-    vec4 place = placed(instance);
+        surface = as_seen(surface, times[visible[gl_InstanceIndex] - uint(cube.first.x) + uint(cube.first.y)]);
+    InstanceEntry at = surface.at;
+    vec3 x = vec3(at.row0.x, at.row1.x, at.row2.x);
+    vec3 y = vec3(at.row0.y, at.row1.y, at.row2.y);
+    vec3 z = vec3(at.row0.z, at.row1.z, at.row2.z);
+    vec4 place = placed(surface);
     // Cofactors transform normals under any scale; their sign is the determinant's.
     vec3 yz = cross(y, z);
-    out_normal = (yz * normal.x + cross(z, x) * normal.y + cross(x, y) * normal.z) * sign(dot(x, yz));
+    vec3 n = surface.normal;
+    out_normal = (yz * n.x + cross(z, x) * n.y + cross(x, y) * n.z) * sign(dot(x, yz));
 #ifdef MAPPED
-    out_tangent = vec4(x * tangent.x + y * tangent.y + z * tangent.z, tangent.w * sign(dot(x, yz)));
+    vec3 t = surface.tangent;
+    out_tangent = vec4(x * t.x + y * t.y + z * t.z, tangent.w * sign(dot(x, yz)));
     out_uvs = uvs;
 #endif
     out_place = place.xyz;

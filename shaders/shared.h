@@ -24,6 +24,7 @@
 #define MOST_PARALLAX 0.35 // radians between two eyes' directions of a point, at most: nearer surfaces all have this value
 #define MAX_LIGHTS 8
 #define POSES 17 // odd; poses of an animated instance, around the retarded time of its middle
+#define WEIGHTS_PER_ENTRY 12 // of morph targets, in an InstanceEntry
 #define MAX_REST_FRAMES 16 // velocities of moving bodies, and rest
 #define MOST_REFLECTED 12 // basis coefficients of reflected sunlight
 #define MAX_OWN 4 // emission basis spectra of a scene, each with one coefficient
@@ -116,10 +117,25 @@ struct CubeConstants {
     LightEntry lights[MAX_LIGHTS];
 };
 
-// One instance relative to one eye: rows of cube_from_local.
+// One instance relative to one eye: rows of cube_from_local. A pose of a deforming instance has such an entry for each bone,
+// and after them entries of its targets' weights.
 struct InstanceEntry {
     vec4 row0, row1, row2;
 };
+
+// A vertex of a deforming surface before it deforms, in its mesh's coordinates.
+struct DeformingVertex {
+    vec4 position, normal, tangent; // w: not used
+    vec4 weights; // of its bones; their sum is 1
+    vec4 bones; // their indices
+};
+#define DEFORMING_VERTEX_ROWS 5
+
+// What a morph target of weight 1 adds to a vertex.
+struct Displacement {
+    vec4 position, normal; // w: not used
+};
+#define DISPLACEMENT_ROWS 2
 
 // The times of an instance relative to one eye: of clocks, of blinking and animated instances, and of those with finite
 // existence.
@@ -131,6 +147,8 @@ struct TimeEntry {
     vec4 there; // x, y: the light-travel offsets from the middle between which it existed
     vec4 poses; // of an animated instance: x: its first pose, from the rest frame's first; y, z: poses per scene time
                 // before the middle one, and after it; w: the middle one's offset
+    vec4 deforming; // of a deforming instance: x: entries of each pose; y: targets; z: its first vertex' row, w: its first
+                    // displacement's, both as the bits of integers
     vec4 blink; // x: the elapsed part of a period, 0 to 1; y: periods per scene unit of time; z: the part in which it is on
 };
 

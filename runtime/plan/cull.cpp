@@ -2,11 +2,13 @@
 #include "painters_order.h"
 #include "runtime/world/instances.h"
 #include "runtime/world/moving.h"
+#include "runtime/world/shape.h"
 #include "scratch.h"
 #include "shaders/physics/physics.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <tuple>
 
 namespace starbow {
@@ -150,6 +152,7 @@ Placed placed(const World& world, const Instance& instance, const EyeEvent& eye_
     const SeenPose seen = seen_pose(world, instance, eye_event);
     Placed out{standing(seen.frame_from_local, eye_event), {}};
     out.box = box_of(primitive, out.at.turn, out.at.place);
+    out.box.centre = out.at.turn * middle_of(world, instance) + out.at.place;
     for (int i = 0; i < 3; ++i)
         out.box.half[i] = glm::dvec3(0), out.box.half[i][i] = seen.window;
     out.box.distance = std::max(0.0, glm::length(out.box.centre) - seen.window);
@@ -220,18 +223,40 @@ void find_caps(const DrawList& list, std::size_t rest_frame, std::vector<Boundin
 
 namespace {
 
+/// Adds a pose of a deforming instance: its bones, and its targets' weights.
+void add_shape(const World& world, const Instance& instance, const EyeEvent& eye_event, double time, DrawList& list)
+{
+    const Deformation& deformation = world.deformations[std::size_t(instance.deformation)];
+    Shape shape(world, instance, time);
+    for (std::size_t bone = 0; bone < deformation.bones.size(); ++bone)
+        list.instances.push_back(entry_of(standing(shape.bone(bone), eye_event)));
+    for (int target = 0; target < deformation.targets; ++target) {
+        if (target % WEIGHTS_PER_ENTRY == 0)
+            list.instances.emplace_back();
+        glm::vec4* const rows[] = {&list.instances.back().row0, &list.instances.back().row1, &list.instances.back().row2};
+        (*rows[target % WEIGHTS_PER_ENTRY / 4])[target % 4] = float(shape.weight(target));
+    }
+}
+
 /// Adds the poses of animated instances around their retarded times.
 void add_poses(const World& world, std::span<const EyeEvent> eye_events, DrawList& list)
 {
     for (const EyeEvent& eye_event : eye_events) {
         list.first_pose.push_back(std::uint32_t(list.instances.size()));
+        std::set<int> known; // motions of deforming meshes
         const InstanceRange range = instances_of(world, eye_event.frame);
         for (std::size_t i = range.first; i < range.last && !world.motions.empty(); ++i) {
             const Instance& instance = world.instances[i];
             if (instance.motion < 0)
                 continue;
-            for (double time : pose_times(world, instance, seen_pose(world, instance, eye_event)))
-                list.instances.push_back(entry_of(standing(pose_at(world, instance, time), eye_event)));
+            if (instance.deformation >= 0 && !known.insert(instance.motion).second)
+                continue; // of the same mesh
+            for (double time : pose_times(world, instance, seen_pose(world, instance, eye_event))) {
+                if (instance.deformation < 0)
+                    list.instances.push_back(entry_of(standing(pose_at(world, instance, time), eye_event)));
+                else
+                    add_shape(world, instance, eye_event, time, list);
+            }
         }
     }
 }
@@ -338,7 +363,7 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
                     ? DetailLevel{primitive.first_index, primitive.index_count, 0, 0, primitive.clusters}
                     : primitive.coarser[level - 1];
                 Draw draw{i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()), detail.first_index,
-                    detail.index_count, kind.first, kind.second};
+                    detail.index_count, kind.first, kind.second, primitive.deforming >= 0};
                 list.visible.insert(list.visible.end(), seen.begin(), seen.end());
                 if (world.materials[std::size_t(primitive.material)].blended) {
                     draw.blended = true, draw.count = 1;

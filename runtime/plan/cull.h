@@ -11,13 +11,14 @@ struct Draw {
     std::uint32_t first_index, index_count;
     bool finite_existence = false; ///< its instances need the existence test
     bool moves = false; ///< animated
+    bool deforms = false;
     bool blended = false; ///< one instance of a blended surface
 };
 
 /// The draws of one eye's cube pass.
 struct DrawList {
-    std::vector<shared::InstanceEntry> instances; ///< by rest frame, in the world's order; behind each frame's, POSES
-                                                  ///< entries for each animated one, in the same order
+    std::vector<shared::InstanceEntry> instances; ///< by rest frame, in the world's order; behind each frame's, the
+                                                  ///< POSES poses of each animated one, in the same order
     std::vector<std::uint32_t> first_pose; ///< by rest frame, in `instances`
     std::vector<std::uint32_t> first; ///< by rest frame, in `instances`
     std::vector<std::uint32_t> visible; ///< indices into `instances`

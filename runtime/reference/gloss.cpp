@@ -28,8 +28,8 @@ double schlick(double cosine) { return std::pow(1 - std::clamp(cosine, 0.0, 1.0)
 
 } // namespace
 
-GlossyHit::GlossyHit(const World& world, const Pictures& pictures, const Met& met, const glm::dmat3& frame_from_local,
-    const glm::dvec3& facet)
+GlossyHit::GlossyHit(
+    const World& world, const Pictures& pictures, const Met& met, const SurfaceAxes& axes, const glm::dvec3& facet)
     : normal_(facet)
     , eye_(-met.way)
 {
@@ -50,18 +50,14 @@ GlossyHit::GlossyHit(const World& world, const Pictures& pictures, const Met& me
     // The map's axes on the outer side; on a back side all three are turned round.
     const double side = met.front ? 1 : -1;
     const glm::dvec3 outer = side * facet;
-    glm::dvec3 along(0);
     double sense = 0;
-    for (int k = 0; k < 3; ++k) {
-        along += met.weights[k] * glm::dvec3(world.vertex_maps[met.corners[k]].tangent);
+    for (int k = 0; k < 3; ++k)
         sense += met.weights[k] * double(world.vertex_maps[met.corners[k]].tangent.w);
-    }
-    along = frame_from_local * along;
-    along -= outer * glm::dot(outer, along);
+    glm::dvec3 along = axes.tangent - outer * glm::dot(outer, axes.tangent);
     if (!(glm::length(along) > 0))
         return;
     along = glm::normalize(along);
-    const glm::dvec3 other = glm::cross(outer, along) * (sense * (glm::determinant(frame_from_local) < 0 ? -1.0 : 1.0));
+    const glm::dvec3 other = glm::cross(outer, along) * (sense * axes.sense);
     const glm::dvec3 map = (glm::dvec3(map_at(world, pictures, met, gloss.normal)) * 255.0 - 128.0) / 127.0;
     normal_ = side * glm::normalize(gloss.normal_scale * (map.x * along + map.y * other) + map.z * outer);
 }

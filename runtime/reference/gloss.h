@@ -5,13 +5,20 @@
 
 namespace starbow {
 
+/// A surface's own axes at a hit, in the frame's axes.
+struct SurfaceAxes {
+    glm::dvec3 normal{0}; ///< unit, on the outer side
+    glm::dvec3 tangent{0}; ///< as VertexMaps::tangent, of any length
+    double sense = 1; ///< -1 where the transform mirrors
+};
+
 /// The reflection of a glossy surface at a hit, by glTF's metallic-roughness model (glTF 2.0, appendix B). All light is over
 /// that of a matt white surface that faces its source.
 class GlossyHit {
 public:
-    /// The material has gloss. frame_from_local: the hit's. facet: unit normal of the side that is seen, without the map.
-    GlossyHit(const World& world, const Pictures& pictures, const Met& met, const glm::dmat3& frame_from_local,
-        const glm::dvec3& facet);
+    /// The material has gloss. facet: unit normal of the side that is seen, without the map.
+    GlossyHit(
+        const World& world, const Pictures& pictures, const Met& met, const SurfaceAxes& axes, const glm::dvec3& facet);
 
     const glm::dvec3& normal() const { return normal_; } ///< unit, with the map
 

@@ -6,6 +6,7 @@
 #include "runtime/world/clock.h"
 #include "runtime/world/moving.h"
 #include "runtime/world/shadows.h"
+#include "runtime/world/shape.h"
 #include "runtime/world/worldline.h"
 #include "shaders/physics/physics.h"
 #include <cmath>
@@ -14,12 +15,6 @@ namespace starbow {
 namespace {
 
 const ExistenceInterval always{-for_ever, for_ever};
-
-/// An instance's own time at its frame's time 0.
-double zero_of(const World& world, const Instance& instance)
-{
-    return instance.existence < 0 ? 0 : world.existence_intervals[std::size_t(instance.existence)].zero;
-}
 
 /// The retarded time of the middle of an instance's box.
 double middle_sent(const World& world, const Instance& instance, const EyeEvent& eye_event)
@@ -30,6 +25,31 @@ double middle_sent(const World& world, const Instance& instance, const EyeEvent&
     const glm::dvec4 middle(0.5 * (primitive.low + primitive.high), 1);
     return retarded_time(
         eye_event, eye_event.cube_from_frame * (glm::dvec3(instance.frame_from_local * middle) - eye_event.place));
+}
+
+SurfaceAxes axes_at(const World& world, const Met& met)
+{
+    const Instance& instance = world.instances[met.instance];
+    SurfaceAxes axes;
+    if (instance.deformation >= 0) {
+        Shape shape(world, instance, met.sent);
+        for (int k = 0; k < 3; ++k) {
+            const PlacedVertex vertex = shape.vertex(met.corners[k]);
+            axes.normal += met.weights[k] * vertex.normal, axes.tangent += met.weights[k] * vertex.tangent;
+            axes.sense = vertex.mirrored ? -1 : 1;
+        }
+    } else {
+        const glm::dmat3 m(instance.motion >= 0 ? pose_at(world, instance, met.sent) : instance.frame_from_local);
+        for (int k = 0; k < 3; ++k) {
+            axes.normal += met.weights[k] * glm::dvec3(world.vertices[met.corners[k]].normal);
+            if (!world.vertex_maps.empty())
+                axes.tangent += met.weights[k] * glm::dvec3(world.vertex_maps[met.corners[k]].tangent);
+        }
+        axes.normal = glm::transpose(glm::inverse(m)) * axes.normal, axes.tangent = m * axes.tangent;
+        axes.sense = glm::determinant(m) < 0 ? -1 : 1;
+    }
+    axes.normal = glm::normalize(axes.normal);
+    return axes;
 }
 
 } // namespace
@@ -178,11 +198,8 @@ glm::dvec3 Lighting::seen(const Met& met, double D) const
     if (material.unlit)
         return sent + colours_.lit(index, Colours::sunlight, base, glm::dvec3(1), D);
 
-    glm::dvec3 local(0);
-    for (int k = 0; k < 3; ++k)
-        local += met.weights[k] * glm::dvec3(world_.vertices[met.corners[k]].normal);
-    const glm::dmat3 m(instance.motion >= 0 ? pose_at(world_, instance, met.sent) : instance.frame_from_local);
-    glm::dvec3 normal = glm::normalize(glm::transpose(glm::inverse(m)) * local) * (met.front ? 1.0 : -1.0);
+    const SurfaceAxes axes = axes_at(world_, met);
+    glm::dvec3 normal = axes.normal * (met.front ? 1.0 : -1.0);
     const glm::dvec3 place = eye_event_.place + met.place;
     const bool shaded = occluders_ && instance.motion < 0;
     const glm::dvec3 side = shaded ? facet(met, instance.frame_from_local) : normal;
@@ -190,7 +207,7 @@ glm::dvec3 Lighting::seen(const Met& met, double D) const
     std::optional<GlossyHit> gloss;
     glm::dvec3 all = sent;
     if (material.gloss) {
-        gloss.emplace(world_, pictures_, met, m, normal);
+        gloss.emplace(world_, pictures_, met, axes, normal);
         normal = gloss->normal();
         const GlossyHit::Colours light
             = gloss->of_surroundings(scene_.ambient, [&](const glm::dvec3& way) { return around(way); });

@@ -8,6 +8,7 @@
 #include "overlap.h"
 #include "runtime/light/colour.h"
 #include "runtime/light/srgb.h"
+#include "runtime/world/fastest_motion.h"
 #include "runtime/world/moving.h"
 #include "runtime/world/open_scene.h"
 #include "runtime/world/worldline.h"
@@ -357,6 +358,7 @@ std::uint64_t sum_of(const ReferenceInput& input, const Layout& layout)
     const World& world = input.world;
     sum.add(world.vertices.data(), world.vertices.size() * sizeof(Vertex));
     sum.add(world.vertex_maps.data(), world.vertex_maps.size() * sizeof(VertexMaps));
+    sum.add(world.deforming.data(), world.deforming.size() * sizeof(glm::vec4));
     sum.add(world.indices.data(), world.indices.size() * sizeof(std::uint32_t));
     for (const Texture& texture : world.textures)
         sum.add(texture.rgba.data(), texture.rgba.size());

@@ -1,7 +1,9 @@
 #include "trace.h"
 #include "runtime/shadow/embree_scene.h"
 #include "runtime/world/moving.h"
+#include "runtime/world/shape.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -45,6 +47,24 @@ std::optional<Crossing> crossing(const glm::dvec3 (&p)[3], const LineAxes& line)
     return Crossing{weights, distance, sum < 0, inside};
 }
 
+/// The places of vertices of an animated instance at a time of its frame.
+template <std::size_t count>
+std::array<glm::dvec3, count> places_at(
+    const World& world, const Instance& instance, const std::uint32_t (&vertices)[count], double time)
+{
+    std::array<glm::dvec3, count> places;
+    if (instance.deformation < 0) {
+        const glm::dmat4 pose = pose_at(world, instance, time);
+        for (std::size_t k = 0; k < count; ++k)
+            places[k] = glm::dvec3(pose * glm::dvec4(glm::dvec3(world.vertices[vertices[k]].position), 1));
+        return places;
+    }
+    Shape shape(world, instance, time);
+    for (std::size_t k = 0; k < count; ++k)
+        places[k] = shape.vertex(vertices[k]).place;
+    return places;
+}
+
 float below(double x) { return std::nextafter(float(std::clamp(x, -1e37, 1e37)), -1e38f); }
 float above(double x) { return std::nextafter(float(std::clamp(x, -1e37, 1e37)), 1e38f); }
 
@@ -80,13 +100,13 @@ struct Tracer::Scene {
     }
 
     /// The retarded position of an animated instance's corner, from the eye event's place.
-    glm::dvec3 seen_corner(const Instance& instance, const glm::dvec3& local) const
+    glm::dvec3 seen_corner(const Instance& instance, std::uint32_t vertex) const
     {
         const SightLine line{glm::dvec3(0), glm::dvec3(0), eye_event.time};
         glm::dvec3 place(0);
         double time = eye_event.time;
         for (int round = 0; round < 60; ++round) {
-            place = glm::dvec3(pose_at(world, instance, time) * glm::dvec4(local, 1)) - eye_event.place;
+            place = places_at(world, instance, {vertex}, time)[0] - eye_event.place;
             const double next = sent(line, place);
             if (std::abs(next - time) <= 4 * tiny * std::abs(time) || next == time)
                 break;
@@ -101,12 +121,12 @@ struct Tracer::Scene {
         const Primitive& primitive = world.primitives[instance.primitive];
         std::unordered_map<std::uint32_t, glm::dvec3> seen; // an animated corner takes a while to compute
         auto place_of = [&](std::uint32_t vertex) {
-            const glm::dvec3 local(world.vertices[vertex].position);
             if (instance.motion < 0)
-                return glm::dvec3(instance.frame_from_local * glm::dvec4(local, 1)) - eye_event.place;
+                return glm::dvec3(instance.frame_from_local * glm::dvec4(glm::dvec3(world.vertices[vertex].position), 1))
+                    - eye_event.place;
             const auto [at, is_new] = seen.try_emplace(vertex);
             if (is_new)
-                at->second = seen_corner(instance, local);
+                at->second = seen_corner(instance, vertex);
             return at->second;
         };
         for (std::uint32_t i = 0; i + 2 < primitive.index_count; i += 3) {
@@ -172,10 +192,9 @@ struct Tracer::Scene {
             return at;
         // The pose at the retarded time: the time at which its plane is met by light that leaves at that time.
         auto met_at = [&](double t) {
-            const glm::dmat4 pose = pose_at(world, instance, t);
+            const auto places = places_at(world, instance, triangle.corners, t);
             for (int k = 0; k < 3; ++k)
-                p[k] = glm::dvec3(pose * glm::dvec4(glm::dvec3(world.vertices[triangle.corners[k]].position), 1))
-                    - eye_event.place - line.from;
+                p[k] = places[std::size_t(k)] - eye_event.place - line.from;
             return crossing(p, axes);
         };
         double before = 0, off_before = 0;

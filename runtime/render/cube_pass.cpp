@@ -94,7 +94,7 @@ SurfaceVariant CubePass::variant_of(const Draw& draw, StoredLight light) const
     const bool plain = light == StoredLight::plain;
     variant.finite_existence = draw.finite_existence && !plain;
     variant.several_rest_frames = use_.several_rest_frames;
-    variant.moves = draw.moves && !plain;
+    variant.moves = draw.moves && !plain, variant.deforms = draw.deforms && !plain;
     if (!plain && !variant.unlit && !draw.moves && images_[draw.image].rest_frame == 0)
         variant.shadows = world_.shadows;
     return variant;

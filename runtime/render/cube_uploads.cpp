@@ -24,7 +24,7 @@ CubeUploads::CubeUploads(Device& device, const Pipelines& pipelines, const GpuWo
     name_object(device, tiles_view_, "cube pass: tiles view");
     std::vector<vk::DescriptorPoolSize> sizes
         = {{vk::DescriptorType::eUniformBufferDynamic, 1}, {vk::DescriptorType::eUniformBuffer, 1},
-            {vk::DescriptorType::eStorageBuffer, 3}, {vk::DescriptorType::eCombinedImageSampler, 2}};
+            {vk::DescriptorType::eStorageBuffer, 4}, {vk::DescriptorType::eCombinedImageSampler, 2}};
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
     name_object(device, pool_, "cube pass: descriptor pool");
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.layouts.eye_set}).front());
@@ -32,8 +32,10 @@ CubeUploads::CubeUploads(Device& device, const Pipelines& pipelines, const GpuWo
     const vk::DescriptorImageInfo maps(
         *world.nearest_sampler, *world.shadow_maps.view, vk::ImageLayout::eShaderReadOnlyOptimal),
         cells(*world.sky_sampler, *world.sky_cells.view, vk::ImageLayout::eShaderReadOnlyOptimal);
+    const vk::DescriptorBufferInfo deforming(*world.deforming.buffer, 0, VK_WHOLE_SIZE);
     device.device.updateDescriptorSets(
-        {vk::WriteDescriptorSet(*set_, 5, 0, vk::DescriptorType::eCombinedImageSampler, maps),
+        {vk::WriteDescriptorSet(*set_, 7, 0, vk::DescriptorType::eStorageBuffer, nullptr, deforming),
+            vk::WriteDescriptorSet(*set_, 5, 0, vk::DescriptorType::eCombinedImageSampler, maps),
             vk::WriteDescriptorSet(*set_, 6, 0, vk::DescriptorType::eCombinedImageSampler, cells)},
         {});
 }

@@ -3,6 +3,7 @@
 #include "mip_chain.h"
 #include "runtime/light/gloss.h"
 #include "runtime/light/srgb.h"
+#include "runtime/world/fastest_motion.h"
 #include "runtime/world/instances.h"
 #include "runtime/world/moving.h"
 #include "runtime/world/shadows.h"
@@ -310,6 +311,10 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
             device, std::as_bytes(std::span(world.vertex_maps)), vk::BufferUsageFlagBits::eVertexBuffer);
         name_object(device, gpu.vertex_maps, "world: vertex maps");
     }
+    const std::vector<glm::vec4> rigid(1);
+    gpu.deforming = make_static_buffer(device, std::as_bytes(std::span(world.deforming.empty() ? rigid : world.deforming)),
+        vk::BufferUsageFlagBits::eStorageBuffer);
+    name_object(device, gpu.deforming, "world: deforming vertices");
     const std::uint32_t white = 0xffffffff;
     gpu.white = make_texture(device, vk::Format::eR8G8B8A8Unorm, {1, 1}, std::as_bytes(std::span(&white, 1)), false);
     name_object(device, gpu.white, "world: white");
@@ -323,7 +328,7 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
     if (world.globes)
         gpu.globes = std::make_unique<GpuGlobes>(device, world.globes, scene.globes.value(), scene.seconds_per_time_unit(),
             scene.unit_m, world_from_equatorial(scene.stars ? scene.stars->ahead_deg : glm::dvec2(0)));
-    world.vertices = {}, world.vertex_maps = {}, world.indices = {};
+    world.vertices = {}, world.vertex_maps = {}, world.deforming = {}, world.indices = {};
     gpu.world = std::move(world);
     put_spectra(device, gpu, level.value_or(needed_level(gpu.world, scene).level));
     return gpu;

@@ -31,6 +31,7 @@ struct GpuWorld {
     double brightest = 1; ///< the greatest radiance of any surface, before any lamp comes closer than its distance
 
     Buffer vertices, indices;
+    Buffer deforming; ///< World::deforming; of one row without
     Buffer vertex_maps; ///< none where no material needs them
     MemoryArena texture_memory;
     std::vector<Image> textures; ///< in texture_memory

@@ -36,7 +36,7 @@ PipelineLayouts::PipelineLayouts(const Device& device)
     constexpr Type constants = Type::eUniformBuffer;
     eye_set = make_set_layout(device, "eye descriptor set layout", both,
         {Type::eUniformBufferDynamic, Type::eStorageBuffer, Type::eStorageBuffer, constants, Type::eStorageBuffer, picture,
-            picture});
+            picture, Type::eStorageBuffer});
     material_set = make_set_layout(device, "material descriptor set layout", fragment,
         {picture, picture, picture, picture, picture, picture, constants});
     warp_set = make_set_layout(device, "warp descriptor set layout", both,

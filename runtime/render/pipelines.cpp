@@ -213,7 +213,7 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
         .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
             std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), std::uint32_t(v.kinds), v.matrices,
             v.clock, v.finite_existence, v.several_rest_frames, v.lamps_move, v.blink, v.moves, v.unshifted, v.matt,
-            v.roughness_map, v.normal_map, v.occlusion_map, std::uint32_t(v.shadows), std::uint32_t(v.blend)},
+            v.roughness_map, v.normal_map, v.occlusion_map, std::uint32_t(v.shadows), std::uint32_t(v.blend), v.deforms},
         .depth = true,
         .vertices = true,
         .maps = v.mapped,

@@ -72,6 +72,7 @@ struct SurfaceVariant {
     bool lamps_move = false;
     bool blink = false;
     bool moves = false; ///< animated
+    bool deforms = false;
     bool unshifted = false; ///< light is stored as its colour at D = 1
     int shadows = 0; ///< constant_id 20 of cube.frag
     int blend = 0; ///< of a blended surface: 1: takes its part from what is behind it; 2: adds its own light

@@ -52,9 +52,27 @@ struct Joint {
 
 /// An instance's place in an animation: its joint, and the place of the joints' own frame.
 struct Motion {
-    int joint; ///< index into World::joints
+    int joint; ///< index into World::joints; -1: it stands still, as some bones do
     glm::dmat4 joint_from_local{1};
     glm::dvec3 place{0}; ///< in the instance's frame, from a body's origin
+};
+
+/// A part of a deforming mesh's motion: a joint of its skin, or the node that has the mesh.
+struct Bone {
+    Motion motion; ///< of the mesh's own coordinates; its place is the instance's
+    glm::dvec3 centre{0}; ///< of a sphere around the vertices that hang on it, at any weights of the targets, in the mesh's
+                          ///< own coordinates
+    double radius = 0;
+};
+
+/// The changing shape of a node's mesh: its skin, and morph targets whose weights change (glTF 2.0, sections 3.7.2.2 and
+/// 3.7.3). A vertex' displacements are added by their weights; then the mean of its bones moves it.
+struct Deformation {
+    std::vector<Bone> bones; ///< not empty
+    int middle = 0; ///< the bone that has the most vertices; the instance's own motion is that bone's
+    std::vector<int> weights; ///< of the targets: indices into World::tracks, each of four targets
+    int targets = 0; ///< whose weights change
+    std::vector<int> joints; ///< all joints that move the bones, rising
 };
 
 } // namespace starbow

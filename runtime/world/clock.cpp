@@ -1,8 +1,11 @@
 #include "clock.h"
 #include "instances.h"
 #include "moving.h"
+#include "shape.h"
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <map>
 
 namespace starbow {
 namespace {
@@ -27,6 +30,18 @@ glm::vec4 packed(const std::string& figures)
     return {six[0], six[1], count, 0};
 }
 
+/// TimeEntry::deforming.
+glm::vec4 deforming_entry(const World& world, const Instance& instance, std::size_t entries_each)
+{
+    const Primitive& primitive = world.primitives[instance.primitive];
+    const int targets = world.deformations[std::size_t(instance.deformation)].targets;
+    // The shader counts vertices from the world's first one.
+    const auto bits
+        = [&](int first, int rows_each) { return std::bit_cast<float>(first - rows_each * primitive.vertex_offset); };
+    return {entries_each, targets, bits(primitive.deforming, DEFORMING_VERTEX_ROWS),
+        bits(primitive.displacements, DISPLACEMENT_ROWS * targets)};
+}
+
 } // namespace
 
 double reading_s(const WorldClock& clock, double time, double distance, double seconds_per_time_unit)
@@ -48,7 +63,8 @@ std::string figures(double reading_s)
 std::vector<shared::TimeEntry> time_entries(const World& world, const EyeEvent& eye_event, double seconds_per_time_unit)
 {
     std::vector<shared::TimeEntry> entries;
-    std::size_t poses = 0;
+    std::size_t poses = 0; // entries before
+    std::map<int, std::size_t> known; // of the instances of a deforming mesh, by their motion
     const InstanceRange range = instances_of(world, eye_event.frame);
     for (std::size_t i = range.first; i < range.last && timed(world, world.instances[i]); ++i) {
         const Instance& instance = world.instances[i];
@@ -61,11 +77,17 @@ std::vector<shared::TimeEntry> time_entries(const World& world, const EyeEvent& 
             const auto times = pose_times(world, instance, seen);
             constexpr int half = POSES / 2;
             auto steps = [](double from, double to) { return half / std::max(to - from, 1e-30); };
-            entry.poses = glm::vec4(POSES * poses++, steps(times.front(), times[half]), steps(times[half], times.back()),
-                times[half] - seen.sent);
+            const auto entries_each = std::size_t(pose_entries(world, instance));
+            std::size_t first = poses;
+            if (instance.deformation >= 0) {
+                first = known.try_emplace(instance.motion, poses).first->second;
+                entry.deforming = deforming_entry(world, instance, entries_each);
+            }
+            poses += first == poses ? POSES * entries_each : 0;
+            entry.poses = glm::vec4(
+                first, steps(times.front(), times[half]), steps(times[half], times.back()), times[half] - seen.sent);
         }
-        const glm::dvec3 middle
-            = glm::dvec3(frame_from_local * glm::dvec4(0.5 * (primitive.low + primitive.high), 1)) - eye_event.place;
+        const glm::dvec3 middle = glm::dvec3(frame_from_local * glm::dvec4(middle_of(world, instance), 1)) - eye_event.place;
         const double sent = retarded_time(eye_event, eye_event.cube_from_frame * middle);
         const ExistenceInterval existence = instance.existence < 0
             ? ExistenceInterval{-for_ever, for_ever}

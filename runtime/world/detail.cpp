@@ -126,7 +126,7 @@ void add_detail_levels(World& world, const std::function<void(double)>& progress
         if (progress)
             progress(done / std::max(corners, 1.0));
         done += primitive.index_count;
-        if (primitive.index_count < worth)
+        if (primitive.index_count < worth || primitive.deforming >= 0) // a level's error holds in one pose alone
             continue;
         const Vertex* vertices = world.vertices.data() + primitive.vertex_offset;
         std::vector<std::uint32_t> from(world.indices.begin() + primitive.first_index,

@@ -3,6 +3,7 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/model/file_kind.h"
+#include "fastest_motion.h"
 #include "moving.h"
 #include "outline.h"
 #include "shadows.h"

@@ -139,6 +139,8 @@ struct Primitive {
     double radius;
     std::vector<DetailLevel> coarser; ///< finest first; empty until add_detail_levels
     ClusterRange clusters{}; ///< of the full surface; empty until add_detail_levels
+    int deforming = -1; ///< index into World::deforming of its first DeformingVertex; -1: its shape is rigid
+    int displacements = -1; ///< index of its first Displacement there; a vertex has one for each target, one after another
 };
 
 /// A rest frame of a part of the world. Its axes are the world's, carried by the pure boost.
@@ -164,6 +166,7 @@ struct Instance {
     int frame = 0; ///< index into World::frames
     int existence = -1; ///< index into World::existence_intervals; -1: it always exists, and its time is the frame's
     int motion = -1; ///< index into World::motions; -1: it stands still
+    int deformation = -1; ///< index into World::deformations; -1: it is rigid
 };
 
 /// A node of the file; scene files name the parts below it by it.
@@ -208,6 +211,9 @@ struct World {
     std::vector<Motion> motions; ///< this and the following are empty without animation
     std::vector<Joint> joints;
     std::vector<Track> tracks;
+    std::vector<Deformation> deformations;
+    std::vector<glm::vec4> deforming; ///< rows of shared::DeformingVertex and shared::Displacement of deforming surfaces,
+                                      ///< of which `vertices` has the file's own pose
     std::shared_ptr<const Shadows> shadows; ///< null: none
     double seconds_per_time_unit = 1; ///< the scene's, from place_bodies on
     std::vector<std::string> notes; ///< unsupported optional parts of the file, each once

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 
 namespace starbow {
 namespace {
@@ -124,6 +125,7 @@ void place_bodies(World& world, const SceneFile& scene)
         const std::vector<bool> own = below(world, scene, body);
         for (const WorldlineSegment& segment : segments_of(body)) {
             const Standing where = standing(world, scene, segment);
+            std::map<int, int> motions; // of the instances of a deforming mesh several have the same
             for (std::size_t i = 0; i < world.instances.size(); ++i) {
                 Instance instance = world.instances[i];
                 if (instance.node < 0 || !own[std::size_t(instance.node)])
@@ -132,10 +134,13 @@ void place_bodies(World& world, const SceneFile& scene)
                 instance.frame_from_local = glm::translate(glm::dmat4(1), where.place) * instance.frame_from_local;
                 instance.frame = where.frame, instance.existence = where.existence;
                 if (instance.motion >= 0) {
-                    Motion motion = world.motions[std::size_t(instance.motion)];
-                    motion.place += where.place;
-                    instance.motion = int(world.motions.size());
-                    world.motions.push_back(motion);
+                    const auto [own, is_new] = motions.try_emplace(instance.motion, int(world.motions.size()));
+                    if (is_new) {
+                        Motion motion = world.motions[std::size_t(instance.motion)];
+                        motion.place += where.place;
+                        world.motions.push_back(motion);
+                    }
+                    instance.motion = own->second;
                 }
                 moving.push_back(instance);
             }

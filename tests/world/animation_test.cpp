@@ -3,6 +3,7 @@
 #include "config/json/error.h"
 #include "runtime/plan/cull.h"
 #include "runtime/world/clock.h"
+#include "runtime/world/fastest_motion.h"
 #include "runtime/world/instances.h"
 #include "runtime/world/moving.h"
 #include "runtime/world/worldline.h"

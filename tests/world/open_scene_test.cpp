@@ -2,6 +2,7 @@
 #include "config/json/error.h"
 #include "config/model/file_kind.h"
 #include "config/model/shipped.h"
+#include "runtime/world/fastest_motion.h"
 #include "runtime/world/moving.h"
 #include "runtime/world/open_scene.h"
 #include "runtime/world/outline.h"

@@ -1,5 +1,7 @@
+#include "runtime/world/fastest_motion.h"
 #include "runtime/world/moving.h"
 #include "runtime/world/open_scene.h"
+#include "runtime/world/shape.h"
 #include "tests/support/gltf_fixture.h"
 #include <cstdlib>
 #include <iostream>
@@ -103,6 +105,9 @@ Doc rich()
     doc.json["meshes"][0]["primitives"][0]["targets"]
         = {{{"POSITION", doc.accessor<float>({0, 1, 0, 0, 1, 0, 0, 1, 0}, "VEC3")}}};
     doc.json["meshes"][0]["weights"] = {0.5};
+    doc.json["animations"][0]["samplers"].push_back(
+        {{"input", times}, {"output", doc.accessor<std::uint8_t>({0, 255, 10}, "SCALAR", true)}});
+    doc.json["animations"][0]["channels"].push_back({{"sampler", 3}, {"target", {{"node", 0}, {"path", "weights"}}}});
     doc.json["nodes"][2]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]
         = {{"TRANSLATION", doc.accessor<float>({0, 0, 0, 5, 0, 0}, "VEC3")},
             {"SCALE", doc.accessor<float>({1, 1, 1, 2, 2, 2}, "VEC3")}};
@@ -202,6 +207,33 @@ struct MemoryLimit {
     ~MemoryLimit() { ::setrlimit(RLIMIT_AS, &before); }
 };
 
+/// Each vertex of a deforming instance has bones and displacements, and stays within range.
+void expect_valid_shape(const World& world, const Instance& instance)
+{
+    ASSERT_LT(instance.deformation, int(world.deformations.size()));
+    const Deformation& deformation = world.deformations[std::size_t(instance.deformation)];
+    const Primitive& primitive = world.primitives[instance.primitive];
+    ASSERT_GE(primitive.deforming, 0);
+    ASSERT_LT(deformation.middle, int(deformation.bones.size()));
+    std::uint32_t vertices = 0;
+    for (std::uint32_t i = 0; i < primitive.index_count; ++i)
+        vertices = std::max(vertices, world.indices[primitive.first_index + i] + 1);
+    ASSERT_LE(std::size_t(primitive.deforming) + DEFORMING_VERTEX_ROWS * vertices, std::size_t(primitive.displacements));
+    ASSERT_LE(std::size_t(primitive.displacements) + DISPLACEMENT_ROWS * std::size_t(deformation.targets) * vertices,
+        world.deforming.size());
+    for (std::uint32_t i = 0; i < vertices; ++i) {
+        const glm::vec4& bones = world.deforming[std::size_t(primitive.deforming) + DEFORMING_VERTEX_ROWS * i + 4];
+        for (int k = 0; k < 4; ++k)
+            ASSERT_TRUE(bones[k] >= 0 && bones[k] < float(deformation.bones.size()));
+        for (double time : {-1e7, 0.0, 1.5}) {
+            Shape shape(world, instance, time);
+            ASSERT_TRUE(glm::length(shape.vertex(std::uint32_t(primitive.vertex_offset) + i).place) < 1e60);
+        }
+    }
+    const SeenPose seen = seen_pose(world, instance, {});
+    ASSERT_FALSE(std::isnan(seen.window));
+}
+
 void expect_valid(const World& world)
 {
     ASSERT_FALSE(world.instances.empty());
@@ -214,6 +246,8 @@ void expect_valid(const World& world)
             ASSERT_TRUE(glm::length(instance.frame_from_local[column]) < 1e32);
         if (instance.motion < 0)
             continue;
+        if (instance.deformation >= 0)
+            expect_valid_shape(world, instance);
         for (double time : {-1e7, -0.3, 0.0, 1.5, 1e7 + 0.1})
             for (int column = 0; column < 4; ++column)
                 ASSERT_TRUE(glm::length(pose_at(world, instance, time)[column]) < 1e32);

@@ -124,7 +124,9 @@ void PartList::add_world()
     add("what moves by itself", !world.motions.empty(), count(world.motions.size(), "motion", "motions") + " in the world",
         "nothing spins and nothing is animated", [](Made& m) {
             for (Instance& instance : m.world.instances)
-                instance.motion = -1;
+                instance.motion = instance.deformation = -1;
+            for (Primitive& primitive : m.world.primitives)
+                primitive.deforming = -1;
         });
     add("bodies in frames of their own", world.frames.size() > 1,
         count(world.frames.size() - 1, "velocity", "velocities") + " beside rest", "every body of the scene stands still",

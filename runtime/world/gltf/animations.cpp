@@ -1,5 +1,6 @@
 #include "accessor.h"
 #include "parts.h"
+#include "runtime/world/moving.h"
 #include <algorithm>
 
 namespace starbow {
@@ -57,13 +58,34 @@ template <class Size> double bound(const Track& track, Size size)
 double far_off(const glm::dvec4& place) { return glm::length(place); }
 double largest(const glm::dvec4& scale) { return std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)}); }
 
-/// The greatest stretch of a matrix.
-double stretch(const glm::dmat3& m)
+} // namespace
+
+namespace {
+
+/// Adds the tracks of a node's morph targets, four in each.
+void add_weights(WorldBuild& build, NodeTracks& to, const Track& times, int accessor)
 {
-    const glm::dvec3 lengths(glm::length(m[0]), glm::length(m[1]), glm::length(m[2]));
-    const double longest = largest(glm::dvec4(lengths, 0));
-    const double skew = std::abs(glm::dot(m[0], m[1])) + std::abs(glm::dot(m[1], m[2])) + std::abs(glm::dot(m[2], m[0]));
-    return skew < 1e-9 * longest * longest ? longest : glm::length(lengths);
+    const Elements from = open(build, accessor);
+    const std::size_t values = times.times_s.size() * (times.interpolation == Interpolation::cubic ? 3 : 1);
+    const std::size_t targets = from.count / values;
+    for (std::size_t first = 0; first < targets; first += 4) {
+        Track track = times;
+        for (std::size_t i = 0; i < values; ++i) {
+            glm::dvec4 value(0);
+            for (std::size_t k = first; k < std::min(first + 4, targets); ++k) {
+                value[int(k - first)] = from.component(i * targets + k, 0);
+                if (!(std::abs(value[int(k - first)]) <= 1e6))
+                    build.fail("/accessors/" + std::to_string(accessor),
+                        "element " + std::to_string(i * targets + k) + " is not finite or above 1e6; should be smaller");
+            }
+            track.values.push_back(value);
+        }
+        for (std::size_t k = first; k < std::min(first + 4, targets); ++k)
+            to.greatest_weights.push_back(
+                bound(track, [&](const glm::dvec4& value) { return std::abs(value[int(k - first)]); }));
+        to.weights.push_back(int(build.world.tracks.size()));
+        build.world.tracks.push_back(std::move(track));
+    }
 }
 
 } // namespace
@@ -76,9 +98,12 @@ void add_tracks(WorldBuild& build)
         const std::size_t first = world.tracks.size();
         for (const auto& channel : animation.channels) {
             NodeTracks& of_node = build.node_tracks[channel.target_node];
-            int& which = channel.target_path == "translation" ? of_node.translations
-                : channel.target_path == "rotation"           ? of_node.rotations
-                                                              : of_node.scales;
+            const bool weights = channel.target_path == "weights";
+            int known_weights = of_node.weights.empty() ? -1 : of_node.weights.front();
+            int& which = weights                       ? known_weights
+                : channel.target_path == "translation" ? of_node.translations
+                : channel.target_path == "rotation"    ? of_node.rotations
+                                                       : of_node.scales;
             if (which >= 0) {
                 note_once(world.notes, "nodes that several animations move: the first counts");
                 continue;
@@ -90,8 +115,12 @@ void add_tracks(WorldBuild& build)
                 : sampler.interpolation == "CUBICSPLINE"          ? Interpolation::cubic
                                                                   : Interpolation::linear;
             read_times(build, sampler.input, track.times_s);
-            read_values(build, sampler.output, track);
             length_s = std::max(length_s, track.times_s.back());
+            if (weights) {
+                add_weights(build, of_node, track, sampler.output);
+                continue;
+            }
+            read_values(build, sampler.output, track);
             which = int(world.tracks.size());
             world.tracks.push_back(std::move(track));
         }
@@ -126,7 +155,7 @@ int add_joint(WorldBuild& build, int node, int above, const glm::dmat4& above_fr
     auto bounded = [&](int track, const glm::dvec3& rest, auto size) {
         return track < 0 ? size(glm::dvec4(rest, 0)) : bound(world.tracks[std::size_t(track)], size);
     };
-    const double across = stretch(glm::dmat3(joint.above_from_parent));
+    const double across = greatest_stretch(glm::dmat3(joint.above_from_parent));
     JointBounds own;
     own.scale = up.scale * across * bounded(joint.scales, joint.scale, largest);
     own.place = up.place

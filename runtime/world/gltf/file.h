@@ -18,6 +18,8 @@ struct GltfLimits {
     static constexpr std::size_t indices = 48'000'000;
     static constexpr std::size_t instances = 1'000'000;
     static constexpr std::size_t motions = 10'000; ///< animated instances
+    static constexpr std::size_t bones = 20'000; ///< of all deforming meshes together
+    static constexpr std::size_t deforming_rows = std::size_t(8) << 20; ///< each device reads a buffer of 128 MiB
     static constexpr std::size_t keys = 4'000'000; ///< keys of all animations
     static constexpr int joints_deep = 64; ///< animated nodes, one below another
     static constexpr std::size_t zeros = 1'000'000; ///< elements of an accessor without data in the file

@@ -28,6 +28,33 @@ void guard_input(const Spot& spot, const Use& use)
     use.keys_left -= input.count;
 }
 
+/// The number of values that a key of a node's morph targets has; 0 without targets.
+std::size_t targets_of(const tinygltf::Model& model, const tinygltf::Node& node)
+{
+    std::size_t most = 0;
+    if (node.mesh >= 0)
+        for (const tinygltf::Primitive& primitive : model.meshes[std::size_t(node.mesh)].primitives)
+            most = std::max(most, primitive.targets.size());
+    return most;
+}
+
+/// Checks the weights of a node's morph targets.
+void guard_weights(const Spot& sampler, std::size_t targets, const Use& use)
+{
+    const Spot spot = sampler["output"];
+    const tinygltf::Accessor& output = use.accessor(spot);
+    if (output.type != TINYGLTF_TYPE_SCALAR || !(output.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || output.normalized))
+        spot.fail("names accessor " + spot.json.dump() + " of type " + type_name(output) + " and component type "
+            + std::to_string(output.componentType) + "; weights should be SCALAR of 5126 or of normalized integers");
+    const bool cubic = sampler.has("interpolation") && sampler.json["interpolation"] == "CUBICSPLINE";
+    const std::size_t times = use.accessor(sampler["input"]).count, right = (cubic ? 3 : 1) * times * targets;
+    if (output.count != right)
+        spot.fail("has " + std::to_string(output.count) + " values for " + std::to_string(times) + " times and "
+            + std::to_string(targets) + " targets; " + std::to_string(right) + " is right");
+    if (cubic && times < 2)
+        spot.fail("has one key; a cubic spline should have two or more");
+}
+
 /// Checks a sampler's output by the specification's table: the type of a property's values and their number.
 void guard_output(const Spot& sampler, const std::string& path, const Use& use)
 {
@@ -72,19 +99,24 @@ bool guard_channel(const Spot& channel, const Spot& samplers, tinygltf::Animatio
     const auto sampler = std::size_t(index_into(object(channel)["sampler"], "sampler", samplers.size()));
     const Spot target = channel["target"];
     const std::string path = text(object(target)["path"]);
-    if (path == "weights" || path == "pointer") {
-        note_once(use.out.notes,
-            "animations of " + std::string(path == "weights" ? "morph targets" : "other things than nodes")
-                + " are not supported");
+    if (path == "pointer") {
+        note_once(use.out.notes, "animations of other things than nodes are not supported");
         return false;
     }
-    if (path != "translation" && path != "rotation" && path != "scale")
+    const bool weights = path == "weights";
+    if (path != "translation" && path != "rotation" && path != "scale" && !weights)
         target["path"].fail("is " + in_quotes(path) + "; should be \"translation\", \"rotation\", \"scale\" or \"weights\"");
-    guard_output(samplers[sampler], path, use);
+    if (!weights)
+        guard_output(samplers[sampler], path, use);
     if (!target.has("node"))
         return false; // required by the specification
     const auto node = std::size_t(index_into(target["node"], "node", count_of(use.root, "nodes")));
-    if (!use.out.model.nodes[node].matrix.empty())
+    if (weights) {
+        const std::size_t targets = targets_of(use.out.model, use.out.model.nodes[node]);
+        if (targets == 0)
+            return false; // they change nothing
+        guard_weights(samplers[sampler], targets, use);
+    } else if (!use.out.model.nodes[node].matrix.empty())
         target["node"].fail("names node " + std::to_string(node)
             + ", which has a matrix; what is animated should have translation, rotation and scale");
     written.sampler = int(sampler);

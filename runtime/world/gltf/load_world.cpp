@@ -7,29 +7,18 @@
 namespace starbow {
 namespace {
 
-/// True for a mesh that a skin moves. One with and without joints in its primitives is taken for one without.
-bool has_joints(const tinygltf::Mesh& mesh)
-{
-    return std::ranges::all_of(mesh.primitives, [](const tinygltf::Primitive& primitive) {
-        return primitive.attributes.contains("JOINTS_0") && primitive.attributes.contains("WEIGHTS_0");
-    });
-}
-
 /// The primitives of a mesh in a pose: of all nodes that leave it as it is, or of one node, -1 or that node.
 using Made = std::map<std::pair<int, int>, std::vector<std::uint32_t>>;
 
 /// The primitives of a node's mesh, made at their first use.
-const std::vector<std::uint32_t>& primitives_of(WorldBuild& build, int index, Made& made)
+const std::vector<std::uint32_t>& primitives_of(WorldBuild& build, int index, const StillPose& pose, Made& made)
 {
     const tinygltf::Node& node = build.model.nodes[std::size_t(index)];
-    const bool own_pose = node.skin >= 0 || !node.weights.empty();
+    const bool own_pose = !pose.joints.empty() || !node.weights.empty() || pose.deforms;
     auto [known, is_new] = made.try_emplace({node.mesh, own_pose ? index : -1});
     if (!is_new)
         return known->second;
     const auto& from = build.model.meshes[std::size_t(node.mesh)].primitives;
-    StillPose pose = still_pose(build, index);
-    if (!has_joints(build.model.meshes[std::size_t(node.mesh)]))
-        pose.joints.clear();
     for (std::size_t i = 0; i < from.size(); ++i)
         if (add_primitive(build, "/meshes/" + std::to_string(node.mesh) + "/primitives/" + std::to_string(i), from[i], pose))
             known->second.push_back(std::uint32_t(build.world.primitives.size()) - 1);
@@ -122,8 +111,34 @@ void add_still(WorldBuild& build, int node, const glm::dmat4& world_from_local, 
     }
 }
 
+bool animated(const WorldBuild& build, int node)
+{
+    const auto tracks = build.node_tracks.find(node);
+    return (tracks != build.node_tracks.end() && tracks->second.move()) || build.file.spins[std::size_t(node)];
+}
+
+/// Finds which nodes move, because they or nodes above them are animated.
+void find_moving(WorldBuild& build)
+{
+    const auto& nodes = build.model.nodes;
+    std::vector<int> open;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        build.moving.push_back(animated(build, int(i)));
+        if (build.moving.back())
+            open.push_back(int(i));
+    }
+    while (!open.empty()) {
+        const std::vector<int>& children = nodes[std::size_t(open.back())].children;
+        open.pop_back();
+        for (const int child : children)
+            if (!build.moving[std::size_t(child)])
+                build.moving[std::size_t(child)] = true, open.push_back(child);
+    }
+}
+
 void add_instances(WorldBuild& build)
 {
+    find_moving(build);
     struct Visit {
         int node, parent;
         glm::dmat4 world_from_parent;
@@ -147,30 +162,38 @@ void add_instances(WorldBuild& build)
         const auto& node = build.model.nodes[std::size_t(index)];
         glm::dmat4 world_from_local = world_from_parent * local_transform(node);
         refuse_far(build, index, world_from_local);
-        if (build.node_tracks.contains(index) || build.file.spins[std::size_t(index)]) {
+        if (animated(build, index)) {
             joint = add_joint(build, index, joint, joint_from_parent);
             joint_from_parent = glm::dmat4(1);
         } else
             joint_from_parent = joint_from_parent * local_transform(node);
         push_backwards(node.children, index, world_from_local, joint, joint_from_parent);
+        const Motion own{joint, joint < 0 ? world_from_local : joint_from_parent};
+        build.node_motions.emplace(index, own);
         if (node.mesh < 0)
             continue;
-        // A skin's vertices are in the world's frame, wherever its node is.
-        const bool skinned = node.skin >= 0 && has_joints(build.model.meshes[std::size_t(node.mesh)]);
-        if (skinned) {
-            add_still(build, index, glm::dmat4(1), primitives_of(build, index, made));
+        const StillPose pose = still_pose(build, index);
+        const std::vector<std::uint32_t>& primitives = primitives_of(build, index, pose, made);
+        if (!pose.joints.empty()) {
+            // A skin's vertices are in the world's frame, wherever its node is.
+            if (pose.deforms)
+                add_deforming_instances(build, index, primitives, {});
+            else
+                add_still(build, index, glm::dmat4(1), primitives);
             continue;
         }
-        if (joint >= 0) {
-            for (const glm::dmat4& at : places_of(build, index)) {
-                refuse_far(build, index, joint_from_parent * at);
-                add_moving(build, index, {joint, joint_from_parent * at}, primitives_of(build, index, made));
-            }
-            continue;
+        for (const glm::dmat4& at : places_of(build, index)) {
+            refuse_far(build, index, own.joint_from_local * at);
+            const Motion motion{own.joint, own.joint_from_local * at};
+            if (pose.deforms)
+                add_deforming_instances(build, index, primitives, motion);
+            else if (joint >= 0)
+                add_moving(build, index, motion, primitives);
+            else
+                add_still(build, index, motion.joint_from_local, primitives);
         }
-        for (const glm::dmat4& at : places_of(build, index))
-            add_still(build, index, world_from_local * at, primitives_of(build, index, made));
     }
+    finish_deformations(build);
 }
 
 } // namespace

@@ -22,16 +22,6 @@ struct Attributes {
     const StillPose& pose;
 };
 
-glm::dvec3 read3(WorldBuild& build, const Elements& from, std::uint32_t i, const std::string& place, const char* attribute)
-{
-    glm::dvec3 value(from.component(i, 0), from.component(i, 1), from.component(i, 2));
-    // Beyond 1e18 a squared length does not fit a float; no visible thing is so far away.
-    if (!(glm::length(value) < 1e18))
-        build.fail(place + "/attributes/" + attribute,
-            "element " + std::to_string(i) + " is not finite or above 1e18; should be smaller");
-    return value;
-}
-
 std::uint32_t pack_colour(const Elements& from, std::uint32_t i)
 {
     std::uint32_t packed = 0;
@@ -46,14 +36,14 @@ std::uint32_t pack_colour(const Elements& from, std::uint32_t i)
 Vertex read_vertex(WorldBuild& build, const Attributes& from, std::uint32_t i, const UvSource& uv, const std::string& place)
 {
     Vertex out{};
-    glm::dvec3 position = read3(build, from.position, i, place, "POSITION"), normal(0);
+    glm::dvec3 position = element3(build, from.position, i, place + "/attributes/POSITION"), normal(0);
     if (from.has_normal)
-        normal = read3(build, from.normal, i, place, "NORMAL");
+        normal = element3(build, from.normal, i, place + "/attributes/NORMAL");
     for (const Target& target : from.targets) {
         if (target.has_position)
-            position += target.weight * read3(build, target.position, i, place, "POSITION");
+            position += target.weight * element3(build, target.position, i, place + "/attributes/POSITION");
         if (target.has_normal && from.has_normal)
-            normal += target.weight * read3(build, target.normal, i, place, "NORMAL");
+            normal += target.weight * element3(build, target.normal, i, place + "/attributes/NORMAL");
     }
     if (from.has_joints) {
         const glm::dmat4 skin = skin_at(build, from.pose, from.joints, from.weights, i, place);
@@ -174,8 +164,9 @@ struct Source {
     std::size_t triangles = 0;
     std::uint32_t vertex_offset = 0; ///< of its first vertex in the world
     bool mapped = false; ///< its material needs VertexMaps
+    bool deforms = false;
     /// The file's vertices in the order in which the world has them: of smooth triangles, with an entry in build.placed; of
-    /// flat ones only where VertexMaps are needed.
+    /// flat ones only where VertexMaps are needed, or where they deform.
     std::vector<std::uint32_t> vertices;
 };
 
@@ -208,7 +199,7 @@ Source open_source(
     if (build.placed.size() < attributes.position.count)
         build.placed.resize(attributes.position.count, none);
     source.vertex_offset = std::uint32_t(build.world.vertices.size());
-    source.mapped = look.mapped();
+    source.mapped = look.mapped(), source.deforms = pose.deforms;
     return source;
 }
 
@@ -250,7 +241,7 @@ void add_flat(WorldBuild& build, Source& source, const std::array<std::uint32_t,
     World& world = build.world;
     for (std::uint32_t vertex : corner) {
         world.indices.push_back(std::uint32_t(world.vertices.size()) - source.vertex_offset);
-        if (source.mapped)
+        if (source.mapped || source.deforms)
             source.vertices.push_back(vertex);
         world.vertices.push_back(read_vertex(build, source.attributes, vertex, source.uv, source.place));
     }
@@ -259,6 +250,15 @@ void add_flat(WorldBuild& build, Source& source, const std::array<std::uint32_t,
 }
 
 } // namespace
+
+glm::dvec3 element3(WorldBuild& build, const Elements& from, std::uint32_t i, const std::string& place)
+{
+    glm::dvec3 value(from.component(i, 0), from.component(i, 1), from.component(i, 2));
+    // Beyond 1e18 a squared length does not fit a float; no visible thing is so far away.
+    if (!(glm::length(value) < 1e18))
+        build.fail(place, "element " + std::to_string(i) + " is not finite or above 1e18; should be smaller");
+    return value;
+}
 
 Elements open(WorldBuild& build, int accessor)
 {
@@ -304,6 +304,8 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
     world.primitives.push_back(made);
     if (source.mapped)
         add_vertex_maps(build, place, from, pose, source.vertices);
+    if (pose.deforms)
+        add_deforming(build, place, from, pose, source.vertices);
     return true;
 }
 

@@ -20,6 +20,9 @@ struct UvSource {
 /// A node's tracks, of World::tracks.
 struct NodeTracks {
     int translations = -1, rotations = -1, scales = -1;
+    bool move() const { return translations >= 0 || rotations >= 0 || scales >= 0; }
+    std::vector<int> weights; ///< as Deformation::weights
+    std::vector<double> greatest_weights; ///< of each target, without its sign
 };
 
 /// Bounds of a joint with all above it.
@@ -28,10 +31,12 @@ struct JointBounds {
     int depth = 0;
 };
 
-/// The shape in which a mesh stands still: its morph targets at their weights, then its skin's joints in the file's pose.
+/// The shape of a mesh in the file's own pose: its morph targets at their weights, then its skin's joints.
 struct StillPose {
     std::vector<double> weights; ///< of the mesh's targets
     std::vector<glm::dmat4> joints; ///< world_from_mesh of each joint of its skin; empty: it has none
+    bool deforms = false; ///< it has other shapes later
+    int changing_targets = 0; ///< its first targets, whose weights change
 };
 
 /// The state of a world under construction.
@@ -51,6 +56,9 @@ struct WorldBuild {
 
     std::map<int, NodeTracks> node_tracks; ///< by node; only of animated nodes
     std::vector<JointBounds> bounds; ///< one for each of the world's joints
+    std::vector<bool> moving; ///< of each node: it or a node above it is animated
+    std::map<int, Motion> node_motions; ///< of the nodes of the scene
+    std::map<std::size_t, int> skins; ///< of World::deformations: the node with the skin
 
     [[noreturn]] void fail(const std::string& place, const std::string& problem) const
     {
@@ -70,7 +78,10 @@ Texture decode_image(const std::string& file, const std::string& place, std::spa
 void add_materials(WorldBuild& build);
 int material_of(WorldBuild& build, int gltf_material);
 
-/// The pose of a node's mesh.
+/// joint_from_mesh of each joint of a skin.
+std::vector<glm::dmat4> inverse_bind_matrices(WorldBuild& build, const tinygltf::Skin& skin);
+
+/// The file's own pose of a node's mesh.
 StillPose still_pose(WorldBuild& build, int node);
 
 /// The transform that the joints give vertex `i`: their mean by its weights (glTF 2.0, section 3.7.3.3). Throws InputError,
@@ -83,9 +94,10 @@ glm::dmat4 skin_at(const WorldBuild& build, const StillPose& pose, const Element
 bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::Primitive& primitive, const StillPose& pose);
 
 /// Gives the last primitive's vertices their VertexMaps. Where a normal map's tangents are computed, a vertex is doubled if
-/// its triangles see the map from both sides. `source`: the glTF vertex of each of the primitive's vertices.
+/// its triangles see the map from both sides. `source`: the glTF vertex of each of the primitive's vertices, also of
+/// doubled ones.
 void add_vertex_maps(WorldBuild& build, const std::string& place, const tinygltf::Primitive& primitive,
-    const StillPose& pose, const std::vector<std::uint32_t>& source);
+    const StillPose& pose, std::vector<std::uint32_t>& source);
 
 /// Adds a copy with the corners in the reverse order; returns the copy's index.
 std::uint32_t turned_primitive(WorldBuild& build, std::uint32_t primitive);
@@ -94,6 +106,19 @@ std::uint32_t turned_primitive(WorldBuild& build, std::uint32_t primitive);
 std::vector<int> root_nodes(const tinygltf::Model& model);
 
 glm::dmat4 local_transform(const tinygltf::Node& node);
+
+/// An element of three numbers, below 1e18; throws, at `place`, for another.
+glm::dvec3 element3(WorldBuild& build, const Elements& from, std::uint32_t i, const std::string& place);
+
+/// Adds the rows of World::deforming of the last primitive, whose pose deforms.
+void add_deforming(WorldBuild& build, const std::string& place, const tinygltf::Primitive& primitive, const StillPose& pose,
+    const std::vector<std::uint32_t>& source);
+/// Adds a deformation of a node's mesh and an instance for each of its primitives. motion: of the mesh's coordinates; a skin
+/// has those of its joints, once all nodes are known.
+void add_deforming_instances(
+    WorldBuild& build, int node, const std::vector<std::uint32_t>& primitives, const std::optional<Motion>& motion);
+/// Gives the deformations their bones.
+void finish_deformations(WorldBuild& build);
 
 /// Adds the animations' tracks, and assigns them to their nodes.
 void add_tracks(WorldBuild& build);

@@ -6,6 +6,14 @@
 namespace starbow {
 namespace {
 
+/// True for a mesh that a skin moves. One with and without joints in its primitives is taken for one without.
+bool has_joints(const tinygltf::Mesh& mesh)
+{
+    return std::ranges::all_of(mesh.primitives, [](const tinygltf::Primitive& primitive) {
+        return primitive.attributes.contains("JOINTS_0") && primitive.attributes.contains("WEIGHTS_0");
+    });
+}
+
 /// The transforms of all nodes as the file states them, also of those outside its scene.
 std::vector<glm::dmat4> transforms_of(const tinygltf::Model& model)
 {
@@ -49,28 +57,36 @@ glm::dmat4 skin_at(const WorldBuild& build, const StillPose& pose, const Element
     return all > 0 ? sum / all : glm::dmat4(1);
 }
 
+std::vector<glm::dmat4> inverse_bind_matrices(WorldBuild& build, const tinygltf::Skin& skin)
+{
+    std::vector<glm::dmat4> matrices(skin.joints.size(), glm::dmat4(1));
+    if (skin.inverseBindMatrices < 0)
+        return matrices;
+    const Elements from = open(build, skin.inverseBindMatrices);
+    for (std::size_t joint = 0; joint < matrices.size(); ++joint)
+        for (int i = 0; i < 16; ++i)
+            glm::value_ptr(matrices[joint])[i] = from.component(joint, i);
+    return matrices;
+}
+
 StillPose still_pose(WorldBuild& build, int index)
 {
     const tinygltf::Node& node = build.model.nodes[std::size_t(index)];
     StillPose pose;
     pose.weights = node.weights.empty() ? build.model.meshes[std::size_t(node.mesh)].weights : node.weights;
-    if (node.skin < 0)
+    if (const auto tracks = build.node_tracks.find(index); tracks != build.node_tracks.end())
+        pose.changing_targets = int(tracks->second.greatest_weights.size());
+    pose.deforms = pose.changing_targets > 0;
+    if (node.skin < 0 || !has_joints(build.model.meshes[std::size_t(node.mesh)]))
         return pose;
     const tinygltf::Skin& skin = build.model.skins[std::size_t(node.skin)];
     if (build.world_from_node.empty())
         build.world_from_node = transforms_of(build.model);
-    Elements inverse;
-    if (skin.inverseBindMatrices >= 0)
-        inverse = open(build, skin.inverseBindMatrices);
+    const std::vector<glm::dmat4> joint_from_mesh = inverse_bind_matrices(build, skin);
     for (std::size_t joint = 0; joint < skin.joints.size(); ++joint) {
         const int at = skin.joints[joint];
-        if (build.node_tracks.contains(at) || build.file.spins[std::size_t(at)])
-            note_once(build.world.notes, "skins whose joints are animated: they stand in the file's own pose");
-        glm::dmat4 joint_from_mesh(1);
-        if (skin.inverseBindMatrices >= 0)
-            for (int i = 0; i < 16; ++i)
-                glm::value_ptr(joint_from_mesh)[i] = inverse.component(joint, i);
-        pose.joints.push_back(build.world_from_node[std::size_t(at)] * joint_from_mesh);
+        pose.deforms = pose.deforms || build.moving[std::size_t(at)];
+        pose.joints.push_back(build.world_from_node[std::size_t(at)] * joint_from_mesh[joint]);
     }
     return pose;
 }

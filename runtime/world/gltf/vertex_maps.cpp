@@ -53,7 +53,7 @@ glm::dvec4 tangent_of(const Vertex* const (&corner)[3], const glm::dvec2 (&uv)[3
 
 /// Means of the triangles' tangents at each vertex, by their angles there, as MikkTSpace has them (glTF 2.0,
 /// section 3.7.2.1). A vertex between both senses is doubled.
-void compute_tangents(WorldBuild& build, const std::string& place, const Map& map)
+void compute_tangents(WorldBuild& build, const std::string& place, const Map& map, std::vector<std::uint32_t>& source)
 {
     World& world = build.world;
     const Primitive& primitive = world.primitives.back();
@@ -89,6 +89,7 @@ void compute_tangents(WorldBuild& build, const std::string& place, const Map& ma
                     other[vertex] = std::uint32_t(sum.size());
                     world.vertices.push_back(Vertex(world.vertices[first + vertex]));
                     world.vertex_maps.push_back(VertexMaps(world.vertex_maps[first + vertex]));
+                    source.push_back(std::uint32_t(source[vertex]));
                     sum.emplace_back(0), sense.push_back(mirrored), other.push_back(0xffffffff);
                 }
                 vertex = world.indices[at + k] = other[vertex];
@@ -115,7 +116,7 @@ void compute_tangents(WorldBuild& build, const std::string& place, const Map& ma
 } // namespace
 
 void add_vertex_maps(WorldBuild& build, const std::string& place, const tinygltf::Primitive& primitive,
-    const StillPose& pose, const std::vector<std::uint32_t>& source)
+    const StillPose& pose, std::vector<std::uint32_t>& source)
 {
     World& world = build.world;
     const Primitive made = world.primitives.back();
@@ -143,7 +144,7 @@ void add_vertex_maps(WorldBuild& build, const std::string& place, const tinygltf
     if (primitive.attributes.contains("TANGENT") && primitive.attributes.contains("NORMAL"))
         read_tangents(build, place, primitive, pose, source, first);
     else
-        compute_tangents(build, place, material.gloss->normal);
+        compute_tangents(build, place, material.gloss->normal, source);
 }
 
 } // namespace starbow
