@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
 #include "physics/real.glsl"
+#include "physics/aberration.glsl"
 #include "physics/worldline.glsl"
 // A surface's scene-linear, pre-exposed light as basis coefficients: of reflected sunlight first, then of the scene's
 // emission basis spectra. Constants compile out the parts that a world does not need. MAPPED: a build for surfaces with gloss
@@ -29,6 +30,8 @@ layout(constant_id = 15) const bool UNSHIFTED = false; // light is stored as its
 layout(constant_id = 20) const int SHADOWS = 0; // bits: lamps with maps; from the 8th on: point lamps; the 16th: daylight
 
 layout(constant_id = 21) const int BLENDED = 0; // 1: the part of what is behind that shows through; 2: the own light's part
+// constant_id 22 is cube.vert's
+layout(constant_id = 23) const bool SPOTS = false; // some lamps shine in cones
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // Spectra::columns
@@ -123,6 +126,22 @@ vec3 lamp_seen(LightEntry lamp, vec3 towards, float delay, out float D)
     return own < lamp.kind.y || own > lamp.kind.z ? vec3(0.0) : towards;
 }
 
+// The part of a spot's light that it sends to a surface. towards: from the surface to the lamp where its light left, unit.
+float in_cone(LightEntry lamp, vec3 towards)
+{
+    if (lamp.edge.x == 0.0)
+        return 1.0;
+    if (LAMPS_MOVE && lamp.way.w > 0.0) {
+        // In the lamp's frame the surface moves the other way.
+        float ahead = -dot(towards, lamp.way.xyz), E = lamp.shifts.w + lamp.way.w;
+        vec3 across = towards + lamp.way.xyz * ahead;
+        AberratedRay sight = world_from_camera(vec3(length(across), 0.0, ahead), E, 1.0 / E);
+        towards = across * sight.D - lamp.way.xyz * sight.n.z;
+    }
+    float part = clamp(lamp.edge.y - lamp.edge.x * dot(towards, lamp.cone.xyz), 0.0, 1.0);
+    return part * part;
+}
+
 // The surface's clock, blinking and existence at its retarded time. ink: the clock's marks; lit_part: the part of the time
 // in which it is lit.
 void apply_time(inout vec4 base, out float ink, out float lit_part)
@@ -183,6 +202,8 @@ void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], L
     if (LAMPS_MOVE && towards == vec3(0.0))
         return;
     float square = lamp.place.w == 0.0 ? 1.0 : dot(towards, towards);
+    if (SPOTS)
+        lit *= in_cone(lamp, towards * inversesqrt(square));
 #ifdef MAPPED
     float distance_ = lamp.place.w == 0.0 ? 1.0 : sqrt(square);
     float facing = dot(at.n, towards) / distance_;

@@ -117,26 +117,45 @@ GlobeSky read_globes(const Place& place, const std::filesystem::path& folder)
     return {folder / text(member(place, "file")), read_date(member(place, "date")), text(member(place, "origin"))};
 }
 
+/// A direction of any length.
+glm::dvec3 read_direction(const Place& place)
+{
+    const glm::dvec3 direction = vec3(place, {-farthest, farthest});
+    const double length = glm::length(direction);
+    if (!(length > 1e-100))
+        complain(place, "points nowhere; a direction of any length above 0 is right");
+    return direction / length;
+}
+
+LightCone read_cone(const Place& place)
+{
+    reject_unknown_members(place, {"axis", "inner_deg", "outer_deg"});
+    LightCone cone{
+        read_direction(member(place, "axis")), 0, glm::radians(number(member(place, "outer_deg"), {0, 90, true}))};
+    if (auto inner = find_member(place, "inner_deg"))
+        cone.inner_rad = glm::radians(number(*inner, {0, 90}));
+    if (!(cone.inner_rad < cone.outer_rad))
+        complain(place, "ends inside \"inner_deg\"; a larger \"outer_deg\" is right");
+    return cone;
+}
+
 Light read_light(const Place& place, const std::vector<Body>& bodies)
 {
-    reject_unknown_members(
-        place, {"type", "towards", "position", "distance", "radiance", "temperature_K", "line_nm", "spectrum", "body"});
+    reject_unknown_members(place,
+        {"type", "towards", "position", "distance", "radiance", "temperature_K", "line_nm", "spectrum", "body", "cone"});
     if (one_of(member(place, "type"), {"directional", "point"}) == "directional") {
         reject_unknown_members(place, {"type", "towards", "radiance", "temperature_K", "line_nm", "spectrum"});
-        const Place towards = member(place, "towards");
-        const glm::dvec3 direction = vec3(towards, {-farthest, farthest});
-        const double length = glm::length(direction);
-        if (!(length > 1e-100))
-            complain(towards, "points nowhere; a direction of any length above 0 is right");
-        return DirectionalLight{direction / length, read_colour(member(place, "radiance")), read_emission(place)};
+        return DirectionalLight{
+            read_direction(member(place, "towards")), read_colour(member(place, "radiance")), read_emission(place)};
     }
     const glm::dvec3 position = vec3(member(place, "position"), {-farthest, farthest});
     const double distance = number(member(place, "distance"), {0, farthest, true});
     const auto body = find_member(place, "body");
     if (body && std::none_of(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == text(*body); }))
         complain(*body, "is no body of this scene; a \"name\" of one of its \"bodies\" is right");
-    return PointLight{
-        position, distance, read_colour(member(place, "radiance")), read_emission(place), body ? text(*body) : ""};
+    const auto cone = find_member(place, "cone");
+    return PointLight{position, distance, read_colour(member(place, "radiance")), read_emission(place),
+        body ? text(*body) : "", cone ? std::optional(read_cone(*cone)) : std::nullopt};
 }
 
 } // namespace
@@ -146,8 +165,8 @@ SceneFile load_scene_file(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     reject_unknown_members(top,
-        {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "globes", "ambient", "shadows", "lights", "bodies", "boundary", "flight",
-            "goals", "start"});
+        {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "globes", "ambient", "shadows", "lights", "bodies", "boundary",
+            "flight", "goals", "start"});
     SceneFile scene;
     scene.name = file.stem().string();
     scene.file = document.file;

@@ -24,6 +24,13 @@ struct DirectionalLight {
 
 /// A point light; a white surface that faces it at `distance` (scene units) gets the colour `radiance`, which falls as
 /// 1/r^2.
+/// The directions into which a lamp shines. Its light falls from the inner cone to the outer one as glTF says
+/// (KHR_lights_punctual): by the square of the cosine's part between both.
+struct LightCone {
+    glm::dvec3 axis; ///< unit, in the lamp's own frame
+    double inner_rad, outer_rad; ///< from the axis: 0 <= inner < outer <= pi / 2
+};
+
 struct PointLight {
     glm::dvec3 position;
     double distance;
@@ -31,6 +38,7 @@ struct PointLight {
     std::optional<Emission> spectrum; ///< as above
     std::string
         body{}; ///< the light moves with this body, around its origin, while the body exists; empty: it rests in the world
+    std::optional<LightCone> cone{}; ///< none: it shines to all sides
 };
 
 using Light = std::variant<DirectionalLight, PointLight>;

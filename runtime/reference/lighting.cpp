@@ -97,10 +97,11 @@ Lighting::Shine Lighting::shine(std::size_t index, const glm::dvec3& place, doub
         shine.strength = shine.D; // a point's flux per frequency
         return shine;
     }
-    const double at_distance = std::get<PointLight>(*sources_[index].light).distance;
+    const PointLight& point = std::get<PointLight>(*sources_[index].light);
     glm::dvec3 way = lamp.position - place;
     double own = time - glm::length(way); // the lamp's time when the light left
     double distance = glm::length(way); // in its own frame
+    glm::dvec3 sent = -way, axis = point.cone ? point.cone->axis : glm::dvec3(0); // the light's way there
     if (moves) {
         // The event of its own time 0, and its motion, as the surface's frame has them.
         const Event zero_in_world{there.origin.time + physics::world_time(there.u, 0, lamp.position),
@@ -114,13 +115,20 @@ Lighting::Shine Lighting::shine(std::size_t index, const glm::dvec3& place, doub
         way = seen.place;
         own = (time - zero.time) / gamma + seen.tau;
         distance = seen.delay / seen.D; // the light's way goes as its frequency does not
+        sent = physics::world_place(-u, seen.delay, -way);
+        axis = quaternion(physics::relative(here.u, there.u).turn) * axis;
     }
     const ExistenceInterval& existence
         = lamp.existence < 0 ? always : world_.existence_intervals[std::size_t(lamp.existence)];
     if (own < existence.begin || own > existence.end || distance == 0)
         return shine;
     shine.towards = way / glm::length(way);
-    shine.strength = shine.D * (at_distance / distance) * (at_distance / distance);
+    shine.strength = shine.D * (point.distance / distance) * (point.distance / distance);
+    if (point.cone) {
+        const double cosine = glm::dot(glm::normalize(sent), axis), outer = std::cos(point.cone->outer_rad);
+        const double part = std::clamp((cosine - outer) / std::max(std::cos(point.cone->inner_rad) - outer, 1e-3), 0.0, 1.0);
+        shine.strength *= part * part;
+    }
     return shine;
 }
 

@@ -230,6 +230,11 @@ SurfaceVariant GpuWorld::variant(int material, StoredLight light) const
     const auto changes = [](const Lamp& lamp) { return lamp.frame > 0 || lamp.existence >= 0; };
     variant.lamps_move
         = variant.lights > 0 && (several_rest_frames() || std::any_of(world.lamps.begin(), world.lamps.end(), changes));
+    const auto spot = [](const Light& lamp) {
+        const auto* point = std::get_if<PointLight>(&lamp);
+        return point && point->cone;
+    };
+    variant.spots = variant.lights > 0 && std::ranges::any_of(scene.lights, spot);
     const Spectra& stored = spectra_of(light);
     variant.coefficients = coefficients(light);
     variant.coefficients.own = int(stored.basis.own.size());

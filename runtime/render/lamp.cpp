@@ -28,6 +28,7 @@ shared::LightEntry light_entry(const GpuWorld& world, const Lamp& lamp, const Ey
     }
     const PointLight& point = std::get<PointLight>(light);
     entry.radiance = glm::vec4(point.radiance * scale, point.distance * point.distance);
+    glm::dmat3 cube_from_lamp = eye_event.cube_from_frame; // of directions in the lamp's own axes
     // The lamp's place at the eye's time, and the lamp's proper time then.
     glm::dvec3 place = lamp.position;
     double own = eye_event.time;
@@ -41,12 +42,19 @@ shared::LightEntry light_entry(const GpuWorld& world, const Lamp& lamp, const Ey
         const Event at = in_frame(here, at_world);
         const double gamma = physics::gamma_of(relative.u), u = glm::length(relative.u);
         const glm::dvec3 v = relative.u / gamma;
+        cube_from_lamp = cube_from_lamp * glm::mat3_cast(quaternion(relative.turn));
         place = at.position + v * (eye_event.time - at.time);
         own = (eye_event.time - at.time) / gamma;
         entry.way = glm::vec4(eye_event.cube_from_frame * (relative.u / u), u);
         entry.shifts.w = float(gamma);
     }
     entry.place = glm::vec4(eye_event.cube_from_frame * (place - eye_event.place), 1);
+    if (point.cone) {
+        entry.cone = glm::vec4(cube_from_lamp * point.cone->axis, 0);
+        const double outer = std::cos(point.cone->outer_rad), inner = std::cos(point.cone->inner_rad);
+        entry.edge.x = float(1 / std::max(inner - outer, 1e-3)); // as glTF's formula, whose edge is never sharper
+        entry.edge.y = float(-outer / std::max(inner - outer, 1e-3));
+    }
     if (lamp.existence >= 0) {
         const ExistenceInterval& existence = world.world.existence_intervals[std::size_t(lamp.existence)];
         entry.kind.y = float(std::clamp(existence.begin - own, -1e30, 1e30));

@@ -70,9 +70,12 @@ std::vector<Light> lights_of(const Outline& outline, const Middle& middle)
         if (!(lux > 0) || !(glm::length(back) > 1e-30))
             continue;
         const glm::dvec3 radiance = lamp.colour / luminance * lux;
+        std::optional<LightCone> cone = lamp.cone;
+        if (cone)
+            cone->axis = -glm::normalize(back);
         lit.push_back({lux,
             lamp.directional ? Light(DirectionalLight{glm::normalize(back), radiance, {}})
-                             : Light(PointLight{place, distance, radiance, {}})});
+                             : Light(PointLight{place, distance, radiance, {}, "", cone})});
     }
     std::ranges::sort(lit, std::greater(), &Lit::lux);
     if (lit.size() > most_lamps)
@@ -144,8 +147,6 @@ SceneFile scene_around(const std::filesystem::path& gltf)
             glm::dvec3(0.95, 0.89, 0.79), {}}};
     if (std::vector<Light> own = lights_of(outline, middle); !own.empty()) {
         scene.lights = std::move(own);
-        if (outline.spots)
-            scene.notes.push_back("spot lamps shine to all sides");
         if (outline.lamps.size() > scene.lights.size())
             scene.notes.push_back("of its " + std::to_string(outline.lamps.size()) + " lamps "
                 + std::to_string(scene.lights.size()) + " shine: the brightest at its middle");
@@ -163,11 +164,23 @@ SceneFile scene_around(const std::filesystem::path& gltf)
     return scene;
 }
 
+namespace {
+
+/// A direction or a colour as JSON.
+std::string list(const glm::dvec3& v) { return nlohmann::json{v.x, v.y, v.z}.dump(); }
+
+std::string cone_text(const LightCone& cone)
+{
+    return ", \"cone\": { \"axis\": " + list(cone.axis) + ", \"inner_deg\": " + shown(glm::degrees(cone.inner_rad))
+        + ", \"outer_deg\": " + shown(glm::degrees(cone.outer_rad)) + " }";
+}
+
+} // namespace
+
 std::string scene_text(const SceneFile& scene, const std::filesystem::path& folder)
 {
     std::error_code error;
     const std::filesystem::path gltf = std::filesystem::relative(scene.gltf, folder.empty() ? "." : folder, error);
-    const auto list = [](const glm::dvec3& v) { return nlohmann::json{v.x, v.y, v.z}.dump(); };
     const glm::dmat3 axes = glm::mat3_cast(scene.start.ship_from_cockpit);
     std::ostringstream out;
     out << "// Suggested from the bounds of the glTF file; docs/scenes.md tells each member.\n{\n"
@@ -186,7 +199,8 @@ std::string scene_text(const SceneFile& scene, const std::filesystem::path& fold
                 << ", \"radiance\": " << list(far->radiance) << " }";
         else if (const auto* near = std::get_if<PointLight>(&scene.lights[i]))
             out << "{ \"type\": \"point\", \"position\": " << list(near->position)
-                << ", \"distance\": " << shown(near->distance) << ", \"radiance\": " << list(near->radiance) << " }";
+                << ", \"distance\": " << shown(near->distance) << ", \"radiance\": " << list(near->radiance)
+                << (near->cone ? cone_text(*near->cone) : "") << " }";
     }
     out << "\n    ],\n    \"start\": { \"position\": " << list(scene.start.position) << ", \"look\": " << list(-axes[2])
         << ", \"up\": " << list(axes[1]) << " }\n}\n";

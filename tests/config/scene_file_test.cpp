@@ -18,7 +18,8 @@ const std::string whole = R"({
     "ambient": [0.25, 0.5, 0.75],
     "lights": [
         { "type": "directional", "towards": [0, 3, 4], "radiance": [1, 2, 3] },
-        { "type": "point", "position": [1, 2, 3], "distance": 4, "radiance": [5, 6, 7], "temperature_K": 3000 },
+        { "type": "point", "position": [1, 2, 3], "distance": 4, "radiance": [5, 6, 7], "temperature_K": 3000,
+            "cone": { "axis": [0, -2, 0], "outer_deg": 30 } },
         { "type": "directional", "towards": [1, 0, 0], "radiance": [1, 1, 1], "line_nm": 589.3 },
         { "type": "point", "position": [0, 0, 0], "distance": 1, "radiance": [1, 1, 1],
           "spectrum": [[400, 0], [550.5, 1e3], [700, 0.25]] }
@@ -64,6 +65,10 @@ TEST(SceneFileTest, EveryMemberIsRead)
     EXPECT_EQ(lamp.distance, 4);
     EXPECT_EQ(lamp.radiance, glm::dvec3(5, 6, 7));
     EXPECT_EQ(lamp.spectrum, Emission(BlackBody{3000}));
+    EXPECT_EQ(lamp.cone.value().axis, glm::dvec3(0, -1, 0));
+    EXPECT_EQ(lamp.cone->inner_rad, 0);
+    EXPECT_NEAR(lamp.cone->outer_rad, std::acos(-1.0) / 6, 1e-15);
+    EXPECT_FALSE(std::get<PointLight>(scene.lights[3]).cone);
     EXPECT_EQ(std::get<DirectionalLight>(scene.lights[2]).spectrum, Emission(SpectralLine{589.3}));
     EXPECT_EQ(
         std::get<PointLight>(scene.lights[3]).spectrum, Emission(SpectralTable{{{400, 0}, {550.5, 1e3}, {700, 0.25}}}));
@@ -113,7 +118,8 @@ TEST(SceneFileTest, WrongScenesAreRefused)
             {with(R"("boundary": { "centre": [0, 0, 0], "radius": 0 })"), "/boundary/radius", "0", "is too small"},
             {with(R"("boundary": { "centre": [0, 0], "radius": 1 })"), "/boundary/centre", "[0,0]", "has length 2"},
             {with(R"("boundary": { "radius": 1 })"), "/boundary", "{", "lacks \"centre\""},
-            {with(R"("boundary": { "centre": [0, 9, 0], "radius": 8 })"), "/boundary/radius", "8", "leaves the start outside, 9 from the centre"},
+            {with(R"("boundary": { "centre": [0, 9, 0], "radius": 8 })"), "/boundary/radius", "8",
+                "leaves the start outside, 9 from the centre"},
             {with(R"("unit_m": "1 m")"), "/unit_m", "\"1 m\"", "is not a number"},
             {with(R"("unit": 1)"), "/unit", "1", "\"unit_m\""},
             {with(R"("light_speed_m_s": 0)"), "/light_speed_m_s", "0", "is too small"},
@@ -135,7 +141,8 @@ TEST(SceneFileTest, WrongScenesAreRefused)
                 "lacks \"peak_arcmin2\""},
             {with(R"("stars": { "catalogue": "a", "milky_way": { "panorama": "a.png", "peak_arcmin2": 0 } })"),
                 "/stars/milky_way/peak_arcmin2", "0", "is too small"},
-            {with(R"("stars": { "catalogue": "a", "in_depth": 5000 })"), "/stars/in_depth", "5000", "leaves no place for the other stars"},
+            {with(R"("stars": { "catalogue": "a", "in_depth": 5000 })"), "/stars/in_depth", "5000",
+                "leaves no place for the other stars"},
             {with(R"("stars": { "catalogue": "a", "ahead_deg": [84] })"), "/stars/ahead_deg", "[84]", "has length 1; "},
             {with(R"("stars": { "catalogue": "a", "ahead_deg": [-1, 0] })"), "/stars/ahead_deg/0", "-1", "is too small"},
             {with(R"("stars": { "catalogue": "a", "ahead_deg": [0, 91] })"), "/stars/ahead_deg/1", "91", "is too large"},
@@ -159,6 +166,13 @@ TEST(SceneFileTest, WrongScenesAreRefused)
                 R"({"position":[0,1,0],"radiance":[1,1,1],"type":"point"})", "lacks \"distance\""},
             {light(R"("type": "point", "position": [0, 1, 0], "distance": 0, "radiance": [1, 1, 1])"), "/lights/0/distance",
                 "0", "is too small; a number above 0"},
+            {light(
+                 R"("type": "point", "position": [0, 1, 0], "distance": 1, "radiance": [1, 1, 1], "cone": { "axis": [0, 0, 0], "outer_deg": 30 })"),
+                "/lights/0/cone/axis", "[0,0,0]", "points nowhere; a direction of any length above 0 is right"},
+            {light(
+                 R"("type": "point", "position": [0, 1, 0], "distance": 1, "radiance": [1, 1, 1], "cone": { "axis": [0, 1, 0], "inner_deg": 30, "outer_deg": 30 })"),
+                "/lights/0/cone", R"({"axis":[0,1,0],"inner_deg":30,"outer_deg":30})",
+                "ends inside \"inner_deg\"; a larger \"outer_deg\" is right"},
             {light(R"("type": "point", "position": [0, 2e15, 0], "distance": 1, "radiance": [1, 1, 1])"),
                 "/lights/0/position/1", "2e+15", "is too large"},
             {with(R"("sky": { "temperature_K": -1 })"), "/sky/temperature_K", "-1", "is too small; a number from 0"},

@@ -169,4 +169,89 @@ TEST(Lamps, ALampThatPassesEqualsRays)
     EXPECT_GT(compared, starbow::testing::all_cases() ? 3000 : 1500);
 }
 
+namespace {
+
+/// A spot 2 above a floor, straight down: dark beyond 40 degrees, whole within 15.
+Json spot(double aside)
+{
+    return {{"type", "point"}, {"position", {aside, 2, 0}}, {"distance", 2}, {"radiance", {1, 1, 1}},
+        {"cone", {{"axis", {0, -2, 0}}, {"inner_deg", 15}, {"outer_deg", 40}}}};
+}
+
+Doc floor_alone(bool body, bool glossy = false)
+{
+    Doc doc;
+    quad(doc, {0, 0, 0}, {6, 0, 0}, {0, 0, -6},
+        doc.put("materials",
+            {{"pbrMetallicRoughness",
+                {{"metallicFactor", 0}, {"roughnessFactor", glossy ? 0.4 : 1.0}, {"baseColorFactor", {1, 1, 1, 1}}}}}));
+    if (body)
+        quad(doc, {0, -50, 0}, {1, 0, 0}, {0, 0, -1}, unlit(doc, {1, 1, 1}), {{"name", "body"}});
+    return doc;
+}
+
+} // namespace
+
+TEST(Spots, FallFromTheInnerToTheOuterCone)
+{
+    // From above, so that a pixel's direction is a place on the floor.
+    const GpuWorld world = open_world("spot", floor_alone(false), {{"lights", {spot(0)}}});
+    const Shot shot = shot_at({0, 5, 0}, {0, 0, 0}, {0, -1, 0}, {0, 0, -1});
+    OffscreenRenderer live = renderer(world, one_view(Planar{.fov_y_deg = 60}, {301, 301}));
+    const Numbers numbers(live, shot);
+    const double outer = std::cos(40 * degree), inner = std::cos(15 * degree);
+    int edge = 0;
+    for (int x = 0; x < 301; ++x) {
+        const int pixel = 150 * 301 + x;
+        const dvec3 n = numbers.camera(pixel);
+        const double aside = 5 * std::tan(std::acos(std::min(-n.y, 1.0))), cosine = 2 / std::hypot(2, aside);
+        const double part = std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
+        const double right = part * part * std::pow(cosine, 3); // at distance 2 over the cosine, aslant
+        EXPECT_NEAR(double(numbers.light(pixel).g), right, 0.01 * right + 0.004) << aside;
+        edge += part > 0.1 && part < 0.9;
+    }
+    EXPECT_GT(edge, 40);
+}
+
+TEST(Spots, EqualRaysAtRestAndPassing)
+{
+    // The lamp rests, or passes at 0.8 c with its cone, whose light leans forward; the eye rests above, or flies.
+    const Layout layout = one_view(Planar{.fov_y_deg = 70}, {120, 120});
+    for (const bool glossy : {false, true})
+        for (const bool passes : {false, true})
+            for (const double flies : {0.0, 0.3}) {
+                Json lamp = spot(-1);
+                Json scene = {{"ambient", {0.01, 0.01, 0.01}}, {"shadows", false}};
+                if (passes) {
+                    lamp["body"] = "body", lamp["position"] = {6, 2, 0};
+                    scene["bodies"] = {
+                        {{"name", "body"}, {"nodes", {"body"}}, {"velocity", {{"direction", {1, 0, 0.2}}, {"beta", 0.8}}}}};
+                }
+                scene["lights"] = {lamp};
+                GpuWorld world = open_world("spots", floor_alone(passes, glossy), scene);
+                const ReferenceWorld rays = open_reference_world(starbow::testing::scratch("spots.json"));
+                Shot shot = shot_at({0, 5, 0}, flies * dvec3(0, 0, -1), {0, -1, 0}, {0, 0, -1});
+                shot.effects = {true, true, false};
+                const Reference truth = reference(rays.input(), layout, shot, 0, {.samples = 4});
+                OffscreenRenderer live = renderer(world, layout);
+                const Numbers numbers(live, shot);
+                double brightest = 0, off = 0;
+                int lit = 0;
+                for (int i = 0; i < numbers.count(); ++i) {
+                    const dvec3 right = truth.light[0][std::size_t(i)] / truth.exposure;
+                    brightest = std::max(brightest, glm::length(right));
+                }
+                for (int i = 0; i < numbers.count(); ++i) {
+                    const dvec3 right = truth.light[0][std::size_t(i)] / truth.exposure;
+                    lit += glm::length(right) > 0.1 * brightest;
+                    off = std::max(off, glm::length(numbers.light(i) - right) / brightest);
+                }
+                std::printf("  glossy %d, passes %d, flies %.1f: %d pixels lit, at most %.4f of the brightest off\n", glossy,
+                    passes, flies, lit, off);
+                EXPECT_LT(off, 0.03) << glossy << passes << flies;
+                EXPECT_GT(lit, 200) << glossy << passes << flies;
+                EXPECT_LT(lit, numbers.count() / 2) << "the cone has an edge in the picture";
+            }
+}
+
 } // namespace starbow::gpu_test::lamps_gpu_test

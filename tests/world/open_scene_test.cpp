@@ -172,7 +172,8 @@ TEST_F(OpenSceneTest, TheFilesOwnLampsShine)
     Doc doc = cube_on_a_ground();
     // Straight down, 2 lux; 8 cd from 4 m beside the middle, 0.5 lux there; and a dark one.
     doc.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}, {"intensity", 2}},
-        {{"type", "spot"}, {"intensity", 8}, {"color", {1, 0, 0}}}, {{"type", "point"}, {"intensity", 0}}};
+        {{"type", "spot"}, {"intensity", 8}, {"color", {1, 0, 0}}, {"spot", {{"outerConeAngle", 0.5}}}},
+        {{"type", "point"}, {"intensity", 0}}};
     const auto lamp = [](int index) { return Json{{"KHR_lights_punctual", {{"light", index}}}}; };
     for (const Json& node : {Json{{"extensions", lamp(0)}, {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}},
              Json{{"extensions", lamp(1)}, {"translation", {4, 1, 0}}}, Json{{"extensions", lamp(2)}}})
@@ -189,10 +190,18 @@ TEST_F(OpenSceneTest, TheFilesOwnLampsShine)
     EXPECT_NEAR(glm::dot(far.radiance, weights) / glm::dot(near.radiance, weights), 2 / (0.2126 * 0.5), 1e-9);
     EXPECT_NEAR(glm::dot(far.radiance + near.radiance, weights), 1, 1e-9);
     EXPECT_EQ(near.radiance.g, 0);
-    EXPECT_EQ(scene.notes.size(), 3u); // no scene file, spots, one lamp is dark
+    EXPECT_EQ(scene.notes.size(), 2u); // no scene file, one lamp is dark
+    ASSERT_TRUE(near.cone);
+    EXPECT_LT(glm::distance(near.cone->axis, glm::dvec3(0, 0, -1)), 1e-12);
+    EXPECT_EQ(near.cone->inner_rad, 0);
+    EXPECT_EQ(near.cone->outer_rad, 0.5);
     const SceneFile again = load_scene_file(write("lamps.json", scene_text(scene, folder)));
     ASSERT_EQ(again.lights.size(), 2u);
     EXPECT_EQ(std::get<PointLight>(again.lights[1]).radiance, near.radiance);
+    EXPECT_EQ(std::get<PointLight>(again.lights[1]).cone->axis, near.cone->axis);
+    EXPECT_NEAR(std::get<PointLight>(again.lights[1]).cone->outer_rad, 0.5, 1e-9);
+    doc.json["extensions"]["KHR_lights_punctual"]["lights"][1]["spot"] = {{"outerConeAngle", 0.5}, {"innerConeAngle", 0.5}};
+    EXPECT_THROW(open_scene(write("lamps.gltf", doc.text())), InputError);
 }
 
 TEST_F(OpenSceneTest, AWorldWithoutLightIsSaidToBeBlack)

@@ -1,4 +1,5 @@
 #include "runtime/world/outline.h"
+#include "config/model/angles.h"
 #include "parts.h"
 #include "runtime/world/boxes.h"
 #include <algorithm>
@@ -35,7 +36,7 @@ std::optional<AlignedBox> bounds_of_mesh(const Spot& root, std::size_t mesh)
 }
 
 /// The file's lamps by their index, before they have a place.
-std::vector<OutlineLamp> lamps_of(const Spot& root, bool& spots)
+std::vector<OutlineLamp> lamps_of(const Spot& root)
 {
     std::vector<OutlineLamp> lamps;
     if (!root.has("extensions") || !object(root["extensions"]).has("KHR_lights_punctual"))
@@ -46,7 +47,16 @@ std::vector<OutlineLamp> lamps_of(const Spot& root, bool& spots)
         OutlineLamp& to = lamps.emplace_back();
         const std::string type = text(lamp["type"]);
         to.directional = type == "directional";
-        spots |= type == "spot";
+        if (type == "spot") {
+            to.cone = LightCone{{0, 0, -1}, 0, 0.25 * pi};
+            if (lamp.has("spot") && object(lamp["spot"]).has("outerConeAngle"))
+                to.cone->outer_rad = number(lamp["spot"]["outerConeAngle"], 1e-6, 0.5 * pi + 1e-6);
+            if (lamp.has("spot") && lamp["spot"].has("innerConeAngle"))
+                to.cone->inner_rad = number(lamp["spot"]["innerConeAngle"], 0, 0.5 * pi);
+            to.cone->outer_rad = std::min(to.cone->outer_rad, 0.5 * pi);
+            if (!(to.cone->inner_rad < to.cone->outer_rad))
+                lamp["spot"].fail("has an innerConeAngle that is not below its outerConeAngle; should be smaller");
+        }
         if (!to.directional && type != "point" && type != "spot")
             lamp["type"].fail("is " + in_quotes(type) + "; should be directional, point or spot");
         if (lamp.has("color")) {
@@ -106,7 +116,7 @@ Outline read_outline(const std::filesystem::path& path)
     for (std::size_t mesh = 0; mesh < count_of(root, "meshes"); ++mesh)
         meshes.push_back(bounds_of_mesh(root, mesh));
     Outline outline;
-    const std::vector<OutlineLamp> lamps = lamps_of(root, outline.spots);
+    const std::vector<OutlineLamp> lamps = lamps_of(root);
     // The stated bounds are those of a mesh alone, before its skin or its many places.
     const bool placed_by_data = count_of(root, "skins") > 0
         || std::ranges::any_of(guarded.instancing, [](const auto& each) { return each.has_value(); });
