@@ -77,20 +77,27 @@ struct ClipHole {
     }
 };
 
+/// True if a surface with some errors is fine enough in a box. surface: a DetailLevel or a PieceGroup.
+template <class Surface> bool fits(const Surface& surface, const Box& box, const PlannedImage& image, const Quality& quality)
+{
+    const auto within
+        = [&](double error, double most) { return error * box.scale * image.texels_per_unit <= most * box.distance; };
+    return within(surface.error, quality.lod_error_texels) && within(surface.shading, quality.lod_shading_texels);
+}
+
 /// The level of detail for an instance: -1 is the full surface.
 int level_of(const Primitive& primitive, const Box& box, const PlannedImage& image, const Quality& quality)
 {
     int level = -1;
-    auto fits = [&](double error, double most) { return error * box.scale * image.texels_per_unit <= most * box.distance; };
-    while (level + 1 < int(primitive.coarser.size()) && fits(primitive.coarser[level + 1].error, quality.lod_error_texels)
-        && fits(primitive.coarser[level + 1].shading, quality.lod_shading_texels))
+    while (level + 1 < int(primitive.coarser.size()) && fits(primitive.coarser[std::size_t(level + 1)], box, image, quality))
         ++level;
     return level;
 }
 
-Box box_of(const Primitive& primitive, const glm::dmat3& turn, const glm::dvec3& place)
+/// thing: a primitive, a piece of one, or a group of pieces.
+template <class Thing> Box box_of(const Thing& thing, const glm::dmat3& turn, const glm::dvec3& place)
 {
-    const glm::dvec3 half = 0.5 * (primitive.high - primitive.low), middle = 0.5 * (primitive.high + primitive.low);
+    const glm::dvec3 half = 0.5 * (thing.high - thing.low), middle = 0.5 * (thing.high + thing.low);
     Box box{turn * middle + place, {turn[0] * half.x, turn[1] * half.y, turn[2] * half.z}, 0, 0, 0, true};
     const glm::dvec3 lengths(glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2]));
     const double longest = std::max({lengths.x, lengths.y, lengths.z});
@@ -101,11 +108,11 @@ Box box_of(const Primitive& primitive, const glm::dmat3& turn, const glm::dvec3&
         const glm::dvec3 eye_local = -(place * turn) / (lengths * lengths);
         box.scale = longest;
         box.distance = std::min({lengths.x, lengths.y, lengths.z})
-            * glm::distance(eye_local, glm::clamp(eye_local, primitive.low, primitive.high));
+            * glm::distance(eye_local, glm::clamp(eye_local, thing.low, thing.high));
     } else {
         // A sheared node may stretch more than each of its axes; the root of the sum of squares is an upper bound.
         box.scale = glm::length(lengths);
-        box.distance = std::max(0.0, glm::length(turn * primitive.centre + place) - box.scale * primitive.radius);
+        box.distance = std::max(0.0, glm::length(box.centre) - box.scale * glm::length(half));
     }
     return box;
 }
@@ -312,6 +319,34 @@ void add_cluster_draws(const World& world, const ClusterRange& clusters, const C
     }
 }
 
+/// Adds the draws of an instance of a divided surface: of its pieces in view that are as coarse as they may be. whole: the
+/// instance's box as shown. moves: it is animated; its pieces then have no boxes of their own. draw: of the whole surface,
+/// of this one instance.
+void add_piece_draws(const World& world, const Primitive& primitive, const Instance& instance, const EyeEvent& eye_event,
+    const PlannedImage& image, const Quality& quality, const Box& whole, bool moves, Draw draw, std::vector<Draw>& draws)
+{
+    const Frustum frustum(image);
+    const ClipHole hole(image);
+    const Standing at = standing(instance.frame_from_local, eye_event);
+    const ClusterView view(instance, eye_event, whole.scale, !world.materials[std::size_t(primitive.material)].double_sided);
+    const auto box
+        = [&](const auto& thing) { return moves ? whole : as_shown(box_of(thing, at.turn, at.place), eye_event); };
+    for (std::uint32_t i = 0; i < primitive.pieces.count; ++i) {
+        const DetailPiece& piece = world.pieces[primitive.pieces.first + i];
+        if (!fits(piece.own, box(piece.own), image, quality) || fits(piece.coarser, box(piece.coarser), image, quality))
+            continue;
+        const Box own = box(piece);
+        if (!moves && (!frustum.sees(own) || hole.holds(own)))
+            continue;
+        const DetailLevel& level = piece.triangles;
+        draw.first_index = level.first_index, draw.index_count = level.index_count, draw.farthest = own.farthest;
+        if (moves || level.clusters.count == 0)
+            draws.push_back(draw);
+        else
+            add_cluster_draws(world, level.clusters, view, frustum, hole, draw, draws);
+    }
+}
+
 } // namespace
 
 DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const std::vector<PlannedImage>& images,
@@ -365,10 +400,21 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
                 Draw draw{i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()), detail.first_index,
                     detail.index_count, kind.first, kind.second, primitive.deforming >= 0};
                 list.visible.insert(list.visible.end(), seen.begin(), seen.end());
+                draw.farthest = boxes[seen.front()].farthest;
                 if (world.materials[std::size_t(primitive.material)].blended) {
                     draw.blended = true, draw.count = 1;
-                    for (std::size_t k = 0; k < seen.size(); ++k, ++draw.first)
+                    for (std::size_t k = 0; k < seen.size(); ++k, ++draw.first) {
+                        draw.farthest = boxes[seen[k]].farthest;
                         list.draws.push_back(draw);
+                    }
+                } else if (primitive.pieces.count > 0) {
+                    draw.count = 1;
+                    for (std::uint32_t own : seen) {
+                        add_piece_draws(world, primitive, world.instances[range.first + (own - first)],
+                            eye_events[std::size_t(image.rest_frame)], image, quality, boxes[own], kind.second, draw,
+                            list.draws);
+                        ++draw.first;
+                    }
                 } else if (detail.clusters.count == 0 || kind.second) {
                     list.draws.push_back(draw);
                 } else {
@@ -377,6 +423,7 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
                     draw.count = 1;
                     for (std::uint32_t own : seen) {
                         const Instance& instance = world.instances[range.first + (own - first)];
+                        draw.farthest = boxes[own].farthest;
                         add_cluster_draws(world, detail.clusters,
                             ClusterView(instance, eye_event, boxes[own].scale, one_sided), frustum, hole, draw, list.draws);
                         ++draw.first;
@@ -387,9 +434,8 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
             }
         }
         // Nearest first, as the instances of a draw. What is large and around everything, such as a ground, comes last.
-        const auto order = [&](const Draw& draw) {
-            return std::tuple(draw.blended, boxes[list.visible[draw.first]].farthest, draw.first, draw.first_index);
-        };
+        const auto order
+            = [&](const Draw& draw) { return std::tuple(draw.blended, draw.farthest, draw.first, draw.first_index); };
         const auto own = list.draws.begin() + std::ptrdiff_t(first_draw);
         std::sort(own, list.draws.end(), [&](const Draw& a, const Draw& b) { return order(a) < order(b); });
         const auto blended = std::find_if(own, list.draws.end(), [](const Draw& draw) { return draw.blended; });

@@ -13,6 +13,7 @@ struct Draw {
     bool moves = false; ///< animated
     bool deforms = false;
     bool blended = false; ///< one instance of a blended surface
+    double farthest = 0; ///< from the eye to the box of its first instance, or of its piece, at most
 };
 
 /// The draws of one eye's cube pass.

@@ -1,5 +1,5 @@
 #include "fill.h"
-#include "parallel.h"
+#include "runtime/world/parallel.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 #include "clusters.h"
+#include "simplifier.h"
 #include <algorithm>
 #include <meshoptimizer.h>
-#include <span>
 
 namespace starbow {
 namespace {
@@ -17,18 +17,17 @@ ClusterRange clusters_of(World& world, const Primitive& primitive, std::uint32_t
     ClusterRange range{std::uint32_t(world.clusters.size()), 0};
     if (index_count < worth)
         return range;
-    const Vertex* vertices = world.vertices.data() + primitive.vertex_offset;
-    const float* positions = &vertices->position.x;
-    const std::span<std::uint32_t> indices(world.indices.data() + first_index, index_count);
-    const std::size_t vertex_count = *std::max_element(indices.begin(), indices.end()) + std::size_t(1);
+    const CompactSurface surface = compact(world, primitive, {world.indices.data() + first_index, index_count});
+    const float* positions = &surface.vertices[0].position.x;
+    const std::size_t vertex_count = surface.vertices.size();
     const std::size_t most = meshopt_buildMeshletsBound(index_count, most_vertices, most_triangles);
     std::vector<meshopt_Meshlet> meshlets(most);
     std::vector<unsigned int> corners(most * most_vertices);
     std::vector<unsigned char> triangles(most * most_triangles * 3);
     // Normals that agree count as much as a small sphere.
     constexpr float normals = 0.5f;
-    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), corners.data(), triangles.data(), indices.data(), index_count,
-        positions, vertex_count, sizeof(Vertex), most_vertices, most_triangles, normals));
+    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), corners.data(), triangles.data(), surface.indices.data(),
+        index_count, positions, vertex_count, sizeof(Vertex), most_vertices, most_triangles, normals));
     std::uint32_t at = first_index;
     for (const meshopt_Meshlet& meshlet : meshlets) {
         const unsigned int* own = corners.data() + meshlet.vertex_offset;
@@ -38,7 +37,7 @@ ClusterRange clusters_of(World& world, const Primitive& primitive, std::uint32_t
         world.clusters.push_back({vector_of(bounds.center), bounds.radius, vector_of(bounds.cone_axis), bounds.cone_cutoff,
             at, std::uint32_t(3 * meshlet.triangle_count)});
         for (std::size_t i = 0; i < 3 * std::size_t(meshlet.triangle_count); ++i)
-            world.indices[at++] = own[of[i]];
+            world.indices[at++] = surface.from[own[of[i]]];
     }
     range.count = std::uint32_t(meshlets.size());
     return range;
@@ -49,9 +48,14 @@ ClusterRange clusters_of(World& world, const Primitive& primitive, std::uint32_t
 void add_clusters(World& world)
 {
     for (Primitive& primitive : world.primitives) {
-        primitive.clusters = clusters_of(world, primitive, primitive.first_index, primitive.index_count);
-        for (DetailLevel& level : primitive.coarser)
+        const auto set_clusters = [&](DetailLevel& level) {
             level.clusters = clusters_of(world, primitive, level.first_index, level.index_count);
+        };
+        if (primitive.pieces.count == 0)
+            primitive.clusters = clusters_of(world, primitive, primitive.first_index, primitive.index_count);
+        for (std::uint32_t i = 0; i < primitive.pieces.count; ++i)
+            set_clusters(world.pieces[primitive.pieces.first + i].triangles);
+        std::ranges::for_each(primitive.coarser, set_clusters);
     }
 }
 

@@ -1,166 +1,58 @@
 #include "detail.h"
 #include "clusters.h"
+#include "parallel.h"
+#include "pieces.h"
+#include "simplifier.h"
 #include <algorithm>
-#include <cmath>
-#include <meshoptimizer.h>
 
 namespace starbow {
 namespace {
 
-/// The number of pieces that are connected by their vertices.
-std::size_t pieces(const std::vector<std::uint32_t>& indices, std::size_t vertex_count)
-{
-    std::vector<std::uint32_t> parent(vertex_count);
-    for (std::uint32_t i = 0; i < vertex_count; ++i)
-        parent[i] = i;
-    auto root = [&](std::uint32_t i) {
-        while (parent[i] != i)
-            i = parent[i] = parent[parent[i]];
-        return i;
-    };
-    for (std::size_t i = 0; i < indices.size(); i += 3)
-        for (int k : {1, 2})
-            parent[root(indices[i + k])] = root(indices[i]);
-    std::size_t count = 0;
-    for (std::uint32_t i : indices)
-        if (parent[i] == i)
-            ++count, parent[i] = UINT32_MAX; // so that each root counts once
-    return count;
-}
-
-/// The point of a triangle that is closest to p, as parts of its corners (Ericson, Real-Time Collision Detection, 5.1.5).
-glm::vec3 closest(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
-{
-    const glm::vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-    const float d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
-    if (d1 <= 0 && d2 <= 0)
-        return {1, 0, 0};
-    const float d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
-    if (d3 >= 0 && d4 <= d3)
-        return {0, 1, 0};
-    const float d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
-    if (d6 >= 0 && d5 <= d6)
-        return {0, 0, 1};
-    const float vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0)
-        return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-    if (vb <= 0 && d2 >= 0 && d6 <= 0)
-        return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-        const float w = (d4 - d3) / (d4 - d3 + d5 - d6);
-        return {0, 1 - w, w};
-    }
-    const float sum = va + vb + vc;
-    return {va / sum, vb / sum, vc / sum};
-}
-
-glm::vec3 colour_of(const Vertex& vertex)
-{
-    return glm::vec3(vertex.colour & 255, vertex.colour >> 8 & 255, vertex.colour >> 16 & 255) / 255.0f;
-}
-
-/// The width over which a level's shading and colours differ from the full surface's, where its shape does not. A removed
-/// vertex loses its normal up to the next remaining vertex; a small difference counts as a small part of that way. Only
-/// some vertices are tested, so that it takes milliseconds.
-double shading_width(
-    const Vertex* vertices, const std::vector<std::uint32_t>& full, const std::vector<std::uint32_t>& level, float extent)
-{
-    const float same = 1e-5f * extent;
-    constexpr std::size_t most_tested = 8'000'000; // triangle tests; nearly all triangles are too far off
-    struct Box {
-        glm::vec3 low, high;
-    };
-    std::vector<Box> boxes;
-    for (std::size_t k = 0; k < level.size(); k += 3) {
-        const glm::vec3 &a = vertices[level[k]].position, &b = vertices[level[k + 1]].position,
-                        &c = vertices[level[k + 2]].position;
-        boxes.push_back({glm::min(glm::min(a, b), c) - same, glm::max(glm::max(a, b), c) + same});
-    }
-    const std::size_t step = std::max<std::size_t>(1, full.size() * boxes.size() / most_tested);
-    double most = 0;
-    std::size_t first = 0; // the triangle nearest to the vertex before
-    for (std::size_t i = 0; i < full.size(); i += step) {
-        const Vertex& vertex = vertices[full[i]];
-        float nearest = INFINITY, other = 0, way = 0;
-        auto test = [&](std::size_t triangle) {
-            const Vertex *a = vertices + level[3 * triangle], *b = vertices + level[3 * triangle + 1],
-                         *c = vertices + level[3 * triangle + 2];
-            const glm::vec3 parts = closest(vertex.position, a->position, b->position, c->position);
-            const float distance
-                = glm::length(parts.x * a->position + parts.y * b->position + parts.z * c->position - vertex.position);
-            if (!(distance <= nearest + same))
-                return;
-            const glm::vec3 normal = parts.x * a->normal + parts.y * b->normal + parts.z * c->normal;
-            const float length = glm::length(normal);
-            const glm::vec3 colour = parts.x * colour_of(*a) + parts.y * colour_of(*b) + parts.z * colour_of(*c);
-            const float off = glm::length(length > 0 ? normal / length - vertex.normal : vertex.normal)
-                + glm::length(colour - colour_of(vertex));
-            // At a sharp edge several triangles are equally near: the one with the vertex' own normal counts.
-            if (distance >= nearest - same && off >= other)
-                return;
-            nearest = std::min(nearest, distance), other = off, first = triangle;
-            way = std::min({glm::length(a->position - vertex.position), glm::length(b->position - vertex.position),
-                glm::length(c->position - vertex.position)});
-        };
-        test(first);
-        for (std::size_t k = 0; k < boxes.size(); ++k)
-            if (glm::all(glm::greaterThanEqual(vertex.position, boxes[k].low - nearest))
-                && glm::all(glm::lessThanEqual(vertex.position, boxes[k].high + nearest)))
-                test(k);
-        most = std::max(most, double(std::min(other, 1.0f) * way));
-    }
-    return most;
-}
+constexpr std::size_t worth_levels = 3 * 64; // indices
 
 } // namespace
 
 void add_detail_levels(World& world, const std::function<void(double)>& progress)
 {
-    constexpr std::size_t worth = 3 * 64; // indices
-    constexpr float most_error = 0.25f; // of the primitive's extent; beyond it hardly any surface is left
-    std::vector<std::uint32_t> level;
-    double corners = 0, done = 0;
+    const std::size_t count = world.primitives.size();
+    const auto divided = [&](const Primitive& primitive) {
+        return primitive.index_count / 3 > most_triangles_of_a_surface && primitive.deforming < 0
+            && !world.materials[std::size_t(primitive.material)].blended;
+    };
+    double corners = 0, whole = 0;
     for (const Primitive& primitive : world.primitives)
-        corners += primitive.index_count;
-    for (Primitive& primitive : world.primitives) {
-        if (progress)
-            progress(done / std::max(corners, 1.0));
-        done += primitive.index_count;
-        if (primitive.index_count < worth || primitive.deforming >= 0) // a level's error holds in one pose alone
-            continue;
-        const Vertex* vertices = world.vertices.data() + primitive.vertex_offset;
-        std::vector<std::uint32_t> from(world.indices.begin() + primitive.first_index,
-            world.indices.begin() + primitive.first_index + primitive.index_count);
-        std::size_t vertex_count = *std::max_element(from.begin(), from.end()) + 1;
-        // A cloud of small things (stars, leaves) can't be simplified: each of them would shrink or vanish.
-        if (from.size() / 3 < 12 * pieces(from, vertex_count))
-            continue;
-        const float* positions = &vertices->position.x;
-        double extent = meshopt_simplifyScale(positions, vertex_count, sizeof(Vertex));
-        double error = 0, shading = 0;
-        std::vector<std::uint32_t> full = from; // each vertex once
-        std::sort(full.begin(), full.end());
-        full.erase(std::unique(full.begin(), full.end()), full.end());
-        while (from.size() > 3 * 16) {
-            level.resize(from.size());
-            float added = 0;
-            std::size_t count = meshopt_simplify(level.data(), from.data(), from.size(), positions, vertex_count,
-                sizeof(Vertex), from.size() / 6 * 3, most_error, 0, &added);
-            if (count == 0 || count > from.size() * 4 / 5)
-                break;
-            level.resize(count);
-            shading = std::max(shading, shading_width(vertices, full, level, float(extent)));
-            meshopt_optimizeVertexCache(level.data(), level.data(), count, vertex_count);
-            // Each step is measured against the one before, so the sum of errors is an upper bound.
-            error += added * extent;
-            primitive.coarser.push_back({std::uint32_t(world.indices.size()), std::uint32_t(count), error, shading});
-            world.indices.insert(world.indices.end(), level.begin(), level.end());
-            from = level;
-            // Each level has half the corners of the one before, and takes half as long.
-            if (progress)
-                progress((done - double(from.size())) / corners);
+        (divided(primitive) ? corners : whole) += primitive.index_count;
+    double done = whole / std::max(corners + whole, 1.0);
+    std::vector<std::vector<std::uint32_t>> added(count);
+    const auto add_levels = [&](std::size_t i) {
+        Primitive& primitive = world.primitives[i];
+        // A level's error holds in one pose alone.
+        if (primitive.index_count < worth_levels || primitive.deforming >= 0 || divided(primitive))
+            return;
+        Simplifier simplifier(world, primitive, {world.indices.data() + primitive.first_index, primitive.index_count});
+        if (!simplifier.coherent())
+            return;
+        while (simplifier.halve()) {
+            const std::vector<std::uint32_t> own = simplifier.corners();
+            DetailLevel level = simplifier.level();
+            level.first_index = std::uint32_t(added[i].size()), level.index_count = std::uint32_t(own.size());
+            added[i].insert(added[i].end(), own.begin(), own.end());
+            primitive.coarser.push_back(level);
         }
+    };
+    in_parallel(count, add_levels, progress, 0, done);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (DetailLevel& level : world.primitives[i].coarser)
+            level.first_index += std::uint32_t(world.indices.size());
+        world.indices.insert(world.indices.end(), added[i].begin(), added[i].end());
+        added[i] = {};
     }
+    for (Primitive& primitive : world.primitives)
+        if (divided(primitive)) {
+            const double next = done + primitive.index_count / (corners + whole);
+            add_pieces(world, primitive, progress, done, next);
+            done = next;
+        }
     add_clusters(world);
 }
 

@@ -12,24 +12,33 @@ namespace starbow {
 namespace {
 
 /// Another way of making levels has another number.
-constexpr std::uint64_t version = 1;
+constexpr std::uint64_t version = 2;
 
 struct Header {
     char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'D'};
     std::uint64_t key = 0; ///< of the world without its levels
-    std::uint64_t primitives = 0, levels = 0, clusters = 0, indices = 0;
+    std::uint64_t primitives = 0, pieces = 0, levels = 0, clusters = 0, indices = 0;
     std::uint64_t content = 0; ///< hash of everything that follows; a damaged file is not read
 };
 
-/// The detail levels and clusters of a primitive, in the file's form. Both records are plain numbers without gaps.
+/// The detail levels, pieces and clusters of a primitive, in the file's form. The records are plain numbers without gaps.
 struct KeptPrimitive {
-    std::uint32_t levels, first_cluster, clusters;
+    std::uint32_t levels, first_cluster, clusters, first_piece, pieces;
+};
+struct KeptGroup {
+    double low[3], high[3], error, shading;
+};
+struct KeptPiece {
+    double low[3], high[3];
+    std::uint32_t first_index, indices, first_cluster, clusters;
+    KeptGroup own, coarser;
 };
 struct KeptLevel {
     double error, shading;
     std::uint32_t first_index, indices, first_cluster, clusters;
 };
-static_assert(std::has_unique_object_representations_v<KeptPrimitive> && sizeof(KeptLevel) == 32);
+static_assert(
+    std::has_unique_object_representations_v<KeptPrimitive> && sizeof(KeptLevel) == 32 && sizeof(KeptPiece) == 192);
 static_assert(std::is_trivially_copyable_v<Cluster> && sizeof(Cluster) == 40);
 
 template <class T> std::span<const unsigned char> bytes_of(const std::vector<T>& values)
@@ -55,6 +64,7 @@ std::uint64_t key_of(const World& world)
 /// The content of a cache file behind its header.
 struct Kept {
     std::vector<KeptPrimitive> primitives;
+    std::vector<KeptPiece> pieces;
     std::vector<KeptLevel> levels;
     std::vector<Cluster> clusters;
     std::vector<std::uint32_t> indices;
@@ -63,7 +73,7 @@ struct Kept {
     {
         ContentHash hash;
         for (const std::span<const unsigned char> part :
-            {bytes_of(primitives), bytes_of(levels), bytes_of(clusters), bytes_of(indices)})
+            {bytes_of(primitives), bytes_of(pieces), bytes_of(levels), bytes_of(clusters), bytes_of(indices)})
             hash.add(part.data(), part.size());
         return hash.value();
     }
@@ -79,23 +89,26 @@ bool read_kept(const std::filesystem::path& path, std::uint64_t key, const World
         || header.primitives != world.primitives.size())
         return false;
     // Each count is bounded before the product of any is taken.
-    for (const std::uint64_t count : {header.levels, header.clusters, header.indices})
+    for (const std::uint64_t count : {header.pieces, header.levels, header.clusters, header.indices})
         if (count > file.size())
             return false;
     if (file.size()
-        != sizeof header + header.primitives * sizeof(KeptPrimitive) + header.levels * sizeof(KeptLevel)
-            + header.clusters * sizeof(Cluster) + header.indices * sizeof(std::uint32_t))
+        != sizeof header + header.primitives * sizeof(KeptPrimitive) + header.pieces * sizeof(KeptPiece)
+            + header.levels * sizeof(KeptLevel) + header.clusters * sizeof(Cluster) + header.indices * sizeof(std::uint32_t))
         return false;
-    kept.primitives.resize(header.primitives), kept.levels.resize(header.levels);
+    kept.primitives.resize(header.primitives), kept.pieces.resize(header.pieces), kept.levels.resize(header.levels);
     kept.clusters.resize(header.clusters), kept.indices.resize(header.indices);
     const auto fill = [&](auto& values) { return read(values.data(), bytes_of(values).size()); };
-    if (!fill(kept.primitives) || !fill(kept.levels) || !fill(kept.clusters) || !fill(kept.indices)
+    if (!fill(kept.primitives) || !fill(kept.pieces) || !fill(kept.levels) || !fill(kept.clusters) || !fill(kept.indices)
         || kept.content() != header.content)
         return false;
     std::uint64_t levels = 0;
     for (const KeptPrimitive& primitive : kept.primitives)
         levels += primitive.levels;
-    return levels == header.levels;
+    std::uint64_t pieces = 0;
+    for (const KeptPrimitive& primitive : kept.primitives)
+        pieces += primitive.pieces;
+    return levels == header.levels && pieces == header.pieces;
 }
 
 void take(Kept&& kept, World& world)
@@ -107,23 +120,39 @@ void take(Kept&& kept, World& world)
         Primitive& primitive = world.primitives[i];
         const KeptPrimitive& from = kept.primitives[i];
         primitive.clusters = {from.first_cluster, from.clusters};
+        primitive.pieces = {from.first_piece, from.pieces};
         for (std::uint32_t k = 0; k < from.levels; ++k) {
             const KeptLevel& level = kept.levels[next++];
             primitive.coarser.push_back(
                 {level.first_index, level.indices, level.error, level.shading, {level.first_cluster, level.clusters}});
         }
     }
+    const auto vec = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
+    const auto group = [&](const KeptGroup& g) { return PieceGroup{vec(g.low), vec(g.high), g.error, g.shading}; };
+    for (const KeptPiece& from : kept.pieces)
+        world.pieces.push_back({vec(from.low), vec(from.high),
+            {from.first_index, from.indices, from.own.error, from.own.shading, {from.first_cluster, from.clusters}},
+            group(from.own), group(from.coarser)});
 }
 
 Kept kept_of(const World& world)
 {
     Kept kept;
+    const auto group = [](const PieceGroup& g) {
+        return KeptGroup{{g.low.x, g.low.y, g.low.z}, {g.high.x, g.high.y, g.high.z}, g.error, g.shading};
+    };
     for (const Primitive& primitive : world.primitives) {
-        kept.primitives.push_back(
-            {std::uint32_t(primitive.coarser.size()), primitive.clusters.first, primitive.clusters.count});
+        kept.primitives.push_back({std::uint32_t(primitive.coarser.size()), primitive.clusters.first,
+            primitive.clusters.count, primitive.pieces.first, primitive.pieces.count});
         for (const DetailLevel& level : primitive.coarser)
             kept.levels.push_back({level.error, level.shading, level.first_index, level.index_count, level.clusters.first,
                 level.clusters.count});
+    }
+    for (const DetailPiece& piece : world.pieces) {
+        const DetailLevel& level = piece.triangles;
+        kept.pieces.push_back(
+            {{piece.low.x, piece.low.y, piece.low.z}, {piece.high.x, piece.high.y, piece.high.z}, level.first_index,
+                level.index_count, level.clusters.first, level.clusters.count, group(piece.own), group(piece.coarser)});
     }
     kept.clusters = world.clusters;
     kept.indices = world.indices;
@@ -150,13 +179,13 @@ bool add_kept_detail_levels(World& world, const std::filesystem::path& folder, c
     }
     add_detail_levels(world, progress);
     kept = kept_of(world);
-    header.primitives = kept.primitives.size(), header.levels = kept.levels.size();
+    header.primitives = kept.primitives.size(), header.pieces = kept.pieces.size(), header.levels = kept.levels.size();
     header.clusters = kept.clusters.size(), header.indices = kept.indices.size();
     header.content = kept.content();
     try {
         write_own(file,
             {{reinterpret_cast<const unsigned char*>(&header), sizeof header}, bytes_of(kept.primitives),
-                bytes_of(kept.levels), bytes_of(kept.clusters), bytes_of(kept.indices)});
+                bytes_of(kept.pieces), bytes_of(kept.levels), bytes_of(kept.clusters), bytes_of(kept.indices)});
     } catch (const InputError&) {
         return false;
     }

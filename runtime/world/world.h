@@ -129,6 +129,26 @@ struct DetailLevel {
     ClusterRange clusters{}; ///< in the order of the indices
 };
 
+/// A box and the errors of the surfaces made for it: the same in all pieces that were made together.
+struct PieceGroup {
+    glm::dvec3 low{0}, high{0}; ///< local units; around those of the groups of which it was made
+    double error = 0, shading = 0; ///< as DetailLevel's; infinite where nothing coarser was made
+};
+
+/// A part of a large surface at some level. It is drawn where its own group is fine enough and the coarser one, into which
+/// its own was made, is not. So all pieces drawn make up the whole surface once (as in "virtualized geometry"; Karis, Stubbe
+/// and Wihlidal, SIGGRAPH 2021).
+struct DetailPiece {
+    glm::dvec3 low, high; ///< of its own triangles, local units
+    DetailLevel triangles;
+    PieceGroup own, coarser;
+};
+
+/// A run of World::pieces; empty for a surface that is not divided.
+struct PieceRange {
+    std::uint32_t first = 0, count = 0;
+};
+
 /// A run of triangles (always a list) with one material, a bounding box and a bounding sphere in its own frame.
 struct Primitive {
     std::uint32_t first_index, index_count;
@@ -139,6 +159,7 @@ struct Primitive {
     double radius;
     std::vector<DetailLevel> coarser; ///< finest first; empty until add_detail_levels
     ClusterRange clusters{}; ///< of the full surface; empty until add_detail_levels
+    PieceRange pieces{}; ///< a surface with pieces has no coarser levels and no clusters of its own
     int deforming = -1; ///< index into World::deforming of its first DeformingVertex; -1: its shape is rigid
     int displacements = -1; ///< index of its first Displacement there; a vertex has one for each target, one after another
 };
@@ -202,6 +223,7 @@ struct World {
     std::shared_ptr<const Globes> globes; ///< null: none
     std::vector<Material> materials; ///< never empty: glTF's default material stands in where none is named
     std::vector<Primitive> primitives;
+    std::vector<DetailPiece> pieces;
     std::vector<Cluster> clusters;
     std::vector<Instance> instances;
     std::vector<WorldNode> nodes;
