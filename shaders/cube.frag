@@ -31,7 +31,7 @@ layout(constant_id = 20) const int SHADOWS = 0; // bits: lamps with maps; from t
 
 layout(constant_id = 21) const int BLENDED = 0; // 1: the part of what is behind that shows through; 2: the own light's part
 // constant_id 22 is cube.vert's
-layout(constant_id = 23) const bool SPOTS = false; // some lamps shine in cones
+layout(constant_id = 23) const bool CONES = false; // some lamps shine in cones
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // Spectra::columns
@@ -126,7 +126,7 @@ vec3 lamp_seen(LightEntry lamp, vec3 towards, float delay, out float D)
     return own < lamp.kind.y || own > lamp.kind.z ? vec3(0.0) : towards;
 }
 
-// The part of a spot's light that it sends to a surface. towards: from the surface to the lamp where its light left, unit.
+// The part of a lamp's light that it sends within its cone to a surface. towards: from the surface to the lamp where its light left, unit.
 float in_cone(LightEntry lamp, vec3 towards)
 {
     if (lamp.edge.x == 0.0)
@@ -202,7 +202,7 @@ void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], L
     if (LAMPS_MOVE && towards == vec3(0.0))
         return;
     float square = lamp.place.w == 0.0 ? 1.0 : dot(towards, towards);
-    if (SPOTS)
+    if (CONES)
         lit *= in_cone(lamp, towards * inversesqrt(square));
 #ifdef MAPPED
     float distance_ = lamp.place.w == 0.0 ? 1.0 : sqrt(square);

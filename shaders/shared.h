@@ -85,8 +85,8 @@ struct LightEntry {
                // its existence in its proper time, counted from that at `place`. w: D of a moving directional light
     vec4 way; // of a moving lamp: unit direction of its motion; w: its gamma beta, 0: it rests
     vec4 shifts; // of a moving lamp: x: log2 D of the first, y: number per octave, z: their number; w: gamma
-    vec4 cone; // of a spot: unit axis along which it shines, in its own frame's axes, as the surface's frame carries them
-    vec4 edge; // a spot's light has the part (edge.x cosine + edge.y)^2, within 0 to 1; x: 0: it shines to all sides
+    vec4 cone; // of a lamp with a cone: unit axis along which it shines, in its own frame's axes, as the surface's frame carries them
+    vec4 edge; // its light has the part (edge.x cosine + edge.y)^2, within 0 to 1; x: 0: it shines to all sides
 };
 
 // A lamp's shadow maps. Directional: u, v: texels of the fine map, depth: the number that it holds, of a place from the eye in

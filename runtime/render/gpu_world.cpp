@@ -181,12 +181,11 @@ Image make_shadow_maps(Device& device, int size, std::uint32_t layers, const std
     return make_texture_array(device, vk::Format::eR32Sfloat, glm::ivec2(size), layers, std::as_bytes(std::span(floats)));
 }
 
-/// The maps of the world's shadows; they leave the world.
-void put_shadows(Device& device, GpuWorld& gpu, World& world)
+/// The images of a world's shadows; of one texel without.
+void put_shadow_images(Device& device, GpuWorld& gpu, const Shadows* from)
 {
     const std::vector<std::uint16_t> far_away(1, 0);
     const std::vector<std::uint8_t> open(4, 255);
-    const Shadows* from = world.shadows.get();
     const auto layers = std::uint32_t(from ? from->texels.size() / (std::size_t(from->size) * std::size_t(from->size)) : 0);
     gpu.shadow_maps
         = make_shadow_maps(device, layers > 0 ? from->size : 1, std::max(layers, 1u), layers > 0 ? from->texels : far_away);
@@ -194,9 +193,24 @@ void put_shadows(Device& device, GpuWorld& gpu, World& world)
     gpu.sky_cells = make_texture_array(device, vk::Format::eR8G8B8A8Unorm, from ? glm::ivec2(from->cells) : glm::ivec2(1),
         from ? 2 * std::uint32_t(from->cells.z) : 1, std::as_bytes(std::span(from ? from->sky : open)));
     name_object(device, gpu.sky_cells, "world: sky cells");
+}
+
+/// The maps of the world's shadows; they leave the world.
+void put_shadows(Device& device, GpuWorld& gpu, World& world)
+{
     gpu.nearest_sampler = make_sampler(
         device, {.u = Wrap::clamp, .v = Wrap::clamp, .magnify_linear = false, .minify_linear = false, .mipmaps = false});
     gpu.sky_sampler = make_sampler(device, {.u = Wrap::clamp, .v = Wrap::clamp, .mipmaps = false});
+    try {
+        put_shadow_images(device, gpu, world.shadows.get());
+    } catch (const NoRoom&) {
+        if (!world.shadows)
+            throw;
+        world.notes.push_back("its shadows have no room on the GPU: it is drawn without them");
+        world.shadows = nullptr;
+        put_shadow_images(device, gpu, nullptr);
+    }
+    const Shadows* from = world.shadows.get();
     if (!from)
         return;
     gpu.shadows = 1 << 16;
@@ -230,11 +244,11 @@ SurfaceVariant GpuWorld::variant(int material, StoredLight light) const
     const auto changes = [](const Lamp& lamp) { return lamp.frame > 0 || lamp.existence >= 0; };
     variant.lamps_move
         = variant.lights > 0 && (several_rest_frames() || std::any_of(world.lamps.begin(), world.lamps.end(), changes));
-    const auto spot = [](const Light& lamp) {
+    const auto has_cone = [](const Light& lamp) {
         const auto* point = std::get_if<PointLight>(&lamp);
         return point && point->cone;
     };
-    variant.spots = variant.lights > 0 && std::ranges::any_of(scene.lights, spot);
+    variant.cones = variant.lights > 0 && std::ranges::any_of(scene.lights, has_cone);
     const Spectra& stored = spectra_of(light);
     variant.coefficients = coefficients(light);
     variant.coefficients.own = int(stored.basis.own.size());

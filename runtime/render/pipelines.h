@@ -70,7 +70,7 @@ struct SurfaceVariant {
     bool finite_existence = false; ///< tests existence intervals
     bool several_rest_frames = false; ///< the world has several rest frames
     bool lamps_move = false;
-    bool spots = false; ///< some lamps shine in cones
+    bool cones = false; ///< some lamps shine in cones
     bool blink = false;
     bool moves = false; ///< animated
     bool deforms = false;

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
+#include <optional>
 #include <sstream>
 
 namespace starbow {
@@ -41,9 +43,9 @@ std::optional<Shot> at_camera(const glm::dmat4& world_from_camera)
 }
 
 /// The least round speed of light at which the file's own animations are slow enough for it.
-double least_light_speed(const std::filesystem::path& gltf)
+double least_light_speed(const Outline& outline, const std::filesystem::path& gltf)
 {
-    const std::optional<FastestMotion> fastest = fastest_motion(load_world(gltf));
+    const std::optional<FastestMotion> fastest = fastest_motion(outline.world ? *outline.world : load_world(gltf));
     const double least = fastest ? fastest->per_s / most_own_speed : 0;
     double speed = least > 0 ? round_number(least) : 0;
     return speed < least ? round_number(2 * speed) : speed;
@@ -115,7 +117,24 @@ Shot overview(const AlignedBox& box, double floor, const glm::dvec3& away)
 
 SceneFile open_scene(const std::filesystem::path& file)
 {
-    return kind_of_file(file) == FileKind::gltf ? scene_around(file) : load_scene_file(file);
+    if (kind_of_file(file) != FileKind::gltf)
+        return load_scene_file(file);
+    // A program asks for the same scene several times while it starts, and an animated world is read as a whole for it.
+    struct Known {
+        std::filesystem::path file;
+        std::filesystem::file_time_type written;
+        std::uintmax_t size;
+        SceneFile scene;
+    };
+    static std::mutex alone;
+    static std::optional<Known> last;
+    const std::lock_guard lock(alone);
+    std::error_code error, none;
+    const auto written = std::filesystem::last_write_time(file, error);
+    const std::uintmax_t size = std::filesystem::file_size(file, none);
+    if (error || none || !last || last->file != file || last->written != written || last->size != size)
+        last = Known{file, written, size, scene_around(file)};
+    return last->scene;
 }
 
 SceneFile scene_around(const std::filesystem::path& gltf)
@@ -129,7 +148,7 @@ SceneFile scene_around(const std::filesystem::path& gltf)
     scene.unit_m = 1;
     const double size = std::max(middle.across(), 1e-3);
     scene.light_speed_m_s = std::min(round_number(size / crossing_s), real_light_speed_m_s);
-    const double slowest = outline.moves ? least_light_speed(gltf) : 0;
+    const double slowest = outline.moves ? least_light_speed(outline, gltf) : 0;
     if (slowest > scene.light_speed_m_s)
         scene.light_speed_m_s = std::min(slowest, real_light_speed_m_s);
     std::optional<Shot> camera;

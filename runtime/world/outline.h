@@ -2,17 +2,20 @@
 #include "config/model/flying.h"
 #include "config/model/scene_file.h"
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace starbow {
+
+struct World;
 
 /// A lamp of the file (KHR_lights_punctual).
 struct OutlineLamp {
     bool directional = false;
     glm::dvec3 colour{1}; ///< Rec. 709 linear
     double intensity = 1; ///< lux of a directional one, candela of the others
-    std::optional<LightCone> cone{}; ///< of a spot, in its own axes
+    std::optional<LightCone> cone{}; ///< of a "spot", in its own axes
     glm::dmat4 world_from_lamp{1}; ///< it stands at the origin and shines along its -z
 };
 
@@ -21,6 +24,7 @@ struct Outline {
     std::vector<AlignedBox> things; ///< one around each mesh of each node of the file's scene, animated ones at their time 0
     std::optional<glm::dmat4> camera; ///< world_from_camera of the scene's first camera, which looks along its -z
     std::vector<OutlineLamp> lamps;
+    std::shared_ptr<const World> world; ///< where it had to be read as a whole; else null
     bool moves = false; ///< it has animations, or nodes that spin
 };
 

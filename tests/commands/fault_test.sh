@@ -79,6 +79,12 @@ grep -q 'quality: level 16 of 16 has no room' "$folder/log" || fail "a level wit
 grep -q 'is lost' "$folder/log" && fail "a level without room: a loss of the device is reported"
 ok
 
+# Shadows without room are left out, and the world is shown.
+STARBOW_LARGEST_KIB=60000 timeout 100 "$program" run --layout desk --scene gamow --frame-budget-ms 1000 --frames 20 >"$folder/log" 2>&1 \
+    || fail "shadows without room: exit $?"
+grep -q 'its shadows have no room on the GPU: it is drawn without them' "$folder/log" || fail "shadows without room: no line says so"
+ok
+
 # A device that can't be opened at once is tried again, and why is said once.
 fly submit:20:DEVICE_LOST,vkCreateDevice@lost:1:INITIALIZATION_FAILED,vkCreateDevice@lost:2:INITIALIZATION_FAILED,vkCreateInstance@lost:3:OUT_OF_HOST_MEMORY 60
 [ $status = 0 ] || fail "opened in vain: exit $status"

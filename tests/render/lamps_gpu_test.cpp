@@ -171,8 +171,8 @@ TEST(Lamps, ALampThatPassesEqualsRays)
 
 namespace {
 
-/// A spot 2 above a floor, straight down: dark beyond 40 degrees, whole within 15.
-Json spot(double aside)
+/// A lamp 2 above a floor, straight down: dark beyond 40 degrees, whole within 15.
+Json lamp_with_cone(double aside)
 {
     return {{"type", "point"}, {"position", {aside, 2, 0}}, {"distance", 2}, {"radiance", {1, 1, 1}},
         {"cone", {{"axis", {0, -2, 0}}, {"inner_deg", 15}, {"outer_deg", 40}}}};
@@ -192,10 +192,10 @@ Doc floor_alone(bool body, bool glossy = false)
 
 } // namespace
 
-TEST(Spots, FallFromTheInnerToTheOuterCone)
+TEST(Cones, FallFromTheInnerToTheOuterCone)
 {
     // From above, so that a pixel's direction is a place on the floor.
-    const GpuWorld world = open_world("spot", floor_alone(false), {{"lights", {spot(0)}}});
+    const GpuWorld world = open_world("cone", floor_alone(false), {{"lights", {lamp_with_cone(0)}}});
     const Shot shot = shot_at({0, 5, 0}, {0, 0, 0}, {0, -1, 0}, {0, 0, -1});
     OffscreenRenderer live = renderer(world, one_view(Planar{.fov_y_deg = 60}, {301, 301}));
     const Numbers numbers(live, shot);
@@ -213,14 +213,14 @@ TEST(Spots, FallFromTheInnerToTheOuterCone)
     EXPECT_GT(edge, 40);
 }
 
-TEST(Spots, EqualRaysAtRestAndPassing)
+TEST(Cones, EqualRaysAtRestAndPassing)
 {
     // The lamp rests, or passes at 0.8 c with its cone, whose light leans forward; the eye rests above, or flies.
     const Layout layout = one_view(Planar{.fov_y_deg = 70}, {120, 120});
     for (const bool glossy : {false, true})
         for (const bool passes : {false, true})
             for (const double flies : {0.0, 0.3}) {
-                Json lamp = spot(-1);
+                Json lamp = lamp_with_cone(-1);
                 Json scene = {{"ambient", {0.01, 0.01, 0.01}}, {"shadows", false}};
                 if (passes) {
                     lamp["body"] = "body", lamp["position"] = {6, 2, 0};
@@ -228,8 +228,8 @@ TEST(Spots, EqualRaysAtRestAndPassing)
                         {{"name", "body"}, {"nodes", {"body"}}, {"velocity", {{"direction", {1, 0, 0.2}}, {"beta", 0.8}}}}};
                 }
                 scene["lights"] = {lamp};
-                GpuWorld world = open_world("spots", floor_alone(passes, glossy), scene);
-                const ReferenceWorld rays = open_reference_world(starbow::testing::scratch("spots.json"));
+                GpuWorld world = open_world("cones", floor_alone(passes, glossy), scene);
+                const ReferenceWorld rays = open_reference_world(starbow::testing::scratch("cones.json"));
                 Shot shot = shot_at({0, 5, 0}, flies * dvec3(0, 0, -1), {0, -1, 0}, {0, 0, -1});
                 shot.effects = {true, true, false};
                 const Reference truth = reference(rays.input(), layout, shot, 0, {.samples = 4});

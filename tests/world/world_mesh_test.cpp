@@ -292,7 +292,7 @@ TEST_F(WorldMeshTest, UnsupportedFeaturesGiveOneWarningEach)
     EXPECT_EQ(load(doc).notes,
         (std::vector<std::string>{"lamps of the file (KHR_lights_punctual) shine where no scene file names its own lights",
             "extension \"EXT_other\" is not supported", "clear coats: the surface below is drawn",
-            "animations of morph targets are not supported", "animations of other things than nodes are not supported"}));
+            "animations of other things than nodes are not supported"}));
 }
 
 TEST_F(WorldMeshTest, BuffersMayBeFilesInsideTheFolder)

@@ -152,9 +152,9 @@ Outline read_outline(const std::filesystem::path& path)
             outline.things.push_back(transformed(*meshes[std::size_t(node.mesh)], world_from_local));
     }
     if (placed_by_data) {
-        const World world = load_world(path);
-        for (const Instance& instance : world.instances) {
-            const Primitive& primitive = world.primitives[instance.primitive];
+        outline.world = std::make_shared<const World>(load_world(path));
+        for (const Instance& instance : outline.world->instances) {
+            const Primitive& primitive = outline.world->primitives[instance.primitive];
             outline.things.push_back(transformed({primitive.low, primitive.high}, instance.frame_from_local));
         }
     }
