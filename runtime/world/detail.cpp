@@ -15,19 +15,15 @@ constexpr std::size_t worth_levels = 3 * 64; // indices
 void add_detail_levels(World& world, const std::function<void(double)>& progress)
 {
     const std::size_t count = world.primitives.size();
-    const auto divided = [&](const Primitive& primitive) {
-        return primitive.index_count / 3 > most_triangles_of_a_surface && primitive.deforming < 0
-            && !world.materials[std::size_t(primitive.material)].blended;
-    };
     double corners = 0, whole = 0;
     for (const Primitive& primitive : world.primitives)
-        (divided(primitive) ? corners : whole) += primitive.index_count;
+        (is_divided(world, primitive) ? corners : whole) += primitive.index_count;
     double done = whole / std::max(corners + whole, 1.0);
     std::vector<std::vector<std::uint32_t>> added(count);
     const auto add_levels = [&](std::size_t i) {
         Primitive& primitive = world.primitives[i];
         // A level's error holds in one pose alone.
-        if (primitive.index_count < worth_levels || primitive.deforming >= 0 || divided(primitive))
+        if (primitive.index_count < worth_levels || primitive.deforming >= 0 || is_divided(world, primitive))
             return;
         Simplifier simplifier(world, primitive, {world.indices.data() + primitive.first_index, primitive.index_count});
         if (!simplifier.coherent())
@@ -48,7 +44,7 @@ void add_detail_levels(World& world, const std::function<void(double)>& progress
         added[i] = {};
     }
     for (Primitive& primitive : world.primitives)
-        if (divided(primitive)) {
+        if (is_divided(world, primitive)) {
             const double next = done + primitive.index_count / (corners + whole);
             add_pieces(world, primitive, progress, done, next);
             done = next;

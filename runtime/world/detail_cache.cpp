@@ -4,6 +4,7 @@
 #include "config/json/kept_file.h"
 #include "config/json/whole_file.h"
 #include "detail.h"
+#include "pieces.h"
 #include <meshoptimizer.h>
 #include <span>
 #include <type_traits>
@@ -54,8 +55,8 @@ std::uint64_t key_of(const World& world)
     hash.add(world.vertices.data(), world.vertices.size() * sizeof(Vertex));
     hash.add(world.indices.data(), world.indices.size() * sizeof(std::uint32_t));
     for (const Primitive& primitive : world.primitives) {
-        const std::uint64_t range[]
-            = {primitive.first_index, primitive.index_count, std::uint64_t(std::uint32_t(primitive.vertex_offset))};
+        const std::uint64_t range[] = {primitive.first_index, primitive.index_count,
+            std::uint64_t(std::uint32_t(primitive.vertex_offset)), is_divided(world, primitive), primitive.deforming >= 0};
         hash.add(range, sizeof range);
     }
     return hash.value();
