@@ -94,7 +94,8 @@ SurfaceVariant CubePass::variant_of(const Draw& draw, StoredLight light) const
     const bool plain = light == StoredLight::plain;
     variant.finite_existence = draw.finite_existence && !plain;
     variant.several_rest_frames = use_.several_rest_frames;
-    variant.moves = draw.moves && !plain, variant.deforms = draw.deforms && !plain;
+    // A deforming instance has no transform of its own beside its poses.
+    variant.deforms = draw.deforms, variant.moves = draw.moves && (!plain || draw.deforms);
     if (!plain && !variant.unlit && !draw.moves && images_[draw.image].rest_frame == 0)
         variant.shadows = world_.shadows;
     return variant;
