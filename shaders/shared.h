@@ -58,7 +58,7 @@
 #define MAX_GLOBES 16
 #define GLOBE_LEVELS 8 // of a kind of light, through more and more air, or towards the middle of the Sun's disc
 #define GLOBE_COLUMNS 1024 // over log2 D
-#define GLOBE_FIRST_LOG2_D -8.0
+#define GLOBE_FIRST_LOG2_D (-8.0)
 #define GLOBE_PER_OCTAVE 64.0
 #define GLOBE_AIR_STEPS 12
 #define GLOBE_AIR_DEPTH 0.0973 // optical depth of the Earth's air at 550 nm, from the ground upwards (Bucholtz 1995)

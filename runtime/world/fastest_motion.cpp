@@ -189,7 +189,7 @@ std::optional<FastestMotion> fastest_motion(const World& world)
     Fastest fastest;
     for (const auto& [joint, hull] : of_joint)
         fastest.test(world, chain(world, joint), world.joints[std::size_t(joint)].node,
-            share(1'000'000, of_joint.size(), 256), [&, &points = hull.points()](double own_s) {
+            share(1'000'000, of_joint.size(), 256), [&world, joint = joint, &points = hull.points()](double own_s) {
                 const glm::dmat4 pose = pose_of(world, {joint}, own_s);
                 std::vector<glm::dvec3> places;
                 for (const glm::dvec3& point : points)
@@ -200,7 +200,7 @@ std::optional<FastestMotion> fastest_motion(const World& world)
         const Deformation& deformation = world.deformations[std::size_t(instance->deformation)];
         const std::vector<std::uint32_t> outer = outer_vertices(world, world.primitives[index]);
         fastest.test(world, {deformation.joints, deformation.weights}, instance->node,
-            share(500'000 / (outer.size() + 1), deforming.size(), 32), [&, &of = *instance](double own_s) {
+            share(500'000 / (outer.size() + 1), deforming.size(), 32), [&world, &outer, &of = *instance](double own_s) {
                 Shape shape(world, of, own_s / world.seconds_per_time_unit + zero_of(world, of));
                 std::vector<glm::dvec3> places;
                 for (std::uint32_t vertex : outer)

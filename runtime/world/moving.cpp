@@ -194,7 +194,7 @@ std::array<double, POSES> pose_times(const World& world, const Instance& instanc
     std::array<double, POSES> times;
     for (int i = 0; i <= half; ++i) {
         times[std::size_t(i)] = first + (middle - first) * i / half;
-        times[std::size_t(half + i)] = middle + (last - middle) * i / half;
+        times[std::size_t(half) + std::size_t(i)] = middle + (last - middle) * i / half;
     }
     return times;
 }

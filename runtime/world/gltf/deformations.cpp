@@ -187,7 +187,8 @@ std::map<int, Hanging> hanging_of(const WorldBuild& build, int node, const std::
     std::map<int, Hanging> all;
     for (const std::uint32_t index : primitives) {
         const Primitive& primitive = world.primitives[index];
-        const std::size_t vertices = std::size_t(primitive.displacements - primitive.deforming) / DEFORMING_VERTEX_ROWS;
+        const std::size_t vertices
+            = (std::size_t(primitive.displacements) - std::size_t(primitive.deforming)) / DEFORMING_VERTEX_ROWS;
         for (std::size_t own = 0; own < vertices; ++own) {
             const glm::vec4* row = &world.deforming[std::size_t(primitive.deforming) + DEFORMING_VERTEX_ROWS * own];
             double reach = 0;
@@ -233,8 +234,9 @@ void put_joints(WorldBuild& build, Deformation& deformation, const tinygltf::Ski
     }
     for (const std::uint32_t index : primitives) {
         const Primitive& primitive = world.primitives[index];
-        for (int at = primitive.deforming; at < primitive.displacements; at += DEFORMING_VERTEX_ROWS) {
-            glm::vec4 &weights = world.deforming[std::size_t(at + 3)], &bones = world.deforming[std::size_t(at + 4)];
+        const auto end = std::size_t(primitive.displacements);
+        for (auto at = std::size_t(primitive.deforming); at < end; at += DEFORMING_VERTEX_ROWS) {
+            glm::vec4 &weights = world.deforming[at + 3], &bones = world.deforming[at + 4];
             for (int k = 0; k < 4; ++k)
                 bones[k] = weights[k] > 0 ? float(bone_of.at(int(bones[k]))) : 0;
         }
