@@ -133,7 +133,7 @@ struct DeformingVertex {
 };
 #define DEFORMING_VERTEX_ROWS 5
 
-// What a morph target of weight 1 adds to a vertex.
+// The displacement of a vertex by a morph target of weight 1.
 struct Displacement {
     vec4 position, normal; // w: not used
 };

@@ -22,8 +22,6 @@ struct DirectionalLight {
     std::optional<Emission> spectrum; ///< nullopt: sunlight. Otherwise `radiance` tints it: 1 is the energy of sunlight's 1
 };
 
-/// A point light; a white surface that faces it at `distance` (scene units) gets the colour `radiance`, which falls as
-/// 1/r^2.
 /// The directions into which a lamp shines. Its light falls from the inner cone to the outer one as glTF says
 /// (KHR_lights_punctual): by the square of the cosine's part between both.
 struct LightCone {
@@ -31,6 +29,8 @@ struct LightCone {
     double inner_rad, outer_rad; ///< from the axis: 0 <= inner < outer <= pi / 2
 };
 
+/// A point light; a white surface that faces it at `distance` (scene units) gets the colour `radiance`, which falls as
+/// 1/r^2.
 struct PointLight {
     glm::dvec3 position;
     double distance;

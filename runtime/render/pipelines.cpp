@@ -59,8 +59,8 @@ namespace starbow {
 
 using Spirv = std::span<const std::uint32_t>;
 
-/// What a pass does to the light that is in its target: replaces it; covers it by alpha, premultiplied; adds to it; or
-/// multiplies it.
+/// A pass's way to combine its light with that in its target: none replaces it, over covers it by alpha, premultiplied, add
+/// adds to it, and multiply multiplies it.
 enum class Blending { none, over, add, multiply };
 
 /// One pass's pipeline. What is not its name, its constants or its target is the same in every pipeline of that name.

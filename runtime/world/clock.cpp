@@ -35,9 +35,11 @@ glm::vec4 deforming_entry(const World& world, const Instance& instance, std::siz
 {
     const Primitive& primitive = world.primitives[instance.primitive];
     const int targets = world.deformations[std::size_t(instance.deformation)].targets;
-    // The shader counts vertices from the world's first one.
-    const auto bits
-        = [&](int first, int rows_each) { return std::bit_cast<float>(first - rows_each * primitive.vertex_offset); };
+    // The shader counts vertices from the world's first one, in 32 bits that wrap.
+    const auto bits = [&](int first, int rows_each) {
+        return std::bit_cast<float>(
+            std::uint32_t(first) - std::uint32_t(rows_each) * std::uint32_t(primitive.vertex_offset));
+    };
     return {entries_each, targets, bits(primitive.deforming, DEFORMING_VERTEX_ROWS),
         bits(primitive.displacements, DISPLACEMENT_ROWS * targets)};
 }

@@ -103,12 +103,9 @@ bool read_kept(const std::filesystem::path& path, std::uint64_t key, const World
     if (!fill(kept.primitives) || !fill(kept.pieces) || !fill(kept.levels) || !fill(kept.clusters) || !fill(kept.indices)
         || kept.content() != header.content)
         return false;
-    std::uint64_t levels = 0;
+    std::uint64_t levels = 0, pieces = 0;
     for (const KeptPrimitive& primitive : kept.primitives)
-        levels += primitive.levels;
-    std::uint64_t pieces = 0;
-    for (const KeptPrimitive& primitive : kept.primitives)
-        pieces += primitive.pieces;
+        levels += primitive.levels, pieces += primitive.pieces;
     return levels == header.levels && pieces == header.pieces;
 }
 

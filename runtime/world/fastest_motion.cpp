@@ -50,7 +50,7 @@ struct Stretch {
     double begin_s, end_s;
 };
 
-/// What moves together: some tracks and spins.
+/// The tracks and spins that move one thing.
 struct Movers {
     std::vector<int> joints; ///< their tracks and spins
     std::vector<int> weights; ///< tracks of morph targets

@@ -11,7 +11,7 @@ struct PlacedVertex {
     bool mirrored; ///< its transform turns a left hand into a right one
 };
 
-/// A deforming instance at a time of its frame. What is asked for is computed at its first use.
+/// A deforming instance at a time of its frame. Each bone and weight is computed at its first use.
 class Shape {
 public:
     /// All arguments must outlive the object.

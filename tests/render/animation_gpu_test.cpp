@@ -7,9 +7,6 @@
 namespace starbow::gpu_test::animation_gpu_test {
 namespace {
 
-Json numbers_of(const dvec3& v) { return {v.x, v.y, v.z}; }
-Json velocity_of(const dvec3& u) { return {{"direction", numbers_of(u)}, {"rapidity", std::asinh(glm::length(u))}}; }
-
 dvec3 vec(const quad::V3& v) { return {double(v.x), double(v.y), double(v.z)}; }
 
 /// Transforms from the world to the frame that moves with u.
@@ -114,40 +111,6 @@ TEST(Blinking, RingsMoveOutwards)
 }
 
 namespace {
-
-/// Adds small bright octahedra as one mesh, each in its own colour.
-int blobs(Doc& doc, const std::vector<std::pair<dvec3, dvec3>>& places_and_colours, double radius)
-{
-    std::vector<float> positions, colours;
-    std::vector<std::uint16_t> indices;
-    for (const auto& [place, colour] : places_and_colours) {
-        const auto first = std::uint16_t(positions.size() / 3);
-        for (const dvec3& way :
-            {dvec3(1, 0, 0), dvec3(-1, 0, 0), dvec3(0, 1, 0), dvec3(0, -1, 0), dvec3(0, 0, 1), dvec3(0, 0, -1)})
-            for (int c = 0; c < 3; ++c)
-                positions.push_back(float(place[c] + radius * way[c])), colours.push_back(float(colour[c]));
-        for (int x : {0, 1})
-            for (int y : {2, 3})
-                for (int z : {4, 5})
-                    for (int corner : {x, y, z})
-                        indices.push_back(std::uint16_t(first + corner));
-    }
-    const int material = unlit(doc, {1, 1, 1});
-    doc.json["materials"][std::size_t(material)]["doubleSided"] = true;
-    return doc.put("meshes",
-        {{"primitives",
-            {{{"attributes", {{"POSITION", doc.accessor(positions, "VEC3")}, {"COLOR_0", doc.accessor(colours, "VEC3")}}},
-                {"indices", doc.accessor(indices, "SCALAR")}, {"material", material}}}}});
-}
-
-/// The mean direction of the pixels that are lit in one colour.
-dvec3 direction_of(const Numbers& numbers, int colour)
-{
-    dvec3 sum(0);
-    for (int i = 0; i < numbers.count(); ++i)
-        sum += double(numbers.light(i)[colour]) * numbers.camera(i);
-    return glm::normalize(sum);
-}
 
 /// The direction in which an eye at rest in the world sees a point of a body that moves with u. `place` gives the point's
 /// place in the body's rest frame at any time. Bisection solves the light cone's equation.

@@ -15,9 +15,6 @@ dvec3 random_way(std::mt19937& random)
     return glm::normalize(dvec3(normal(random), normal(random), normal(random)));
 }
 
-Json numbers_of(const dvec3& v) { return {v.x, v.y, v.z}; }
-Json velocity_of(const dvec3& u) { return {{"direction", numbers_of(u)}, {"rapidity", std::asinh(glm::length(u))}}; }
-
 /// A rectangle that belongs to one body.
 struct Plate {
     dvec3 centre, right, up, colour;

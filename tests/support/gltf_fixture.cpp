@@ -1,5 +1,6 @@
 #include "gltf_fixture.h"
 #include "config/json/error.h"
+#include "runtime/world/fastest_motion.h"
 #include <stb/stb_image_write.h>
 
 namespace starbow::gltf_test {
@@ -126,6 +127,16 @@ std::string GltfTest::complaint(const std::filesystem::path& file) const
         return line.substr(std::min(line.size(), file.string().size() + 2));
     }
     ADD_FAILURE() << "it loads";
+    return "";
+}
+
+std::string speed_complaint(const World& world, const SceneFile& scene)
+{
+    try {
+        check_speeds(world, scene);
+    } catch (const InputError& error) {
+        return error.what();
+    }
     return "";
 }
 

@@ -59,6 +59,9 @@ inline const std::vector<float> corner_positions = {0, 0, 0, 2, 0, 0, 0, 1, 0};
 
 Doc triangle_doc();
 
+/// The message with which check_speeds refuses a world; empty: it does not.
+std::string speed_complaint(const World& world, const SceneFile& scene);
+
 Bytes png(int width, int height, const Bytes& rgba);
 
 /// 16 x 8 pixels, all of them 100.

@@ -25,6 +25,42 @@ void quad(Doc& doc, const dvec3& centre, const dvec3& right, const dvec3& up, in
     doc.json["scenes"][0]["nodes"].push_back(doc.put("nodes", node));
 }
 
+int blobs(Doc& doc, const std::vector<std::pair<dvec3, dvec3>>& places_and_colours, double radius)
+{
+    std::vector<float> positions, colours;
+    std::vector<std::uint16_t> indices;
+    for (const auto& [place, colour] : places_and_colours) {
+        const auto first = std::uint16_t(positions.size() / 3);
+        for (const dvec3& way :
+            {dvec3(1, 0, 0), dvec3(-1, 0, 0), dvec3(0, 1, 0), dvec3(0, -1, 0), dvec3(0, 0, 1), dvec3(0, 0, -1)})
+            for (int c = 0; c < 3; ++c)
+                positions.push_back(float(place[c] + radius * way[c])), colours.push_back(float(colour[c]));
+        for (int x : {0, 1})
+            for (int y : {2, 3})
+                for (int z : {4, 5})
+                    for (int corner : {x, y, z})
+                        indices.push_back(std::uint16_t(first + corner));
+    }
+    const int material = unlit(doc, {1, 1, 1});
+    doc.json["materials"][std::size_t(material)]["doubleSided"] = true;
+    return doc.put("meshes",
+        {{"primitives",
+            {{{"attributes", {{"POSITION", doc.accessor(positions, "VEC3")}, {"COLOR_0", doc.accessor(colours, "VEC3")}}},
+                {"indices", doc.accessor(indices, "SCALAR")}, {"material", material}}}}});
+}
+
+dvec3 direction_of(const Numbers& numbers, int colour)
+{
+    dvec3 sum(0);
+    for (int i = 0; i < numbers.count(); ++i)
+        sum += double(numbers.light(i)[colour]) * numbers.camera(i);
+    return glm::normalize(sum);
+}
+
+Json numbers_of(const dvec3& v) { return {v.x, v.y, v.z}; }
+
+Json velocity_of(const dvec3& u) { return {{"direction", numbers_of(u)}, {"rapidity", std::asinh(glm::length(u))}}; }
+
 GpuWorld open_world(const std::string& name, const Doc& doc, Json scene)
 {
     testing::write_text(name + ".gltf", doc.text());

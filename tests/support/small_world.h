@@ -16,6 +16,16 @@ int unlit(Doc& doc, const dvec3& colour);
 /// `node` has the node's further members; the corners are in its frame.
 void quad(Doc& doc, const dvec3& centre, const dvec3& right, const dvec3& up, int material, Json node = Json::object());
 
+/// Adds small bright octahedra as one mesh, each in its own colour; returns the mesh. Each has six vertices.
+int blobs(Doc& doc, const std::vector<std::pair<dvec3, dvec3>>& places_and_colours, double radius);
+
+/// The mean direction of the pixels that are lit in one colour.
+dvec3 direction_of(const Numbers& numbers, int colour);
+
+/// A vector, and a velocity by its proper velocity, as JSON.
+Json numbers_of(const dvec3& v);
+Json velocity_of(const dvec3& u);
+
 /// Opens a scene file and its glTF as `starbow` does. One unit is a metre.
 GpuWorld open_world(const std::string& name, const Doc& doc, Json scene = Json::object());
 

@@ -345,16 +345,6 @@ Doc animated()
     return doc;
 }
 
-std::string speed_complaint(const World& world, const SceneFile& scene)
-{
-    try {
-        check_speeds(world, scene);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
 } // namespace
 
 TEST_F(AnimationFile, AppliesTheNodesAboveAndBelow)
@@ -409,11 +399,11 @@ TEST_F(AnimationFile, AMovementThatIsTooFastIsRefused)
     const double most = std::hypot(6 * 1.5707963 / 20, 0.05);
     ASSERT_EQ(scene.unit_m, scene.light_speed_m_s); // one second for a unit
     scene.unit_m *= 0.2 / most * 1.01;
-    const std::string fast = speed_complaint(load(animated()), scene);
+    const std::string fast = gltf_test::speed_complaint(load(animated()), scene);
     EXPECT_NE(fast.find("(\"arm\") moves at 0.2"), std::string::npos);
     EXPECT_TRUE(fast.ends_with("by a smaller \"unit_m\" or a larger \"light_speed_m_s\" in the scene")) << fast;
     scene.unit_m = scene.light_speed_m_s * 0.2 / most * 0.99;
-    EXPECT_EQ(speed_complaint(load(animated()), scene), "");
+    EXPECT_EQ(gltf_test::speed_complaint(load(animated()), scene), "");
 
     Doc doc = gltf_test::triangle_doc();
     doc.json["nodes"][0]["name"] = "wheel";
@@ -421,7 +411,7 @@ TEST_F(AnimationFile, AMovementThatIsTooFastIsRefused)
     for (auto [turns, wrong] :
         {std::pair(0.0158, false), {-0.0158, false}, {0.016, true}, {-0.016, true}}) { // 0.2 / (2 pi 2)
         doc.json["nodes"][0]["extras"] = {{"starbow", {{"spin", {{"axis", {0, 0, 1}}, {"turns_per_s", turns}}}}}};
-        const std::string line = speed_complaint(load(doc), scene);
+        const std::string line = gltf_test::speed_complaint(load(doc), scene);
         EXPECT_EQ(line.starts_with("w.glb: /nodes/0: (\"wheel\") moves at 0.201 of the scene's speed of light"), wrong)
             << line;
     }
@@ -430,7 +420,7 @@ TEST_F(AnimationFile, AMovementThatIsTooFastIsRefused)
     doc.json["animations"][0]["channels"].erase(1); // removes the rotation
     doc.json["animations"][0]["samplers"][0]["interpolation"] = "STEP";
     doc.json["animations"][0]["samplers"][0]["output"] = doc.accessor<float>({0, 0, 0, 100, 0, 0, 0, 90, 0}, "VEC3");
-    EXPECT_EQ(speed_complaint(load(doc), scene), "");
+    EXPECT_EQ(gltf_test::speed_complaint(load(doc), scene), "");
 }
 
 TEST_F(AnimationFile, AWorldWithoutAnimationAllocatesNothingForIt)

@@ -191,16 +191,6 @@ TEST_F(WorldDeforming, AVertexWithoutWeightsStandsStill)
     EXPECT_LT(glm::distance(shape.vertex(first).place, corners_of_skinned(10)[0]), 1e-5);
 }
 
-std::string speed_complaint(const World& world, const SceneFile& scene)
-{
-    try {
-        check_speeds(world, scene);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
 TEST_F(WorldDeforming, WhatIsTooFastIsRefused)
 {
     SceneFile scene;

@@ -58,10 +58,6 @@ template <class Size> double bound(const Track& track, Size size)
 double far_off(const glm::dvec4& place) { return glm::length(place); }
 double largest(const glm::dvec4& scale) { return std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)}); }
 
-} // namespace
-
-namespace {
-
 /// Adds the tracks of a node's morph targets, four in each.
 void add_weights(WorldBuild& build, NodeTracks& to, const Track& times, int accessor)
 {

@@ -9,7 +9,7 @@ namespace starbow {
 namespace {
 
 /// The file's data of a deforming primitive's vertices.
-struct Attributes {
+struct DeformingSource {
     Elements position, normal, joints, weights;
     bool has_normal = false, has_joints = false;
     struct Target {
@@ -19,9 +19,9 @@ struct Attributes {
     std::vector<Target> targets;
 };
 
-Attributes open_attributes(WorldBuild& build, const tinygltf::Primitive& primitive, const StillPose& pose)
+DeformingSource open_deforming(WorldBuild& build, const tinygltf::Primitive& primitive, const StillPose& pose)
 {
-    Attributes out;
+    DeformingSource out;
     out.position = open(build, primitive.attributes.at("POSITION"));
     out.has_normal = primitive.attributes.contains("NORMAL");
     if (out.has_normal)
@@ -31,7 +31,7 @@ Attributes open_attributes(WorldBuild& build, const tinygltf::Primitive& primiti
         out.joints = open(build, primitive.attributes.at("JOINTS_0")),
         out.weights = open(build, primitive.attributes.at("WEIGHTS_0"));
     for (const auto& target : primitive.targets) {
-        Attributes::Target& to = out.targets.emplace_back();
+        DeformingSource::Target& to = out.targets.emplace_back();
         to.has_position = target.contains("POSITION"), to.has_normal = target.contains("NORMAL") && out.has_normal;
         if (to.has_position)
             to.position = open(build, target.at("POSITION"));
@@ -43,7 +43,7 @@ Attributes open_attributes(WorldBuild& build, const tinygltf::Primitive& primiti
 
 /// The bones of a vertex and their weights, whose sum is 1. A vertex without any weight has the bone after all joints, which
 /// stands still.
-void put_bones(const Attributes& from, std::uint32_t i, std::size_t joints, shared::DeformingVertex& to)
+void put_bones(const DeformingSource& from, std::uint32_t i, std::size_t joints, shared::DeformingVertex& to)
 {
     double sum = 0;
     for (int k = 0; k < 4 && from.has_joints; ++k)
@@ -70,7 +70,7 @@ template <class Row> void append(std::vector<glm::vec4>& rows, const Row& row)
     rows.insert(rows.end(), first, first + sizeof(Row) / sizeof(glm::vec4));
 }
 
-void make_room(const WorldBuild& build, const std::string& place, std::size_t rows)
+void make_deforming_room(const WorldBuild& build, const std::string& place, std::size_t rows)
 {
     if (build.world.deforming.size() + rows > GltfLimits::deforming_rows)
         build.fail(place,
@@ -86,9 +86,9 @@ void add_deforming(WorldBuild& build, const std::string& place, const tinygltf::
 {
     World& world = build.world;
     Primitive& made = world.primitives.back();
-    const Attributes from = open_attributes(build, primitive, pose);
+    const DeformingSource from = open_deforming(build, primitive, pose);
     const auto changing = std::size_t(pose.changing_targets);
-    make_room(build, place, source.size() * (DEFORMING_VERTEX_ROWS + DISPLACEMENT_ROWS * changing));
+    make_deforming_room(build, place, source.size() * (DEFORMING_VERTEX_ROWS + DISPLACEMENT_ROWS * changing));
     made.deforming = int(world.deforming.size());
     for (std::size_t i = 0; i < source.size(); ++i) {
         const std::uint32_t vertex = source[i];
@@ -97,7 +97,7 @@ void add_deforming(WorldBuild& build, const std::string& place, const tinygltf::
         if (from.has_normal)
             normal = element3(build, from.normal, vertex, place + "/attributes/NORMAL");
         for (std::size_t t = 0; t < from.targets.size() && t < pose.weights.size() && changing == 0; ++t) {
-            const Attributes::Target& target = from.targets[t];
+            const DeformingSource::Target& target = from.targets[t];
             if (target.has_position)
                 position += pose.weights[t] * element3(build, target.position, vertex, place + "/targets");
             if (target.has_normal)
@@ -105,7 +105,7 @@ void add_deforming(WorldBuild& build, const std::string& place, const tinygltf::
         }
         shared::DeformingVertex row{};
         put_bones(from, vertex, pose.joints.size(), row);
-        // What the world's vertex has in the file's pose, before its bones.
+        // Normals and tangents of the world's vertices are those of the file's own pose: the joints' turn is undone.
         const glm::dmat3 turn(
             from.has_joints ? skin_at(build, pose, from.joints, from.weights, vertex, place) : glm::dmat4(1));
         if (!from.has_normal)

@@ -38,6 +38,20 @@ std::size_t targets_of(const tinygltf::Model& model, const tinygltf::Node& node)
     return most;
 }
 
+/// Checks the number of a sampler's values. each: values that a key has. counted: the name of keys in a complaint.
+void guard_number(const Spot& sampler, std::size_t each, const std::string& counted, const Use& use)
+{
+    const Spot spot = sampler["output"];
+    const bool cubic = sampler.has("interpolation") && sampler.json["interpolation"] == "CUBICSPLINE";
+    const std::size_t times = use.accessor(sampler["input"]).count, values = use.accessor(spot).count;
+    const std::size_t right = (cubic ? 3 : 1) * times * each;
+    if (values != right)
+        spot.fail("has " + std::to_string(values) + " values for " + std::to_string(times) + counted + "; "
+            + std::to_string(right) + " is right");
+    if (cubic && times < 2)
+        spot.fail("has one key; a cubic spline should have two or more");
+}
+
 /// Checks the weights of a node's morph targets.
 void guard_weights(const Spot& sampler, std::size_t targets, const Use& use)
 {
@@ -46,13 +60,7 @@ void guard_weights(const Spot& sampler, std::size_t targets, const Use& use)
     if (output.type != TINYGLTF_TYPE_SCALAR || !(output.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || output.normalized))
         spot.fail("names accessor " + spot.json.dump() + " of type " + type_name(output) + " and component type "
             + std::to_string(output.componentType) + "; weights should be SCALAR of 5126 or of normalized integers");
-    const bool cubic = sampler.has("interpolation") && sampler.json["interpolation"] == "CUBICSPLINE";
-    const std::size_t times = use.accessor(sampler["input"]).count, right = (cubic ? 3 : 1) * times * targets;
-    if (output.count != right)
-        spot.fail("has " + std::to_string(output.count) + " values for " + std::to_string(times) + " times and "
-            + std::to_string(targets) + " targets; " + std::to_string(right) + " is right");
-    if (cubic && times < 2)
-        spot.fail("has one key; a cubic spline should have two or more");
+    guard_number(sampler, targets, " times and " + std::to_string(targets) + " targets", use);
 }
 
 /// Checks a sampler's output by the specification's table: the type of a property's values and their number.
@@ -69,14 +77,7 @@ void guard_output(const Spot& sampler, const std::string& path, const Use& use)
         spot.fail("names accessor " + spot.json.dump() + " of type " + type_name(output) + " and component type "
             + std::to_string(component) + "; a " + path + " should be "
             + (rotation ? "VEC4 of 5126 or of normalized integers" : "VEC3 and 5126"));
-    const bool cubic = sampler.has("interpolation") && sampler.json["interpolation"] == "CUBICSPLINE";
-    const std::size_t times = use.accessor(sampler["input"]).count;
-    const std::size_t values = output.count, right = cubic ? 3 * times : times;
-    if (values != right)
-        spot.fail("has " + std::to_string(values) + " values for " + std::to_string(times) + " times; "
-            + std::to_string(right) + " is right");
-    if (cubic && times < 2)
-        spot.fail("has one key; a cubic spline should have two or more");
+    guard_number(sampler, 1, " times", use);
 }
 
 void guard_sampler(const Spot& sampler, tinygltf::AnimationSampler& written, const Use& use)

@@ -58,7 +58,7 @@ struct WorldBuild {
     std::vector<JointBounds> bounds; ///< one for each of the world's joints
     std::vector<bool> moving; ///< of each node: it or a node above it is animated
     std::map<int, Motion> node_motions; ///< of the nodes of the scene
-    std::map<std::size_t, int> skins; ///< of World::deformations: the node with the skin
+    std::map<std::size_t, int> skins; ///< of the file, by index into World::deformations
 
     [[noreturn]] void fail(const std::string& place, const std::string& problem) const
     {
