@@ -262,6 +262,8 @@ Device::Device(const Options& options)
     vk::PhysicalDeviceFeatures features;
     features.largePoints = true; // a star's spot
     features.samplerAnisotropy = physical.getFeatures().samplerAnisotropy;
+    features.textureCompressionBC = physical.getFeatures().textureCompressionBC;
+    compresses = features.textureCompressionBC && !on_processor();
     float priority = 1;
     vk::DeviceQueueCreateInfo queue_info({}, family, 1, &priority);
     std::vector<const char*> extensions;

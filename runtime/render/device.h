@@ -37,6 +37,7 @@ public:
     vk::PhysicalDeviceProperties properties;
     vk::PhysicalDeviceMemoryProperties memory;
     bool reports_presentation = false; ///< VK_KHR_present_wait
+    bool compresses = false; ///< large textures are compressed; false where the processor would decode them at each look-up
     bool debug_utils = false; ///< VK_EXT_debug_utils: objects have names, passes have labels
     Trace* trace = nullptr; ///< receives the processor's spans of each frame during a trace
     std::unique_ptr<SceneKeeper> keeper; ///< null but on lavapipe

@@ -10,20 +10,20 @@ namespace {
 std::atomic<std::size_t> pieces{0}, bytes{0};
 
 /// Stands before each piece, because a piece is freed without its size.
-struct Head {
+struct BlockHead {
     void* whole;
     std::size_t size;
 };
 
-Head& head_of(void* piece) { return static_cast<Head*>(piece)[-1]; }
+BlockHead& head_of(void* piece) { return static_cast<BlockHead*>(piece)[-1]; }
 
 VKAPI_ATTR void* VKAPI_CALL allocate(void*, std::size_t size, std::size_t alignment, VkSystemAllocationScope)
 {
     const std::size_t step = std::max(alignment, alignof(std::max_align_t));
-    void* whole = std::malloc(size + sizeof(Head) + step);
+    void* whole = std::malloc(size + sizeof(BlockHead) + step);
     if (!whole)
         return nullptr;
-    const auto free_from = reinterpret_cast<std::uintptr_t>(whole) + sizeof(Head);
+    const auto free_from = reinterpret_cast<std::uintptr_t>(whole) + sizeof(BlockHead);
     void* piece = reinterpret_cast<void*>((free_from + step - 1) / step * step);
     head_of(piece) = {whole, size};
     ++pieces, bytes += size;

@@ -1,4 +1,5 @@
 #include "gpu_world.h"
+#include "compressed_texture.h"
 #include "debug.h"
 #include "mip_chain.h"
 #include "runtime/light/gloss.h"
@@ -7,12 +8,15 @@
 #include "runtime/world/instances.h"
 #include "runtime/world/moving.h"
 #include "runtime/world/shadows.h"
+#include "runtime/world/shrink.h"
 #include "runtime/world/worldline.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
+#include <map>
+#include <set>
 
 namespace starbow {
 namespace {
@@ -46,7 +50,7 @@ Image make_level_0(Device& device, const Texture& texture, MemoryArena& arena)
     if (texture.numbers)
         return make_texture(
             device, vk::Format::eR8G8B8A8Unorm, texture.size, std::as_bytes(std::span(texture.rgba)), mips, &arena);
-    if (!device.on_processor())
+    if (!device.on_processor() || (texture.large && device.compresses))
         return make_texture(
             device, vk::Format::eR8G8B8A8Srgb, texture.size, std::as_bytes(std::span(texture.rgba)), mips, &arena);
     std::array<std::uint16_t, 256> linear, alpha;
@@ -67,12 +71,51 @@ Image make_level_0(Device& device, const Texture& texture, MemoryArena& arena)
         mips, &arena);
 }
 
-Image make_colour_texture(Device& device, Pipelines& pipelines, const Texture& texture, MemoryArena& arena)
+Image make_image_with_levels(Device& device, Pipelines& pipelines, const Texture& texture, MemoryArena& arena)
 {
     Image image = make_level_0(device, texture, arena);
     const MipChain chain(device, pipelines, image);
     device.now([&](vk::CommandBuffer commands) { chain.draw_all(commands); });
     return image;
+}
+
+/// A texture on the device. A large one is compressed, or where the device does not compress, its sides are halved.
+Image make_world_texture(Device& device, Pipelines& pipelines, const Texture& texture, MemoryArena& arena)
+{
+    if (!texture.large)
+        return make_image_with_levels(device, pipelines, texture, arena);
+    if (!device.compresses)
+        return make_image_with_levels(device, pipelines, halved(texture), arena);
+    MemoryArena meanwhile;
+    return compressed(device, pipelines, make_image_with_levels(device, pipelines, texture, meanwhile), arena);
+}
+
+/// A note for each kind of large image: its size in the file, and as it is drawn.
+void note_large_images(const GpuWorld& gpu, World& world)
+{
+    struct Kind {
+        int width, height;
+        vk::Extent2D drawn;
+        bool compressed;
+        auto operator<=>(const Kind&) const = default;
+    };
+    std::map<Kind, std::set<int>> kinds;
+    for (std::size_t i = 0; i < world.textures.size(); ++i)
+        if (const auto& large = world.textures[i].large) {
+            const Image& drawn = gpu.textures[i];
+            const bool compressed = drawn.format == compressed_colours || drawn.format == compressed_numbers;
+            kinds[{large->size.x, large->size.y, drawn.extent, compressed}].insert(large->image);
+        }
+    const auto pixels = [](auto x, auto y) { return std::to_string(x) + " x " + std::to_string(y); };
+    for (const auto& [kind, images] : kinds) {
+        const bool several = images.size() > 1;
+        const std::string first = "image " + std::to_string(*images.begin());
+        world.notes.push_back((several ? std::to_string(images.size()) + " images" : first) + " of "
+            + pixels(kind.width, kind.height) + " pixels" + (several ? " (" + first + " and others) are" : " is")
+            + " drawn with " + pixels(kind.drawn.width, kind.drawn.height) + (kind.compressed ? ", compressed" : "")
+            + ": all images together have at most " + std::to_string(LargeImage::all_pixels >> 20)
+            + " Mi pixels of four bytes");
+    }
 }
 
 /// The greatest radiance that a surface of this world can send, before any lamp comes closer than its distance.
@@ -338,9 +381,10 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
     gpu.white = make_texture(device, vk::Format::eR8G8B8A8Unorm, {1, 1}, std::as_bytes(std::span(&white, 1)), false);
     name_object(device, gpu.white, "world: white");
     for (Texture& texture : world.textures) {
-        gpu.textures.push_back(make_colour_texture(device, pipelines, texture, gpu.texture_memory));
+        gpu.textures.push_back(make_world_texture(device, pipelines, texture, gpu.texture_memory));
         texture.rgba = {};
     }
+    note_large_images(gpu, world);
     put_materials(device, pipelines, gpu, world);
     put_shadows(device, gpu, world);
     put_stars(gpu, stars);

@@ -4,6 +4,7 @@
 #include "shaders/shared_structs.h"
 #include "spirv/bloom_frag.h"
 #include "spirv/bloomed_frag.h"
+#include "spirv/compress_frag.h"
 #include "spirv/cube_frag.h"
 #include "spirv/cube_mapped_frag.h"
 #include "spirv/cube_mapped_vert.h"
@@ -314,6 +315,16 @@ vk::Pipeline Pipelines::mip(vk::Format target)
         .fragment = mip_frag,
         .layout = *layouts.picture_layout,
         .target = {{target}}});
+}
+
+vk::Pipeline Pipelines::compress(bool colours)
+{
+    return find_or_make({.name = "compress pipeline",
+        .vertex = screen_vert,
+        .fragment = compress_frag,
+        .layout = *layouts.picture_layout,
+        .target = {{words_format}},
+        .constants = {colours}});
 }
 
 vk::Pipeline Pipelines::meter(const WarpVariant& v)

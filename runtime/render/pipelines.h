@@ -160,6 +160,7 @@ public:
     /// overlay: OVERLAY_ of shared.h.
     vk::Pipeline overlay(const WarpVariant& variant, int overlay, vk::Format target);
     vk::Pipeline mip(vk::Format target); ///< MipChain's
+    vk::Pipeline compress(bool colours); ///< compressed()'s
     vk::Pipeline meter(const WarpVariant& variant);
     vk::Pipeline star_meter(const WarpVariant& variant);
     /// first: from the light itself.

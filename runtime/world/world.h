@@ -42,12 +42,21 @@ struct Sampler {
     auto operator<=>(const Sampler&) const = default;
 };
 
+/// An image of a world whose images have too many pixels together.
+struct LargeImage {
+    /// Pixels of four bytes of all textures together. A picture of 8192 x 4096 pixels around a globe fits.
+    static constexpr std::size_t all_pixels = std::size_t(40) << 20;
+    int image; ///< of the glTF file
+    glm::ivec2 size; ///< in the file
+};
+
 /// Rows from the top: colours by sRGB's curve with linear alpha, or numbers, all of them linear.
 struct Texture {
     glm::ivec2 size;
     std::vector<std::uint8_t> rgba;
     Sampler sampler;
     bool numbers = false;
+    std::optional<LargeImage> large; ///< the device is to hold it in a quarter of its memory
 };
 
 /// A clock's dial: it shows the time of the world, or of its body, counted from its own zero.

@@ -1,4 +1,5 @@
 #include "config/model/angles.h"
+#include "runtime/world/shrink.h"
 #include "tests/support/gltf_fixture.h"
 
 namespace starbow::gltf_test::world_material_test {
@@ -93,38 +94,59 @@ Bytes large_png(int width, int height, std::uint8_t eight)
 
 TEST_F(WorldMaterialTest, ImagesBeyondTheLimitOfAllAreMadeSmaller)
 {
+    const auto looks_alike = [](Doc& doc, int count) {
+        doc.json["materials"] = Json::array();
+        for (int i = 0; i < count; ++i)
+            doc.put("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", i}}}}}});
+    };
     // Every other column is white: half the light of white, which sRGB stores as 188 (0.7354 of 255).
+    const auto is_grey = [](const Texture& texture) {
+        EXPECT_EQ(texture.rgba.size(), std::size_t(4) << 24);
+        for (std::size_t i : {std::size_t(0), std::size_t(4) * 4095, texture.rgba.size() - 4})
+            EXPECT_EQ(Bytes(&texture.rgba[i], &texture.rgba[i] + 4), (Bytes{188, 188, 188, 255}));
+    };
+    // The device makes the last step.
     write("large.png", large_png(8192, 8192, 0x55));
     Doc doc = painted(textured);
     doc.json["images"][0] = {{"uri", "large.png"}};
     World world = load(doc);
-    EXPECT_EQ(world.textures.at(0).size, glm::ivec2(4096));
-    EXPECT_EQ(world.textures[0].rgba.size(), std::size_t(4) << 24);
-    for (std::size_t i : {std::size_t(0), std::size_t(4) * 4095, world.textures[0].rgba.size() - 4})
-        EXPECT_EQ(Bytes(&world.textures[0].rgba[i], &world.textures[0].rgba[i] + 4), (Bytes{188, 188, 188, 255}));
-    EXPECT_EQ(world.notes,
-        std::vector<std::string>{
-            "image 0 of 8192 x 8192 pixels is drawn with 4096 x 4096: all images together have at most 40 Mi pixels"});
+    EXPECT_EQ(world.textures.at(0).size, glm::ivec2(8192));
+    ASSERT_TRUE(world.textures[0].large);
+    EXPECT_EQ(world.textures[0].large->size, glm::ivec2(8192));
+    const Texture smaller = halved(world.textures[0]);
+    EXPECT_EQ(smaller.size, glm::ivec2(4096));
+    is_grey(smaller);
 
-    // Two that fit one by one: both become smaller, and a third, small one stays. An image of two samplers counts twice.
-    write("wide.png", large_png(8192, 4096, 0xff));
-    doc.json["images"] = {{{"uri", "wide.png"}}, {{"uri", png_uri()}}};
-    doc.json["samplers"] = {{{"wrapS", 33071}}, {{"wrapS", 33648}}};
-    doc.json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}}, {{"source", 0}, {"sampler", 1}}};
-    doc.json["materials"] = Json::array();
-    for (int i = 0; i < 3; ++i)
-        doc.put("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", i}}}}}});
+    // Three of them take one step before.
+    doc.json["samplers"] = {{{"wrapS", 33071}}, {{"wrapS", 33648}}, {{"wrapS", 10497}}};
+    doc.json["textures"]
+        = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}, {"sampler", 1}}, {{"source", 0}, {"sampler", 2}}};
+    looks_alike(doc, 3);
     world = load(doc);
     ASSERT_EQ(world.textures.size(), 3u);
-    EXPECT_EQ(world.textures[0].size, glm::ivec2(4096, 2048));
+    for (const Texture& texture : world.textures) {
+        EXPECT_EQ(texture.size, glm::ivec2(4096));
+        EXPECT_TRUE(texture.large);
+        is_grey(texture);
+    }
+
+    // Two that fit one by one: both are too large, and a third, small one is not. An image of two samplers counts twice.
+    write("wide.png", large_png(8192, 4096, 0xff));
+    doc.json["images"] = {{{"uri", "wide.png"}}, {{"uri", png_uri()}}};
+    doc.json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}}, {{"source", 0}, {"sampler", 1}}};
+    world = load(doc);
+    ASSERT_EQ(world.textures.size(), 3u);
+    EXPECT_TRUE(world.textures[0].large);
     EXPECT_EQ(world.textures[1].size, glm::ivec2(2, 1));
-    EXPECT_EQ(world.textures[2].size, glm::ivec2(4096, 2048));
+    EXPECT_FALSE(world.textures[1].large);
+    EXPECT_TRUE(world.textures[2].large);
     EXPECT_EQ(world.textures[2].sampler.u, Wrap::mirror);
     EXPECT_EQ(world.textures[2].rgba, world.textures[0].rgba);
-    doc.json["materials"].erase(2);
     doc.json["textures"].erase(2);
+    looks_alike(doc, 2);
     world = load(doc);
     EXPECT_EQ(world.textures[0].size, glm::ivec2(8192, 4096));
+    EXPECT_FALSE(world.textures[0].large);
     EXPECT_TRUE(world.notes.empty());
 }
 

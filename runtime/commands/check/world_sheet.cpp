@@ -57,11 +57,9 @@ std::vector<Fact> facts_of(const RenderContext& context, const AlignedBox& all, 
         triangles += primitive.index_count / 3;
     for (const Instance& instance : world.instances)
         drawn += world.primitives[instance.primitive].index_count / 3;
-    double texels = 0;
-    for (const Texture& texture : world.textures)
-        texels += double(texture.size.x) * texture.size.y;
-    // Four thirds for the smaller copies; in software half floats, on a GPU bytes.
-    const double bytes = texels * 4 / 3 * (context.device.on_processor() ? 8 : 4);
+    double bytes = 0;
+    for (const Image& image : context.world.textures)
+        bytes += double(image.bytes);
     const glm::dvec3 size = all.high - all.low;
     return {
         {"size", length(scene, size.x) + " wide, " + length(scene, size.y) + " high, " + length(scene, size.z) + " deep"},

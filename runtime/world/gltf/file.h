@@ -26,8 +26,6 @@ struct GltfLimits {
     static constexpr std::size_t sparse_bytes = std::size_t(256) << 20;
     static constexpr int texture_side = 16384;
     static constexpr std::size_t texture_pixels = std::size_t(128) << 20; ///< pixels of one image
-    /// Pixels of all textures together; larger images are made smaller. A picture of 8192 x 4096 pixels around a globe fits.
-    static constexpr std::size_t all_texture_pixels = std::size_t(40) << 20;
 };
 
 /// A .gltf or .glb file in parts. Its JSON is known to be well formed; no content is checked yet.

@@ -1,5 +1,5 @@
 #include "parts.h"
-#include "runtime/light/srgb.h"
+#include "runtime/world/shrink.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -150,8 +150,8 @@ std::map<int, std::vector<TextureUse>> used_images(const tinygltf::Model& model)
     return used;
 }
 
-/// How often each image's sides are halved, so that all textures together stay within their limit: those above some number
-/// of pixels are halved until they have at most so many.
+/// How often each image's memory is quartered, by halving its sides, so that all textures together stay within their limit:
+/// those above some number of pixels are halved until they have at most so many.
 std::map<int, int> halvings(const WorldBuild& build)
 {
     struct Size {
@@ -172,7 +172,7 @@ std::map<int, int> halvings(const WorldBuild& build)
                 ++times;
             sum += size.pixels * size.textures;
         }
-        if (sum <= GltfLimits::all_texture_pixels)
+        if (sum <= LargeImage::all_pixels)
             break;
     }
     return result;
@@ -220,18 +220,15 @@ struct TextureShelf {
         return siblings.back();
     }
 
+    /// The last halving is left to the device, which may compress the image instead.
     Texture decode(int image, bool numbers)
     {
         const int times = halved.at(image);
         const auto& bytes = build.file.images[std::size_t(image)];
-        Texture made = decode_image(build.file.name, "/images/" + std::to_string(image), bytes, times, numbers);
-        if (times > 0) {
-            const auto text = [](glm::ivec2 size) { return std::to_string(size.x) + " x " + std::to_string(size.y); };
-            note_once(build.world.notes,
-                "image " + std::to_string(image) + " of " + text(image_size(bytes)) + " pixels is drawn with "
-                    + text(made.size) + ": all images together have at most "
-                    + std::to_string(GltfLimits::all_texture_pixels >> 20) + " Mi pixels");
-        }
+        Texture made
+            = decode_image(build.file.name, "/images/" + std::to_string(image), bytes, std::max(times - 1, 0), numbers);
+        if (times > 0)
+            made.large = {image, image_size(bytes)};
         return made;
     }
 };
@@ -261,20 +258,6 @@ template <typename TextureInfo> UvSource uv_source(const TextureInfo& info)
     return out;
 }
 
-/// A decoded image: 1 to 4 channels, of which an even number ends with the cover.
-struct Pixels {
-    const std::uint8_t* values = nullptr;
-    glm::ivec2 size{0};
-    int channels = 4;
-
-    const std::uint8_t* at(int x, int y) const
-    {
-        return values + (std::size_t(y) * std::size_t(size.x) + std::size_t(x)) * std::size_t(channels);
-    }
-    bool grey() const { return channels < 3; }
-    bool covers() const { return channels % 2 == 1; } ///< everything: there is no channel of cover
-};
-
 Bytes rgba_of(const Pixels& from)
 {
     const std::size_t count = std::size_t(from.size.x) * std::size_t(from.size.y);
@@ -286,37 +269,6 @@ Bytes rgba_of(const Pixels& from)
             to[c] = at[from.grey() ? 0 : c];
         to[3] = from.covers() ? 255 : at[from.channels - 1];
     }
-    return rgba;
-}
-
-/// The means over the pixels of each new one: of light or of numbers, and of the cover.
-Bytes shrunk(const Pixels& from, glm::ivec2 size, bool numbers)
-{
-    std::array<double, 256> light;
-    for (std::size_t i = 0; i < light.size(); ++i)
-        light[i] = numbers ? double(i) / 255 : light_of_srgb(double(i) / 255);
-    Bytes rgba;
-    rgba.reserve(4 * std::size_t(size.x) * std::size_t(size.y));
-    const int colours = from.grey() ? 1 : 3;
-    const auto byte = [](double value) { return std::uint8_t(std::lround(std::clamp(value, 0.0, 255.0))); };
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) {
-            const glm::ivec2 low = glm::ivec2(x, y) * from.size / size, high = glm::ivec2(x + 1, y + 1) * from.size / size;
-            std::array<double, 3> sum{};
-            double cover = 0;
-            for (int j = low.y; j < high.y; ++j)
-                for (int i = low.x; i < high.x; ++i) {
-                    const std::uint8_t* at = from.at(i, j);
-                    for (int c = 0; c < colours; ++c)
-                        sum[std::size_t(c)] += light[at[c]];
-                    cover += from.covers() ? 255 : at[from.channels - 1];
-                }
-            const double count = double(high.x - low.x) * (high.y - low.y);
-            for (std::size_t c = 0; c < 3; ++c)
-                rgba.push_back(byte(
-                    255 * (numbers ? sum[from.grey() ? 0 : c] / count : srgb_of_light(sum[from.grey() ? 0 : c] / count))));
-            rgba.push_back(byte(cover / count));
-        }
     return rgba;
 }
 
