@@ -114,8 +114,10 @@ bool guard_channel(const Spot& channel, const Spot& samplers, tinygltf::Animatio
     const auto node = std::size_t(index_into(target["node"], "node", count_of(use.root, "nodes")));
     if (weights) {
         const std::size_t targets = targets_of(use.out.model, use.out.model.nodes[node]);
-        if (targets == 0)
-            return false; // they change nothing
+        if (targets == 0) {
+            note_once(use.out.notes, "animated weights of nodes without morph targets change nothing");
+            return false;
+        }
         guard_weights(samplers[sampler], targets, use);
     } else if (!use.out.model.nodes[node].matrix.empty())
         target["node"].fail("names node " + std::to_string(node)
