@@ -119,7 +119,7 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     reject_unknown_members(top,
         {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "frame_budget_ms",
             "ladder", "flying", "exposure", "textfile", "remote", "presenter", "visit", "menu", "calm", "information",
-            "speech", "comfort", "one_button", "left_handed"});
+            "speech", "comfort", "one_button", "left_handed", "machines"});
     Exhibit exhibit;
     for (const auto& [name, value] :
         {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}, {"tour", &exhibit.tour},
@@ -163,6 +163,14 @@ Exhibit load_exhibit(const std::filesystem::path& file)
         exhibit.presenter.emplace();
         if (auto monitor = find_member(*p, "monitor"))
             exhibit.presenter->monitor = read_monitor(*monitor);
+    }
+    if (auto p = find_member(top, "machines")) {
+        reject_unknown_members(*p, {"master", "interface", "domain"});
+        Machines& machines = exhibit.machines.emplace();
+        machines.master = text(member(*p, "master"));
+        machines.interface = text(member(*p, "interface"));
+        if (auto domain = find_member(*p, "domain"))
+            machines.domain = integer(*domain, 0, 200);
     }
     if (auto p = find_member(top, "visit"))
         exhibit.visiting = read_visiting(*p, folder);

@@ -12,6 +12,13 @@
 
 namespace starbow {
 
+/// The machines that show one exhibit together.
+struct Machines {
+    std::string master; ///< the node that has the visitors' devices, the remote and the tours
+    std::string interface; ///< a network interface's name, or a network of which each machine has an address
+    int domain = 0; ///< two exhibits on one network have different ones
+};
+
 /// The parts of an exhibit, and its rules of flight.
 struct Exhibit {
     // Paths, or names of shipped files.
@@ -35,6 +42,7 @@ struct Exhibit {
     Exposing exposure;
     RemoteSettings remote;
     std::optional<Presenting> presenter; ///< the guide's window; none: there is none
+    std::optional<Machines> machines; ///< none: one machine shows it
     std::optional<Visiting> visiting; ///< the exhibit attends to its visitors itself; none: somebody else does
 };
 

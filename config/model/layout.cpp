@@ -169,9 +169,12 @@ void check_halves(const Place& place, const Output& output)
 Output read_output(const Place& place, const Stereo& stereo, const std::filesystem::path& folder)
 {
     reject_unknown_members(place,
-        {"name", "size", "resizable", "viewports", "preview", "packing", "colour", "monitor", "whole_monitor", "place"});
+        {"name", "node", "size", "resizable", "viewports", "preview", "packing", "colour", "monitor", "whole_monitor",
+            "place"});
     Output output;
     output.name = read_name(member(place, "name"));
+    if (auto p = find_member(place, "node"))
+        output.node = read_name(*p);
     if (auto p = find_member(place, "size"))
         output.size = read_pixels(*p, 1, most_pixels_across);
     take(place, "preview", output.preview);
@@ -271,7 +274,12 @@ void check_beside(const Place& place, const Output& output, const Output& earlie
         complain(member(place, "name"), "is the name of " + which + " too; a name of its own is right");
     if (output.preview && earlier.preview)
         complain(member(place, "preview"), "makes a second preview beside " + which + "; one is right");
-    if ((output.whole_monitor || earlier.whole_monitor) && same(output.monitor, earlier.monitor))
+    if ((output.node.empty() || earlier.node.empty()) && output.node != earlier.node)
+        complain(find_member(place, "node").value_or(place),
+            output.node.empty() ? "has no node, and " + which + " has one; a node for each output, or for none, is right"
+                                : "is a node, and " + which + " has none; a node for each output, or for none, is right");
+    if ((output.whole_monitor || earlier.whole_monitor) && output.node == earlier.node
+        && same(output.monitor, earlier.monitor))
         complain(find_member(place, "monitor").value_or(place),
             "takes the same monitor as " + which
                 + ", and a window over the whole of it leaves no room; a monitor for each is right");
@@ -315,6 +323,15 @@ glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size)
     const glm::ivec2 from = glm::round(glm::dvec2(r.x, r.y) * glm::dvec2(size));
     const glm::ivec2 to = glm::min(glm::ivec2(glm::round(glm::dvec2(r.x + r.z, r.y + r.w) * glm::dvec2(size))), size);
     return {from, to - from};
+}
+
+std::vector<std::string> nodes_of(const Layout& layout)
+{
+    std::vector<std::string> nodes;
+    for (const Output& output : layout.outputs)
+        if (!output.node.empty() && std::ranges::find(nodes, output.node) == nodes.end())
+            nodes.push_back(output.node);
+    return nodes;
 }
 
 Layout read_layout(const Place& top, const std::filesystem::path& file)

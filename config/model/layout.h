@@ -174,6 +174,7 @@ struct MonitorName {
 
 struct Output {
     std::string name;
+    std::string node; ///< the machine that shows it; empty: the one that shows the exhibit
     glm::ivec2 size{800, 600}; ///< pixels
     bool resizable = false;
     std::vector<Viewport> viewports; ///< none in a preview, where every other output is shown small
@@ -235,6 +236,9 @@ struct Layout {
     std::optional<HeadTracking> head_tracker;
     std::vector<Output> outputs;
 };
+
+/// The machines of a layout's outputs, in their order; none where one machine shows all.
+std::vector<std::string> nodes_of(const Layout& layout);
 
 /// The pixels of a viewport in an output of `size`: x, y, width, height. Its edges are rounded, so that neighbours meet.
 glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size);

@@ -59,6 +59,14 @@ enum class LogKind : std::uint8_t {
     lab_line_skipped,
     attraction_refused,
     speech_fails,
+    node_joins,
+    node_leaves,
+    node_differs,
+    node_refused,
+    master_away,
+    master_back,
+    state_unread,
+    network_routed,
 };
 
 struct LogRule {
@@ -117,9 +125,17 @@ inline constexpr auto log_rules = std::to_array<LogRule>({
     {"lab-line-skipped", "d94e5b6f752842bbb85c59995a16581b", LogLevel::warning, "log"},
     {"attraction-refused", "672f0acf8a984782a9195c77537a2115", LogLevel::warning, "visit"},
     {"speech-fails", "b33d6d43979e40a1baec537d8cbd4e05", LogLevel::warning, "visit"},
+    {"node-joins", "fb3adbe3a1a34c4d837f52357a2db02a", LogLevel::info, "machines"},
+    {"node-leaves", "7fc5fbdddbba44c998e0512026898e3e", LogLevel::warning, "machines"},
+    {"node-differs", "6a72b52c094f4e8a9616e6237b2f6d7e", LogLevel::warning, "machines"},
+    {"node-refused", "54e8734a3d1d41bc8def8b7babcb50d3", LogLevel::warning, "machines"},
+    {"master-away", "122a4a5423e6403c8a2bea4a568df604", LogLevel::warning, "machines"},
+    {"master-back", "fb0dba00f73e4b138d9aa5918993361d", LogLevel::info, "machines"},
+    {"state-unread", "ffe0a68e5a144419b59b8b4869dcb106", LogLevel::warning, "machines"},
+    {"network-routed", "0033e635bb734a4abe0bdeddcabc27fe", LogLevel::warning, "machines"},
 });
 
-static_assert(log_rules.size() == std::size_t(LogKind::speech_fails) + 1);
+static_assert(log_rules.size() == std::size_t(LogKind::network_routed) + 1);
 
 constexpr const LogRule& rule_of(LogKind kind) { return log_rules[std::size_t(kind)]; }
 

@@ -1,4 +1,4 @@
-#include "frame_state.h"
+#include "pattern.h"
 #include "config/json/reader.h"
 
 namespace starbow {

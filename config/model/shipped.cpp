@@ -1,5 +1,6 @@
 #include "shipped.h"
 #include "config/json/error.h"
+#include "config/json/reader.h"
 #include "file_kind.h"
 #include <algorithm>
 #include <map>

@@ -10,6 +10,7 @@
 #include "runtime/commands/options/pattern.h"
 #include "runtime/commands/options/quality.h"
 #include "runtime/exhibit/exhibit.h"
+#include "runtime/exhibit/node.h"
 #include "runtime/exhibit/outputs.h"
 #include "runtime/flight/replay.h"
 #include "runtime/operation/ends.h"
@@ -34,7 +35,7 @@ constexpr const char* plain_scene = "chart";
 
 struct RunOptions {
     std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour, log, quality,
-                ladder, trace, warm_up = "auto";
+                ladder, trace, warm_up = "auto", node, frame_log;
     double frame_budget_ms = -1; ///< below 0: the exhibit's
     double log_every_s = 0;
     long frames = 0;
@@ -57,6 +58,27 @@ ExhibitOptions reopen(const std::filesystem::path& record, const std::string& la
         .tutorial = false,
         .pattern = pattern_named(header.pattern),
         .replay = record};
+}
+
+/// Throws InputError where an exhibit's machines have no such node, or its layout has not the master.
+void check_node(
+    const std::string& node, const std::string& exhibit, const std::optional<Machines>& machines, const Layout& layout)
+{
+    if (!machines)
+        throw InputError("--node " + node + " names a machine, and the exhibit " + exhibit
+            + " has none; \"machines\" in its file is right");
+    const std::vector<std::string> nodes = nodes_of(layout);
+    std::string list;
+    for (const std::string& one : nodes)
+        list += (list.empty() ? "" : ", ") + one;
+    if (nodes.empty())
+        throw InputError(
+            layout.file.string(), "", "has no \"node\" at its outputs; one at each is right for several machines");
+    if (std::ranges::find(nodes, node) == nodes.end())
+        throw InputError("--node " + node + " is none of the layout " + layout.name + "; one of these is right: " + list);
+    if (std::ranges::find(nodes, machines->master) == nodes.end())
+        throw InputError("The master of the exhibit's machines, \"" + machines->master + "\", is no node of the layout "
+            + layout.name + "; one of these is right: " + list);
 }
 
 ExhibitOptions open(const RunOptions& options)
@@ -110,6 +132,11 @@ ExhibitOptions open(const RunOptions& options)
     exhibit_options.textfile = exhibit.textfile;
     exhibit_options.remote = exhibit.remote;
     exhibit_options.presenter = exhibit.presenter;
+    if (!options.node.empty())
+        check_node(options.node, options.exhibit, exhibit.machines, exhibit_options.layout);
+    if (!options.node.empty())
+        exhibit_options.machines = exhibit.machines, exhibit_options.node = options.node,
+        exhibit_options.frame_log = options.frame_log;
     if (options.presenter && !exhibit_options.presenter)
         exhibit_options.presenter.emplace();
     if (options.careful || (options.tour.empty() && options.scene.empty() && options.shot.empty()))
@@ -196,7 +223,8 @@ int run(const RunOptions& given)
     int status;
     {
         WindowSystem window_system;
-        status = fly_exhibit(exhibit_options);
+        const bool leads = !exhibit_options.machines || exhibit_options.machines->master == exhibit_options.node;
+        status = leads ? fly_exhibit(exhibit_options) : show_node(exhibit_options);
     }
     if (ends && status == 0)
         ends->in_order();
@@ -217,6 +245,12 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
         ->capture_default_str();
     command->add_option("--layout", options->layout, "Instead: a layout file, or the name of one in config/layouts");
     command->add_option("--scene", options->scene, "Instead: a scene file, or the name of one in config/scenes");
+    CLI::Option* node = command->add_option("--node", options->node,
+        "The name of this machine where several show the exhibit together: a node of the layout's outputs");
+    command
+        ->add_option("--frame-log", options->frame_log,
+            "With --node: write each frame that is shown, with its time and the digest of its state, into this CSV file")
+        ->needs(node);
     command->add_option("--shot", options->shot, "Instead: start at this shot, in its scene");
     add_language(*command, options->language);
     command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
@@ -263,11 +297,12 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
         tour->excludes(other);
     CLI::Option* replay = command->add_option("--replay", options->replay,
         "Fly a record again, the same to the bit, in its scene and on its layout (or on --layout's)");
-    for (const char* other : {"--exhibit", "--scene", "--shot", "--tour", "--pattern", "--record", "--presenter"})
+    for (const char* other : {"--exhibit", "--scene", "--shot", "--tour", "--pattern", "--record", "--presenter", "--node"})
         replay->excludes(other);
     command->footer(std::string("Keys:\n") + keyboard_help()
         + "\n\nExamples:\n  starbow run --layout stereo --shot avenue-gamma4\n  starbow run --exhibit dome --language de\n  "
-          "starbow run --tour first-minute\n  starbow run --trace out/trace.json --verbose");
+          "starbow run --tour first-minute\n  starbow run --exhibit our-dome.json --node left\n  starbow run --trace "
+          "out/trace.json --verbose");
     command->callback([options, command, verbose, &chosen] {
         for (const CLI::Option* option : command->get_options())
             options->any_given = options->any_given || (option != verbose && option->count() > 0);

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/model/exhibit_file.h"
 #include "config/model/exposing.h"
 #include "config/model/flying.h"
 #include "config/model/information.h"
@@ -51,6 +52,9 @@ struct ExhibitOptions {
     Trace* trace = nullptr; ///< receives the spans of each frame; null: none. It must outlive the flight
     std::function<void(const FrameTimes&)> timed{}; ///< is called for each frame
     RemoteSettings remote{}; ///< port 0: none
+    std::optional<Machines> machines{}; ///< the others of this exhibit; none: this one shows all
+    std::string node{}; ///< the name of this one among them
+    std::filesystem::path frame_log{}; ///< receives the frames that this one shows; empty: none
     std::optional<Presenting> presenter{}; ///< the guide's window; none: there is none
     std::string quality_name{}; ///< of quality, for the remote; empty: the ladder's, or the device's default
     std::filesystem::path state{}; ///< folder of the days' counts; empty: none are kept

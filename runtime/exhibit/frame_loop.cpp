@@ -1,6 +1,7 @@
 #include "frame_loop.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
+#include "machine_files.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/progress.h"
 #include "runtime/operation/record_files.h"
@@ -38,7 +39,7 @@ FrameLoop::FrameLoop(Session& session, RemoteControl& remote, Presenter& present
     , device_(context.device)
     , frame_(renderer(session.layout, quality_of(session, device_)))
     , timer_(device_)
-    , screens_(device_, session.layout)
+    , screens_(device_, session.layout, session.options.node)
     , cold_(session.options.warms_up.value_or(!device_.on_processor()))
     , most_pipelines_(device_.on_processor() ? most_pipelines_in_software : most_pipelines)
     , done_(device_.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
@@ -46,6 +47,8 @@ FrameLoop::FrameLoop(Session& session, RemoteControl& remote, Presenter& present
     , commands_(device_.device, {*device_.pool, vk::CommandBufferLevel::ePrimary, 2})
     , guide_(device_, presenter, session.options.presenter)
 {
+    if (session.options.machines)
+        master_ = std::make_unique<Master>(session.options);
     name_object(device_, done_, "frame done");
     name_object(device_, commands_[0], "frame: world");
     name_object(device_, commands_[1], "frame: outputs");
@@ -111,11 +114,14 @@ bool FrameLoop::fly_frame()
     session_.lab.read(*frame_, controls, context_.world, 1e-9 * double(entry.dt_ns),
         [&](std::string line) { session_.alignment.say(std::move(line)); });
     apply_alignment(controls);
-    frame_->show(session_.alignment.pattern());
     if (turn_diary(session_, screens_.shown(), context_.pipelines.count()))
         remote_.publish_condition(session_.diary);
     if (!visible) {
         remote_.shown(session_); // there is no picture to wait for
+        if (master_) { // but the other machines have some
+            master_->send(shared(next_instant(controls.head)));
+            master_->go();
+        }
         guide_.show(session_, screens_.monitors());
         return true;
     }
@@ -124,12 +130,14 @@ bool FrameLoop::fly_frame()
 
     // Plan, cull, upload and record; FrameRenderer::draw lists the passes.
     const Clock::time_point begun = Clock::now();
-    const Shot shot = set_up_frame(controls);
-    const Panel* panel = hud_.update(session_, context_.world.scene, shot.exposure_ev, frame_->views().hud_width());
+    fit_outputs();
+    const Instant instant = next_instant(controls.head);
+    if (master_)
+        master_->send(shared(instant));
+    const Panel* panel = pictures_.set_up(instant, session_.words, *frame_);
     const std::size_t pipelines = context_.pipelines.count();
     begin_commands();
-    placards_.prepare(session_, shot, context_.world, *frame_, hud_.typesetter);
-    frame_->draw(*commands_[0], *commands_[1], shot, panel, screens_.targets());
+    frame_->draw(*commands_[0], *commands_[1], instant.shot, panel, screens_.targets());
     end_commands();
     if (const std::size_t made = context_.pipelines.count() - pipelines; made > 0)
         write_log(LogKind::pipelines_made, std::to_string(made) + " made in flight");
@@ -142,6 +150,11 @@ bool FrameLoop::fly_frame()
     screens_.submit(*commands_[0], *commands_[1], *done_);
     submitted_ = true;
     const Clock::time_point handed = Clock::now();
+    if (master_) {
+        device_.await(*done_, "the end of the frame's drawing (fence)");
+        master_->go();
+        session_.missing = master_->missing();
+    }
     screens_.present(session_.skew);
     held_since_.reset();
     if (presented_ && !fresh_)
@@ -158,7 +171,7 @@ bool FrameLoop::fly_frame()
     ++session_.shown;
     constexpr std::int64_t idle_ns = 2'000'000'000; // else somebody's hand is on a device, and waits for the picture
     if (steady_ns(now) - controls.report_ns > idle_ns)
-        warm_up_at_rest(shot);
+        warm_up_at_rest(instant.shot);
     return true;
 }
 
@@ -174,7 +187,7 @@ void FrameLoop::warm_up_at_rest(const Shot& shot)
             at_rest_ = warm_up_in(quality_of(session_, device_));
         // The first states matter most: later ones must not drive their pipelines out.
         constexpr std::size_t for_the_flight = 24;
-        rested_ = !at_rest_ || !in_room([&] { return at_rest_->step(hud_.panel()); })
+        rested_ = !at_rest_ || !in_room([&] { return at_rest_->step(pictures_.panel()); })
             || at_rest_->made() + for_the_flight > most_pipelines_;
     } catch (const NoRoom&) { // the flight can do without
         rested_ = true;
@@ -190,7 +203,7 @@ void FrameLoop::warm_up_at_rest(const Shot& shot)
 void FrameLoop::stand_by()
 {
     presented_.reset(); // a time without pictures is no long frame
-    glfwWaitEventsTimeout(0.1); // all windows are minimised, or no monitor is there
+    glfwWaitEventsTimeout(master_ ? 0.016 : 0.1); // all windows are minimised, or no monitor is there
     const Clock::time_point now = Clock::now();
     if (screens_.held() == 0) {
         held_since_.reset();
@@ -220,7 +233,8 @@ Metered FrameLoop::await_device()
     trace_passes();
     publish_view();
     if (const auto ms = timer_.ms(); ms && session_.governor)
-        if (session_.governor->drawn(seconds(Clock::now() - session_.began), prepared_ms_ + *ms))
+        if (session_.governor->drawn(seconds(Clock::now() - session_.began),
+                std::max(prepared_ms_ + *ms, master_ ? master_->slowest_ms() : 0))) // one level for all, or seams would show
             frame_->adopt(quality_of(session_, device_));
     return {frame_->metered(), frame_->surface_samples(), frame_->star_samples()};
 }
@@ -271,7 +285,8 @@ void FrameLoop::warm_up()
             const std::unique_ptr<WarmUp> steps = warm_up_in(quality);
             if (!steps)
                 break;
-            const Panel* panel = hud_.update(session_, context_.world.scene, 0, frame_->views().hud_width());
+            hud_.update(session_, context_.world.scene, 0);
+            const Panel* panel = pictures_.panel_of(hud_.written(), session_.words, frame_->views().hud_width());
             while (steps->step(panel)) {
                 glfwPollEvents(); // else the window system takes the program for dead
                 warming.restart();
@@ -307,25 +322,42 @@ void FrameLoop::trace_passes()
             pass.name, submitted_ns_ + std::int64_t(1e6 * pass.begin_ms), std::int64_t(1e6 * pass.duration_ms));
 }
 
-Shot FrameLoop::set_up_frame(const Controls& controls)
+void FrameLoop::fit_outputs()
 {
     const std::vector<Target>& targets = screens_.targets();
     for (std::size_t i = 0; i < targets.size(); ++i)
         if (targets[i].view)
             fit(i);
     watch_sizes(targets);
-    frame_->move_head(controls.head);
-    frame_->meter(session_.options.exposure.automatic || session_.range);
-    frame_->range(curve_of(session_));
-    frame_->bloom(bloom_of(session_.options.exposure, device_.on_processor()));
-    frame_->fade(glm::smoothstep(0.0, 1.0, session_.black));
+}
+
+Instant FrameLoop::next_instant(const Head& head)
+{
     const bool by_hand = visitor_flies(session_); // a tour's own motion may roll
     const Flight& flight = session_.flight;
-    frame_->vignette(session_.rules.comfort.vignette.value_or(Vignette()), by_hand ? flight.vignette : 0);
-    Shot shot = shot_of(flight, session_.programme.start.scene, by_hand ? session_.rules.comfort : Comfort());
-    shot.exposure_ev = ev_of(session_);
-    session_.lab.request(*frame_, shot, session_.flight, context_.world, hud_.typesetter);
-    return shot;
+    Instant now{.shot = shot_of(flight, session_.programme.start.scene, by_hand ? session_.rules.comfort : Comfort()),
+        .head = head,
+        .range = curve_of(session_),
+        .meters = session_.options.exposure.automatic || session_.range,
+        .bloom = bloom_of(session_.options.exposure, device_.on_processor()),
+        .black = glm::smoothstep(0.0, 1.0, session_.black),
+        .vignette = session_.rules.comfort.vignette.value_or(Vignette()),
+        .vignette_part = by_hand ? flight.vignette : 0,
+        .pattern = session_.alignment.pattern()};
+    now.shot.exposure_ev = ev_of(session_);
+    now.instruments = session_.lab.request(frame_->views(), now.shot, flight, context_.world, pictures_.typesetter);
+    now.hud = hud_.update(session_, context_.world.scene, now.shot.exposure_ev);
+    placards_.choose(session_, context_.world, now);
+    return now;
+}
+
+SharedInstant FrameLoop::shared(const Instant& now) const
+{
+    return {.scene = shared_name_of_scene(session_.programme.scene),
+        .language = session_.words.language,
+        .quality = session_.governor ? "" : session_.quality_name,
+        .level = session_.governor ? std::int32_t(session_.governor->level()) : -1,
+        .instant = now};
 }
 
 /// Gives an output the size of its window's picture, or half of it, or a quarter, until the device has room for it.
@@ -429,8 +461,11 @@ std::unique_ptr<FrameRenderer> FrameLoop::renderer(
     for (Output& output : shown.outputs)
         output.size = glm::min(output.size, int(device_.properties.limits.maxImageDimension2D));
     return in_room([&] {
-        return std::make_unique<FrameRenderer>(
+        auto made = std::make_unique<FrameRenderer>(
             device_, context_.pipelines, context_.world, shown, quality, false, std::move(prepared));
+        made->repeatable(
+            session_.options.machines.has_value()); // all machines' pictures are alike, whatever each drew before
+        return made;
     });
 }
 

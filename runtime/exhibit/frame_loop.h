@@ -1,5 +1,7 @@
 #pragma once
 #include "hud_updater.h"
+#include "instant_pictures.h"
+#include "master.h"
 #include "placards.h"
 #include "presenter_window.h"
 #include "remote_control.h"
@@ -42,7 +44,7 @@ private:
     /// Null where a viewport is too narrow for a small picture. Throws NoRoom.
     std::unique_ptr<WarmUp> warm_up_in(const Quality& quality);
     /// Another world, layout or quality: the warm-up at rest and the placards begin anew.
-    void forget_drawn() { at_rest_.reset(), rested_ = false, placards_.forget(); }
+    void forget_drawn() { at_rest_.reset(), rested_ = false, placards_.forget(), pictures_.forget(); }
     void fit(std::size_t output);
     void watch_sizes(const std::vector<Target>& targets);
     /// Waits for the frame's turn and for the device. Returns the luminance of the frame before, if it was metered.
@@ -75,8 +77,12 @@ private:
     void carry_out(const Command& command, Controls& controls);
     /// Applies a builder's change by keyboard, or undoes it if it can't be drawn.
     void apply_alignment(const Controls& controls);
-    /// Sets the frame renderer up for the session's present state and returns the shot.
-    Shot set_up_frame(const Controls& controls);
+    /// Gives the outputs their windows' sizes.
+    void fit_outputs();
+    /// The session's present state as its pictures depend on it.
+    Instant next_instant(const Head& head);
+    /// The same for the other machines.
+    SharedInstant shared(const Instant& now) const;
     /// These two enclose FrameRenderer::draw with the timer and the layout transitions of the windows' images. The commands
     /// are in two buffers, of which only the second waits for the screens.
     void begin_commands();
@@ -101,6 +107,8 @@ private:
     std::size_t most_pipelines_; ///< that are kept
     HudUpdater hud_;
     Placards placards_;
+    InstantPictures pictures_;
+    std::unique_ptr<Master> master_; ///< null: this machine shows all
     FramePace pace_;
     vk::raii::Fence done_;
     LiveCopy live_;

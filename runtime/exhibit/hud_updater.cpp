@@ -7,7 +7,7 @@ namespace starbow {
 /// True while the choices of one-button flying are shown in turn.
 static bool scans(const Session& session) { return by_one_button(session) && visitor_flies(session); }
 
-const Panel* HudUpdater::update(const Session& session, const SceneFile& scene, double exposure_ev, int width)
+std::optional<Written> HudUpdater::update(const Session& session, const SceneFile& scene, double exposure_ev)
 {
     const Clock::time_point now = Clock::now();
     const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
@@ -16,14 +16,14 @@ const Panel* HudUpdater::update(const Session& session, const SceneFile& scene, 
         rate_ = frames_ / passed;
         frames_ = 0, since_ = now;
     }
-    if (panel_.size.x != width || seconds(now - drawn_) > 0.1) {
-        panel_ = typesetter.draw(readings_of(session, scene, exposure_ev), session.words, width);
-        drawn_ = now;
+    if (seconds(now - written_at_) > 0.1) {
+        written_ = {written_.number + 1, readings_of(session, scene, exposure_ev)};
+        written_at_ = now;
     }
     const bool covers_pattern
         = session.alignment.pattern() != Pattern::none && session.alignment.says().empty() && !shows_pins(session);
     const bool asks = seconds_left(session.visit, session.visiting).has_value() || session.menu.open || scans(session);
-    return (session.flight.hud || asks) && !covers_pattern ? &panel_ : nullptr;
+    return (session.flight.hud || asks) && !covers_pattern ? std::optional(written_) : std::nullopt;
 }
 
 /// Says a sentence in the place of a caption; below the choices of one button, which go on.

@@ -92,31 +92,28 @@ void Lab::keep(const std::function<void(std::string)>& say)
     }
 }
 
-void Lab::request(
-    FrameRenderer& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter)
+std::optional<Instruments> Lab::request(
+    const ViewSet& views, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter)
 {
-    if (!on()) {
-        frame.measure({});
-        return;
-    }
+    if (!on())
+        return {};
     ship_ = flight.ship, effects_ = flight.effects;
     const auto now = std::chrono::steady_clock::now();
     // The same rate as the display's figures keeps them readable.
     const bool again = now - drawn_ > std::chrono::milliseconds(100);
     if (again)
         scale_ = overlay_scale(world.world, shot.position, world.scene.seconds_per_time_unit()), drawn_ = now;
-    Measuring what{
-        .probes = {{glm::dvec3(0, 0, -1)}}, .over = {overlay_ == Overlay::off ? Overlay::aim : overlay_, marks_, scale_}};
+    Instruments what{overlay_ == Overlay::off ? Overlay::aim : overlay_, marks_, scale_};
     if (measured_ && flight.hud) {
         const double aspect = plot_ == Plot::none ? lab_aspect(overlay_, why_) : plot_aspect;
-        const int width = frame.views().lab_panel_width(aspect);
+        const int width = views.lab_panel_width(aspect);
         if (again || panel_.size != glm::ivec2(width, int(width * aspect)))
             panel_ = draw_panel(typesetter, width);
         what.panel = &panel_;
         if (plot_ == Plot::none)
-            what.scale = scale_place(overlay_, why_);
+            what.scale_place = scale_place(overlay_, why_);
     }
-    frame.measure(what);
+    return what;
 }
 
 Panel Lab::draw_panel(const Typesetter& typesetter, int width) const

@@ -3,6 +3,7 @@
 #include "runtime/hud/lab_log.h"
 #include "runtime/hud/lab_panel.h"
 #include "runtime/hud/lab_plot.h"
+#include "runtime/machines/instant.h"
 #include "runtime/render/frame_renderer.h"
 #include <chrono>
 
@@ -19,9 +20,9 @@ public:
     /// for the display.
     void read(const FrameRenderer& frame, const LabSwitches& pressed, const GpuWorld& world, double dt_s,
         const std::function<void(std::string)>& say);
-    /// Requests the next frame's overlay, panel and probes.
-    void request(
-        FrameRenderer& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter);
+    /// The next frame's overlay, panel and probes; none: no instrument is on. The panel lasts until the next call.
+    std::optional<Instruments> request(
+        const ViewSet& views, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter);
 
     /// True where an instrument, a page or a mark is on.
     bool shows_anything() const { return on() || marks_[0] || marks_[1]; }

@@ -15,16 +15,17 @@ using Stage = vk::PipelineStageFlagBits2;
 bool same_window(const Output& a, const Output& b)
 {
     auto identity = [](const Output& o) {
-        return std::tuple(o.name, o.size, o.resizable, o.preview, o.monitor.connector, o.monitor.model, o.monitor.serial,
-            o.monitor.position, o.whole_monitor, o.place);
+        return std::tuple(o.name, o.node, o.size, o.resizable, o.preview, o.monitor.connector, o.monitor.model,
+            o.monitor.serial, o.monitor.position, o.whole_monitor, o.place);
     };
     return identity(a) == identity(b);
 }
 
 } // namespace
 
-Screens::Screens(Device& device, const Layout& layout)
+Screens::Screens(Device& device, const Layout& layout, std::string node)
     : device_(device)
+    , node_(std::move(node))
 {
     for (const Output& output : layout.outputs)
         screens_.push_back({output});
@@ -65,11 +66,13 @@ void Screens::settle_on_monitors(bool starting)
     std::vector<MonitorChoice> choices;
     for (Screen& screen : screens_) {
         choices.push_back(choose_monitor(screen.output.monitor, monitors));
-        if (has_place(screen.output) && !choices.back().monitor)
+        if (is_here(screen) && has_place(screen.output) && !choices.back().monitor)
             close(screen, choices.back().problem);
     }
     for (std::size_t i = 0; i < screens_.size(); ++i) {
         Screen& screen = screens_[i];
+        if (!is_here(screen))
+            continue;
         std::optional<WindowPlace> place;
         if (has_place(screen.output)) {
             if (!choices[i].monitor)

@@ -9,8 +9,9 @@ namespace starbow {
 /// until the monitor appears; no picture ever goes to another screen. Windows that open and close are logged.
 class Screens {
 public:
-    /// Throws InputError where a window can't be opened; a missing monitor is only logged.
-    Screens(Device& device, const Layout& layout);
+    /// node: whose outputs have windows here; empty: all have. Throws InputError where a window can't be opened; a missing
+    /// monitor is only logged.
+    Screens(Device& device, const Layout& layout, std::string node = "");
 
     /// Applies a changed layout. A window stays open if its output keeps its name, size and place.
     void adopt(const Layout& layout);
@@ -64,7 +65,10 @@ private:
     void list_handles();
     void time_on_screen(Skew& skew);
 
+    bool is_here(const Screen& screen) const { return node_.empty() || screen.output.node == node_; }
+
     Device& device_;
+    std::string node_;
     Desktop desktop_;
     std::vector<Screen> screens_;
     std::vector<GLFWwindow*> handles_;

@@ -285,6 +285,8 @@ std::string notice_of(const Session& session)
         return session.refused;
     if (const std::string trouble = session.hid.trouble(); !trouble.empty())
         return trouble;
+    if (!session.missing.empty())
+        return "not in step: " + session.missing;
     if (session.tracker && !session.tracker->heard(Session::Clock::now()))
         return "no head tracker is heard on port " + std::to_string(session.tracker->tracking().port);
     if (session.governor)

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -29,6 +30,38 @@ bool is_frame(const fs::path& file)
     const std::string name = file.filename().string();
     return name.ends_with(".png") && name.size() > 11 && name[name.size() - 11] == '-'
         && name.find_first_not_of("0123456789", name.size() - 10) == name.size() - 4;
+}
+
+/// True where a folder's contents are not ours to touch: it has no sources, nor is it new.
+bool is_foreign(const fs::path& folder)
+{
+    std::error_code error;
+    if (!fs::is_directory(folder, error))
+        return true;
+    bool sources = false, others = false;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename().string();
+        sources = sources || name == sources_name;
+        others = others || !name.starts_with(sources_name); // another program may be writing them just now
+    }
+    return others && !sources;
+}
+
+/// Names the first member in which two lines of sources differ.
+[[noreturn]] void refuse_sources(const fs::path& folder, const std::string& there, const std::string& here)
+{
+    using nlohmann::json;
+    const json theirs = json::parse(there, nullptr, false), ours = json::parse(here, nullptr, false);
+    std::string how = "other sources";
+    for (const auto& [name, value] : ours.items())
+        if (!theirs.is_object() || theirs.value(name, json()) != value) {
+            how = "another \"" + name + "\": " + (theirs.is_object() ? theirs.value(name, json()).dump() : "none")
+                + " there, " + value.dump() + " here";
+            break;
+        }
+    throw InputError(folder.string(), "",
+        "its frames have " + one_line(how)
+            + "; the same files, options, program and kind of GPU for all parts, or another name for the movie, is right");
 }
 
 struct Ended {
@@ -102,20 +135,36 @@ std::string how(const Ended& ended)
 
 } // namespace
 
-MovieFrames::MovieFrames(
-    const fs::path& movie, const std::string& made_from, const std::function<void(const std::string&)>& say)
-    : folder_(fs::absolute(movie).lexically_normal())
+fs::path MovieFrames::folder_of(const fs::path& movie)
 {
-    folder_ += ".frames";
+    fs::path folder = fs::absolute(movie).lexically_normal();
+    folder += ".frames";
+    return folder;
+}
+
+std::string MovieFrames::made_from(const fs::path& folder)
+{
     std::error_code error;
-    const fs::path sources = folder_ / sources_name;
+    const fs::path sources = folder / sources_name;
+    return fs::is_regular_file(sources, error) ? text_of(sources) : "";
+}
+
+MovieFrames::MovieFrames(
+    const fs::path& movie, const std::string& made_from, bool shared, const std::function<void(const std::string&)>& say)
+    : folder_(folder_of(movie))
+    , made_from_(made_from)
+{
+    std::error_code error;
     if (fs::exists(folder_, error)) {
-        if (!fs::is_regular_file(sources, error) && (!fs::is_directory(folder_, error) || !fs::is_empty(folder_, error)))
+        if (is_foreign(folder_))
             throw InputError(folder_.string(), "",
                 "is there and holds no frames of a movie; another name for the movie, or another place for that, is right");
-        if (text_of(sources) == made_from)
+        const std::string before = this->made_from(folder_);
+        if (before == made_from)
             return;
-        if (fs::exists(sources, error)) {
+        if (!before.empty() && shared)
+            refuse_sources(folder_, before, made_from);
+        if (!before.empty()) {
             say(one_line(folder_.string())
                 + ": what these frames were made from has changed, or how; the movie begins anew");
             remove();
@@ -125,7 +174,29 @@ MovieFrames::MovieFrames(
     if (error)
         throw InputError(
             folder_.string(), "", "can't be made (" + error.message() + "); a place that can be written to is right");
-    write_whole(sources, made_from);
+    write_whole(folder_ / sources_name, made_from);
+}
+
+void MovieFrames::add(const fs::path& folder) const
+{
+    const std::string sources = made_from(folder);
+    if (sources.empty())
+        throw InputError(folder.string(), "",
+            "holds no frames of a movie; the folder that a part was drawn into, such as out/tour.mp4.frames, is right");
+    if (sources != made_from_)
+        refuse_sources(folder, sources, made_from_);
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const fs::path to = folder_ / entry.path().filename();
+        if (!is_frame(entry.path()) || fs::exists(to, error))
+            continue;
+        fs::path half = to;
+        half += ".part";
+        if (fs::copy_file(entry.path(), half, fs::copy_options::overwrite_existing, error))
+            fs::rename(half, to, error);
+        if (error)
+            throw InputError(to.string(), "", "can't be written (" + error.message() + "); room for all frames is right");
+    }
 }
 
 fs::path MovieFrames::file(const std::string& output, long frame) const

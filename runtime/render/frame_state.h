@@ -1,20 +1,14 @@
 #pragma once
 #include "config/model/flying.h"
 #include "config/model/layout.h"
+#include "config/model/pattern.h"
 #include "config/model/quality.h"
 #include "config/model/shot.h"
 #include "runtime/light/range_curve.h"
-#include <array>
 #include <cmath>
 #include <optional>
 
 namespace starbow {
-
-/// Test patterns for the alignment of the outputs; none: the outputs show the flight.
-enum class Pattern { none, grid, rings, names, wedges, overlap };
-constexpr std::array<const char*, 6> pattern_names = {"none", "grid", "rings", "names", "wedges", "overlap"};
-/// Throws InputError for an unknown name.
-Pattern pattern_named(const std::string& name);
 
 /// The plain data that all parts of a frame read. FrameRenderer alone writes it.
 struct FrameState {

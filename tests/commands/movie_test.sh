@@ -72,6 +72,27 @@ make --language de >"$folder/said" 2>"$folder/errors" || fail "a changed tour: $
 ok grep -q 'has changed, or how; the movie begins anew$' "$folder/errors"
 ok [ "$(grep -c 'already' "$folder/said")" = 0 ]
 
+# Parts make the same movie byte for byte, whether programs draw them at once into one folder or each into its own.
+tour 1 "A short one"
+fps=15 size=64x48
+film() { # MOVIE OPTIONS...
+    "$program" render --tour "$folder/tour.json" --fps $fps --size $size --movie "$folder/$1.mp4" "${@:2}"
+}
+film whole >/dev/null 2>&1 || fail "the whole movie"
+for i in 1 2 3; do film parts --part $i/3 >"$folder/said-$i" 2>&1 & done
+wait
+ok grep -q 'part 2 of 3: 10 of 30 frames are in .*; once all parts are drawn, the same command with --join instead of --part makes the movie' "$folder/said-2"
+ok [ ! -e "$folder/parts.mp4" ]
+film parts --join >"$folder/said" 2>"$folder/errors" || fail "joining: $(cat "$folder/errors")"
+ok cmp "$folder/whole.mp4" "$folder/parts.mp4"
+ok [ ! -e "$folder/parts.mp4.frames" ]
+film first --part 1/2 >/dev/null 2>&1 || fail "a part"
+film second --part 2/2 >/dev/null 2>&1 || fail "a part"
+film first --join >/dev/null 2>"$folder/errors" && fail "half a movie is joined"
+ok grep -q '15 of 30 frames are missing, frame 1 the first of them' "$folder/errors"
+film first --join --others "$folder/second.mp4.frames" >/dev/null || fail "joining two folders"
+ok cmp "$folder/whole.mp4" "$folder/first.mp4"
+
 # refused TEXT COMMAND...: exit 2, one line, and nothing drawn.
 refused() { # TEXT STATUS COMMAND...
     local text=$1 said
@@ -79,6 +100,18 @@ refused() { # TEXT STATUS COMMAND...
     said=$("$@" 2>&1 >/dev/null)
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]]; then passed=$((passed + 1)); else fail "'$text' is not the message: $said"; fi
 }
+# A part of something else is refused, and the frames stay.
+film mixed --part 1/2 >/dev/null 2>&1 || fail "a part"
+size=32x32
+refused 'its frames have another "sizes": ["64x48"] there, ["32x32"] here' film mixed --part 2/2
+refused 'its frames have another "sizes"' film mixed --join
+film small --part 1/2 >/dev/null 2>&1 || fail "a part"
+refused 'its frames have another "sizes": ["64x48"] there, ["32x32"] here' film small --join --others "$folder/mixed.mp4.frames"
+size=64x48
+ok [ "$(ls "$folder/mixed.mp4.frames" | grep -c 'png$')" = 15 ]
+refused 'holds no frames of a movie' film mixed --join --others "$folder"
+for part in 0/2 3/2 2 1/ a/b 1/2x; do refused "--part $part is no part" film mixed --part $part; done
+refused '--join' film mixed --part 1/2 --join
 mkdir "$folder/empty"
 refused "ffmpeg, which makes movies of pictures, can't be started (No such file or directory)" env PATH="$folder/empty" "$program" render --tour "$folder/tour.json" --movie "$folder/none.mp4"
 ok [ ! -e "$folder/none.mp4.frames" ]

@@ -6,6 +6,8 @@
 #include "runtime/images/capture.h"
 #include "runtime/operation/record_files.h"
 #include "runtime/world/open_scene.h"
+#include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <unistd.h>
 #include <utility>
@@ -41,6 +43,13 @@ std::string line_of(nlohmann::ordered_json json, const FilmOptions& options, con
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
+/// The device that a movie's frames were drawn on; empty where there are none.
+std::string kept_device(const std::string& movie)
+{
+    const auto kept = nlohmann::json::parse(MovieFrames::made_from(MovieFrames::folder_of(movie)), nullptr, false);
+    return kept.is_object() ? kept.value("device", "") : "";
+}
+
 void print_line(const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }
 
 } // namespace
@@ -54,22 +63,41 @@ void check_film(const FilmOptions& options, const Layout& layout)
     check_ffmpeg();
 }
 
+FilmPart film_part(const std::string& text)
+{
+    FilmPart part;
+    const char* end = text.data() + text.size();
+    const auto number = std::from_chars(text.data(), end, part.number);
+    if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
+        const auto count = std::from_chars(number.ptr + 1, end, part.count);
+        if (count.ec == std::errc() && count.ptr == end && part.number >= 1 && part.number <= part.count
+            && part.count <= 100'000)
+            return part;
+    }
+    throw InputError("--part " + text + " is no part; its number and the number of all parts, such as 2/8, are right");
+}
+
 Filming::Filming(const FilmOptions& options, const Layout& layout, const fs::path& scene, const Words& words, long frames,
     const std::string& device, nlohmann::ordered_json made_from)
     : options_(options)
     , layout_(layout)
     , frames_(frames)
-    , kept_(options.movie, line_of(std::move(made_from), options, layout, scene, words, frames, device), print_line)
+    , kept_(options.movie,
+          line_of(std::move(made_from), options, layout, scene, words, frames,
+              options.joins ? kept_device(options.movie) : device),
+          options.joins || !options.part.whole(), print_line)
 {
     catch_interrupts();
 }
 
+bool Filming::is_there(long frame) const
+{
+    return std::ranges::all_of(layout_.outputs, [&](const Output& output) { return kept_.has(output.name, frame); });
+}
+
 bool Filming::take(const std::function<Pictures()>& draw)
 {
-    bool there = true;
-    for (const Output& output : layout_.outputs)
-        there = there && kept_.has(output.name, next_);
-    if (!there) {
+    if (options_.part.has(next_) && !is_there(next_)) {
         progress_->show(
             "frame " + std::to_string(next_) + " of " + std::to_string(frames_), double(next_) / double(frames_));
         if (interrupted())
@@ -79,6 +107,7 @@ bool Filming::take(const std::function<Pictures()>& draw)
             write_png(kept_.file(layout_.outputs[k].name, next_), layout_.outputs[k].size, pictures[k]);
         ++drawn_;
     }
+    taken_ += options_.part.has(next_);
     ++next_;
     return true;
 }
@@ -87,7 +116,8 @@ bool Filming::take(const std::function<Pictures()>& draw)
 int Filming::report_interruption()
 {
     std::fprintf(stderr, "%sstarbow: %s: interrupted with %ld of %ld frames drawn; the same command goes on from there\n",
-        isatty(STDERR_FILENO) ? "\n" : "", one_line(options_.movie).c_str(), next_, frames_);
+        isatty(STDERR_FILENO) ? "\n" : "", one_line(options_.movie).c_str(), taken_,
+        (frames_ - options_.part.number) / options_.part.count + 1);
     return 130;
 }
 
@@ -96,8 +126,39 @@ int Filming::finish()
     progress_.reset();
     if (next_ < frames_)
         return report_interruption();
-    if (drawn_ > 0 && drawn_ < frames_)
-        std::printf("%ld frames were there already, %ld more drawn\n", frames_ - drawn_, drawn_);
+    const FilmPart& part = options_.part;
+    if (drawn_ > 0 && drawn_ < taken_)
+        std::printf("%ld frames were there already, %ld more drawn\n", taken_ - drawn_, drawn_);
+    if (part.whole())
+        return make_movies();
+    std::printf(
+        "part %ld of %ld: %ld of %ld frames are in %s; once all parts are drawn, the same command with --join instead "
+        "of --part makes the movie\n",
+        part.number, part.count, taken_, frames_, one_line(kept_.folder().string()).c_str());
+    return 0;
+}
+
+int Filming::join()
+{
+    progress_.reset();
+    for (const std::string& folder : options_.others)
+        kept_.add(folder);
+    long missing = 0, first = -1;
+    for (long frame = 0; frame < frames_; ++frame)
+        if (!is_there(frame)) {
+            first = missing == 0 ? frame : first;
+            ++missing;
+        }
+    if (missing > 0)
+        throw InputError(kept_.folder().string(), "",
+            std::to_string(missing) + " of " + std::to_string(frames_) + " frames are missing, frame "
+                + std::to_string(first)
+                + " the first of them; all parts drawn, and --join with the folders of those on other disks, is right");
+    return make_movies();
+}
+
+int Filming::make_movies()
+{
     for (const Output& output : layout_.outputs) {
         const fs::path file = movie_of(options_.movie, layout_, output.name);
         Progress progress;

@@ -25,11 +25,12 @@ namespace {
 struct RenderOptions {
     std::string layout, shot, out, size, pattern = "none", exposure = "shot", mode = "eye", spectra = "needed", replay,
                                          frames, language = "en", information = "laboratory", tour, movie, points,
-                                         overlay = "off", why = "none", quality;
+                                         overlay = "off", why = "none", quality, part;
+    std::vector<std::string> others;
     long frames_per_s = 30;
     long every = 1, samples = 16;
     double bloom = 0;
-    bool exr = false, hud = false, reference = false;
+    bool exr = false, hud = false, reference = false, join = false;
 };
 
 int render(const RenderOptions& options)
@@ -38,12 +39,13 @@ int render(const RenderOptions& options)
         throw InputError("--movie is given without --tour and --replay; one of them is right");
     if (options.tour.empty() && options.movie.empty() && options.out.empty())
         throw InputError("--out is required here; the folder for the pictures, such as out/shot, is right");
+    const FilmOptions film{options.movie, options.frames_per_s, options.part.empty() ? FilmPart{} : film_part(options.part),
+        options.join, options.others};
     if (!options.replay.empty())
         return render_replay({options.replay, options.layout, options.out, options.size, options.frames, options.language,
-            {options.movie, options.frames_per_s}, options.every, options.hud, information_named(options.information)});
+            film, options.every, options.hud, information_named(options.information)});
     if (!options.tour.empty())
-        return render_tour({options.tour, options.layout, options.size, options.language,
-            {options.movie, options.frames_per_s}, options.bloom});
+        return render_tour({options.tour, options.layout, options.size, options.language, film, options.bloom});
     if (options.shot.empty())
         throw InputError("None of --shot, --replay and --tour is given; one of them is right");
     if (options.reference && options.exposure != "shot")
@@ -142,10 +144,11 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
                                 "As an eye sees it (eye), or by one curve that shows everything at once (range)")
                             ->check(CLI::IsMember({"eye", "range"}))
                             ->capture_default_str();
-    CLI::Option* bloom
-        = command->add_option("--bloom", options->bloom, "The share of the light brighter than the screen's white that glows around it, 0 to 1")
-              ->check(CLI::Range(0.0, 1.0))
-              ->capture_default_str();
+    CLI::Option* bloom = command
+                             ->add_option("--bloom", options->bloom,
+                                 "The share of the light brighter than the screen's white that glows around it, 0 to 1")
+                             ->check(CLI::Range(0.0, 1.0))
+                             ->capture_default_str();
     CLI::Option* spectra = add_spectra(*command, options->spectra);
     CLI::Option* quality = command->add_option("--quality", options->quality, quality_help + std::string(" [fine]"));
     CLI::Option* points = command->add_option("--measure", options->points, measure_help);
@@ -188,6 +191,19 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         ->check(whole_number(1, 240))
         ->capture_default_str()
         ->needs(movie);
+    CLI::Option* part
+        = command
+              ->add_option("--part", options->part,
+                  "With --movie: draw only the I-th of N parts, as I/N, so that several machines or programs share the "
+                  "work; no movie is made")
+              ->needs(movie);
+    CLI::Option* join = command
+                            ->add_flag("--join", options->join,
+                                "With --movie: make the movie of parts that are all drawn, without a device")
+                            ->needs(movie)
+                            ->excludes(part);
+    command->add_option("--others", options->others, "With --join: folders of frames from other machines' disks")
+        ->needs(join);
     tour->needs(movie);
     for (CLI::Option* other : {shot, out, exr, pattern, replay, points, overlay, why, mode})
         tour->excludes(other);
@@ -207,6 +223,8 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         "  starbow render --replay flight.jsonl --out out/flight --frames 0:599\n"
         "  starbow render --replay flight.jsonl --movie out/flight.mp4 --hud\n"
         "  starbow render --tour first-minute --movie out/first-minute.mp4 --fps 30 --size 1280x720 --language de\n"
+        "  starbow render --tour voyage --movie out/voyage.mp4 --part 3/8\n"
+        "  starbow render --tour voyage --movie out/voyage.mp4 --join\n"
         "  starbow render --shot clocks-passing --out out/clocks --measure \"400,300; 12deg,0deg\" --overlay ring");
     command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
 }

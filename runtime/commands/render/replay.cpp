@@ -68,7 +68,6 @@ public:
         return replay_renderer_.picture(flight, start_.scene, panel ? &*panel : nullptr);
     }
     std::string device() const { return context_.device.name(); }
-    const Words& words() const { return words_; }
     bool complains() const { return !context_.device.complaints.empty(); }
 
 private:
@@ -97,10 +96,16 @@ int film_replay(const ReplayOptions& options, Replay& replay, const Flown& from)
     check_film(options.film, from.layout);
     const auto rate = double(options.film.frames_per_s);
     const long frames = std::max(1L, long(length_s(options.replay) * rate));
+    const Words words = words_in(options.language);
+    const auto film_on = [&](const std::string& device) {
+        return Filming(options.film, from.layout, from.scene, words, frames, device,
+            {{"record", shown_digest(digest_of({options.replay}))}, {"hud", options.hud},
+                {"information", name_of(options.information)}});
+    };
+    if (options.film.joins)
+        return film_on("").join();
     Projector projector(options, replay.header(), from);
-    Filming film(options.film, from.layout, from.scene, projector.words(), frames, projector.device(),
-        {{"record", shown_digest(digest_of({options.replay}))}, {"hud", options.hud},
-            {"information", name_of(options.information)}});
+    Filming film = film_on(projector.device());
     std::int64_t until_ns = 0;
     long number = 0;
     fly_again(replay, [&](const RecordEntry& entry, const Flight& flight) {

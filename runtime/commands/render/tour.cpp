@@ -3,6 +3,7 @@
 #include "config/model/shipped.h"
 #include "runtime/commands/options/size.h"
 #include "runtime/exhibit/tour_renderer.h"
+#include "runtime/flight/record.h"
 #include "runtime/flight/tour_film.h"
 #include "runtime/render/render_context.h"
 #include "runtime/world/open_scene.h"
@@ -49,10 +50,16 @@ int render_tour(const TourOptions& options)
     check_film(options.film, layout);
     const Show show{tour, {}, open_scene(scene).seconds_per_time_unit(), false};
     TourFilm states(show, options.film.frames_per_s);
+    const auto film_on = [&](const std::string& device) {
+        return Filming(options.film, layout, scene, words, states.frames(), device,
+            {{"tour", tour.file.stem().string()},
+                {"states", shown_digest(digest_of_frames(show, options.film.frames_per_s, words))},
+                {"bloom", options.bloom}});
+    };
+    if (options.film.joins)
+        return film_on("").join();
     RenderContext context(scene, device_options(false));
-    Filming film(options.film, layout, scene, words, states.frames(), context.device.name(),
-        {{"tour", tour.file.stem().string()},
-            {"states", shown_digest(digest_of_frames(show, options.film.frames_per_s, words))}, {"bloom", options.bloom}});
+    Filming film = film_on(context.device.name());
 
     OffscreenRenderer renderer(
         context.device, context.pipelines, context.world, layout, default_quality(context.device, true), false);

@@ -1,0 +1,90 @@
+#include "instant_pictures.h"
+#include "config/json/reader.h"
+#include "config/model/angles.h"
+#include "runtime/hud/signs.h"
+#include "runtime/operation/log.h"
+#include <cmath>
+
+namespace starbow {
+
+/// Half the extent of a panel on the plane z = 1.
+static glm::dvec2 half_of(const Panel& panel, double degree_px)
+{
+    return 0.5 * glm::dvec2(panel.size) * (std::tan(degree) / degree_px);
+}
+
+const Panel* InstantPictures::set_up(const Instant& now, const Words& words, FrameRenderer& frame)
+{
+    frame.move_head(now.head);
+    frame.meter(now.meters);
+    frame.range(now.range);
+    frame.bloom(now.bloom);
+    frame.fade(now.black);
+    frame.vignette(now.vignette, now.vignette_part);
+    frame.show(now.pattern);
+    std::optional<Measuring> what;
+    if (const std::optional<Instruments>& on = now.instruments)
+        what = {.probes = {{glm::dvec3(0, 0, -1)}},
+            .over = {on->overlay, on->marks, on->scale},
+            .panel = on->panel,
+            .scale = on->scale_place};
+    frame.measure(what);
+    place(now, frame);
+    return now.hud ? panel_of(*now.hud, words, frame.views().hud_width()) : nullptr;
+}
+
+const Panel* InstantPictures::panel_of(const Written& hud, const Words& words, int width)
+{
+    if (hud.number != drawn_ || panel_.size.x != width) {
+        panel_ = typesetter.draw(hud.readings, words, width);
+        drawn_ = hud.number;
+    }
+    return &panel_;
+}
+
+void InstantPictures::place(const Instant& now, FrameRenderer& frame)
+{
+    const ViewSet& views = frame.views();
+    const double degree_px = views.hud_width() * std::tan(degree) / (2 * views.hud_place.half.x);
+    placards_.clear();
+    if (now.sign) {
+        if (now.sign->lines != sign_lines_ || sign_panel_.size.x == 0) {
+            sign_lines_ = now.sign->lines;
+            sign_panel_ = draw_sign(typesetter, sign_lines_, degree_px);
+        }
+        placards_.push_back(
+            {.letters = &sign_panel_, .place = views.place_above(now.sign->towards, half_of(sign_panel_, degree_px))});
+    }
+    if (!now.small_picture)
+        no_room_ = false;
+    if (!now.small_picture || now.pattern != Pattern::none)
+        frame.drop_inset();
+    else if (!no_room_)
+        add_small_picture(*now.small_picture, now.shot, frame, degree_px);
+    frame.place(placards_);
+}
+
+void InstantPictures::add_small_picture(
+    const SmallPicture& picture, const Shot& shot, FrameRenderer& frame, double degree_px)
+{
+    const ViewSet& views = frame.views();
+    const double half_x = 0.42 * views.hud_place.half.x;
+    const glm::dvec2 half(half_x, half_x * Inset::aspect);
+    try {
+        const int width = std::clamp(int(2 * half.x / std::tan(degree) * degree_px), 64, 1024);
+        frame.show_inset(beside(shot, picture.kind, picture.start_ev), width, picture.fov_deg);
+    } catch (const InputError& error) {
+        no_room_ = true;
+        write_log(LogKind::inset_no_room, one_line(error.what()) + "; the small picture is left out");
+        return;
+    }
+    if (picture.name != name_ || name_panel_.size.x == 0) {
+        name_ = picture.name;
+        name_panel_ = draw_name(typesetter, name_, degree_px);
+    }
+    const glm::dvec2 name_half = half_of(name_panel_, degree_px);
+    placards_.push_back({.picture = &frame.inset_picture(), .place = views.place_beside_hud(half, 0)});
+    placards_.push_back({.letters = &name_panel_, .place = views.place_beside_hud(name_half, 2 * half.y)});
+}
+
+} // namespace starbow

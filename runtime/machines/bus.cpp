@@ -1,0 +1,200 @@
+#include "bus.h"
+#include "config/json/error.h"
+#include "interface.h"
+#include <dds/dds.h>
+#include <machines.h>
+
+namespace starbow {
+namespace {
+
+/// The settings of the engine: this interface alone, whatever the environment says. Loopback has no multicast; the nodes on
+/// it are found by asking the first ports of the domain.
+std::string settings_of(const NetworkInterface& interface)
+{
+    const bool finds_by_asking = interface.loopback || !interface.multicast;
+    return "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"" + interface.name
+        + "\"/></Interfaces><AllowMulticast>" + (finds_by_asking ? "false" : "true")
+        + "</AllowMulticast></General><Discovery>"
+        + (finds_by_asking ? "<Peers><Peer address=\"" + interface.address
+                    + "\"/></Peers><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>80</"
+                      "MaxAutoParticipantIndex>"
+                           : std::string())
+        + "</Discovery></Domain></CycloneDDS>";
+}
+
+dds_entity_t made(dds_entity_t entity, const char* what)
+{
+    if (entity < 0)
+        throw InputError(std::string("The network of the exhibit's machines can't be opened: ") + what + ": "
+            + dds_strretcode(-entity) + "; a free domain and an interface that is up are right");
+    return entity;
+}
+
+enum class Keeps { nothing, last };
+
+/// Reliable; of each node the last `depth` samples count. keeps: for those that join late.
+std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)> qos(Keeps keeps, int depth)
+{
+    std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)> made(dds_create_qos(), dds_delete_qos);
+    dds_qset_reliability(made.get(), DDS_RELIABILITY_RELIABLE, DDS_MSECS(2));
+    dds_qset_history(made.get(), DDS_HISTORY_KEEP_LAST, depth);
+    dds_qset_durability(made.get(), keeps == Keeps::last ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+    return made;
+}
+
+struct Topic {
+    dds_entity_t writer = 0, reader = 0;
+
+    Topic(dds_entity_t participant, const dds_topic_descriptor_t& type, const char* name, Keeps keeps, int depth)
+    {
+        const auto rules = qos(keeps, depth);
+        const dds_entity_t topic = made(dds_create_topic(participant, &type, name, rules.get(), nullptr), name);
+        writer = made(dds_create_writer(participant, topic, rules.get(), nullptr), name);
+        reader = made(dds_create_reader(participant, topic, rules.get(), nullptr), name);
+    }
+
+    /// A message that can't be sent now is followed by the next one.
+    template <class Sample> void write(const Sample& sample) const { dds_write(writer, &sample); }
+
+    /// Takes all samples that have come.
+    template <class Sample, class Use> void take(const Use& use) const
+    {
+        constexpr int most = 32;
+        for (int count = most; count == most;) {
+            void* samples[most] = {};
+            dds_sample_info_t infos[most];
+            count = dds_take(reader, samples, infos, most, most);
+            for (int i = 0; i < count; ++i)
+                if (infos[i].valid_data)
+                    use(*static_cast<const Sample*>(samples[i]));
+            if (count > 0)
+                dds_return_loan(reader, samples, count);
+        }
+    }
+};
+
+std::string text(const char* from) { return from ? from : ""; }
+
+/// The address of a string that a sample only reads.
+char* lent(const std::string& from) { return const_cast<char*>(from.c_str()); }
+
+} // namespace
+
+struct Bus::Topics {
+    dds_entity_t domain, participant;
+    Topic state, ready, go, config;
+    dds_entity_t arrivals;
+
+    Topics(const NetworkInterface& interface, int number)
+        : domain(made(dds_create_domain(dds_domainid_t(number), settings_of(interface).c_str()), "the domain"))
+        , participant(made(dds_create_participant(dds_domainid_t(number), nullptr, nullptr), "the participant"))
+        , state(participant, starbow_machines_State_desc, "starbow_state", Keeps::last, 1)
+        , ready(participant, starbow_machines_Ready_desc, "starbow_ready", Keeps::nothing, 4)
+        , go(participant, starbow_machines_Go_desc, "starbow_go", Keeps::nothing, 1)
+        , config(participant, starbow_machines_Config_desc, "starbow_config", Keeps::last, 1)
+        , arrivals(made(dds_create_waitset(participant), "the wait"))
+    {
+        for (const Topic* topic : {&state, &ready, &go, &config}) {
+            const dds_entity_t condition = made(dds_create_readcondition(topic->reader, DDS_ANY_STATE), "the wait");
+            dds_waitset_attach(arrivals, condition, 0);
+        }
+    }
+    ~Topics() { dds_delete(domain); } // and all in it
+    Topics(const Topics&) = delete;
+    Topics& operator=(const Topics&) = delete;
+};
+
+Bus::Bus(const std::string& interface, int domain)
+    : topics_(std::make_unique<Topics>(interface_of(interface), domain))
+{
+}
+
+Bus::~Bus() = default;
+
+void Bus::send(const StateMessage& state)
+{
+    starbow_machines_State sample{};
+    sample.frame = state.frame;
+    sample.instant._buffer = const_cast<std::uint8_t*>(state.instant.data());
+    sample.instant._length = sample.instant._maximum = std::uint32_t(state.instant.size());
+    topics_->state.write(sample);
+}
+
+void Bus::send(const ReadyMessage& ready)
+{
+    topics_->ready.write(starbow_machines_Ready{lent(ready.node), ready.frame, ready.digest, ready.frame_ms});
+}
+
+void Bus::send(const GoMessage& go)
+{
+    std::vector<char*> members;
+    for (const std::string& member : go.members)
+        members.push_back(lent(member));
+    starbow_machines_Go sample{};
+    sample.frame = go.frame;
+    sample.members._buffer = members.data();
+    sample.members._length = sample.members._maximum = std::uint32_t(members.size());
+    topics_->go.write(sample);
+}
+
+void Bus::send(const ConfigMessage& config)
+{
+    std::vector<starbow_machines_File> files;
+    for (const auto& [name, digest] : config.files)
+        files.push_back({lent(name), lent(digest)});
+    starbow_machines_Config sample{};
+    sample.node = lent(config.node);
+    sample.files._buffer = files.data();
+    sample.files._length = sample.files._maximum = std::uint32_t(files.size());
+    topics_->config.write(sample);
+}
+
+std::optional<StateMessage> Bus::state()
+{
+    std::optional<StateMessage> last;
+    topics_->state.take<starbow_machines_State>([&](const starbow_machines_State& sample) {
+        const std::uint8_t* bytes = sample.instant._buffer;
+        last = {sample.frame, {bytes, bytes + sample.instant._length}};
+    });
+    return last;
+}
+
+std::optional<GoMessage> Bus::go()
+{
+    std::optional<GoMessage> last;
+    topics_->go.take<starbow_machines_Go>([&](const starbow_machines_Go& sample) {
+        last = {sample.frame, {}};
+        for (std::uint32_t i = 0; i < sample.members._length; ++i)
+            last->members.push_back(text(sample.members._buffer[i]));
+    });
+    return last;
+}
+
+std::vector<ReadyMessage> Bus::readies()
+{
+    std::vector<ReadyMessage> all;
+    topics_->ready.take<starbow_machines_Ready>([&](const starbow_machines_Ready& sample) {
+        all.push_back({text(sample.node), sample.frame, sample.digest, sample.frame_ms});
+    });
+    return all;
+}
+
+std::vector<ConfigMessage> Bus::configs()
+{
+    std::vector<ConfigMessage> all;
+    topics_->config.take<starbow_machines_Config>([&](const starbow_machines_Config& sample) {
+        ConfigMessage config{text(sample.node), {}};
+        for (std::uint32_t i = 0; i < sample.files._length; ++i)
+            config.files.emplace_back(text(sample.files._buffer[i].name), text(sample.files._buffer[i].digest));
+        all.push_back(std::move(config));
+    });
+    return all;
+}
+
+void Bus::wait(std::chrono::nanoseconds longest)
+{
+    dds_attach_t condition;
+    dds_waitset_wait(topics_->arrivals, &condition, 1, longest.count());
+}
+
+} // namespace starbow

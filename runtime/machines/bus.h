@@ -1,0 +1,69 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace starbow {
+
+/// A frame that is to be drawn: the state's bytes, at most most_state_bytes.
+struct StateMessage {
+    std::int64_t frame = 0;
+    std::vector<std::uint8_t> instant;
+};
+constexpr std::size_t most_state_bytes = 4096;
+
+/// A node has drawn a frame.
+struct ReadyMessage {
+    std::string node;
+    std::int64_t frame = 0;
+    std::uint64_t digest = 0; ///< of the instant's bytes
+    double frame_ms = 0; ///< that it took to draw
+};
+
+/// A frame is to be shown by all who are in step.
+struct GoMessage {
+    std::int64_t frame = 0;
+    std::vector<std::string> members;
+};
+
+/// The files that a node's pictures depend on: names and digests, in the same order on each node.
+struct ConfigMessage {
+    std::string node;
+    std::vector<std::pair<std::string, std::string>> files;
+};
+
+/// What the machines of one exhibit tell each other, on one network interface: topics of DDS (machines.idl). A node that
+/// joins late receives the last state and every config.
+class Bus {
+public:
+    /// interface: an interface's name ("enp3s0", "lo"), or a network ("192.168.7.0/24") of which this machine has an
+    /// address. domain: from 0 to 200; two exhibits on one network have different ones. Throws InputError where this
+    /// machine has no such interface, or it can't be opened.
+    Bus(const std::string& interface, int domain);
+    ~Bus();
+
+    void send(const StateMessage& state);
+    void send(const ReadyMessage& ready);
+    void send(const GoMessage& go);
+    void send(const ConfigMessage& config);
+
+    /// What has come since the last call. Of states and goes only the last counts.
+    std::optional<StateMessage> state();
+    std::optional<GoMessage> go();
+    std::vector<ReadyMessage> readies();
+    std::vector<ConfigMessage> configs();
+
+    /// Waits until something has come that was not taken, or for so long.
+    void wait(std::chrono::nanoseconds longest);
+
+private:
+    struct Topics;
+    std::unique_ptr<Topics> topics_;
+};
+
+} // namespace starbow

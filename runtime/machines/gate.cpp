@@ -1,0 +1,75 @@
+#include "gate.h"
+#include <algorithm>
+
+namespace starbow {
+
+Gate::Gate(const std::set<std::string>& nodes)
+{
+    for (const std::string& node : nodes)
+        nodes_[node];
+}
+
+void Gate::begin(std::int64_t frame, std::uint64_t digest) { frame_ = frame, digest_ = digest; }
+
+void Gate::hear(const ReadyMessage& ready)
+{
+    const auto found = nodes_.find(ready.node);
+    if (found == nodes_.end() || found->second.refused || ready.frame > frame_)
+        return; // a frame to come is one of an earlier master
+    Node& node = found->second;
+    node.heard = std::max(node.heard, ready.frame);
+    node.frame_ms = ready.frame_ms;
+    if (ready.frame == frame_ && ready.digest != digest_)
+        events_.push_back({NodeEvent::Kind::differs, ready.node, frame_});
+}
+
+void Gate::refuse(const std::string& node, bool refused)
+{
+    const auto found = nodes_.find(node);
+    if (found == nodes_.end())
+        return;
+    found->second.refused = refused;
+    if (refused)
+        found->second.in = false;
+}
+
+bool Gate::complete() const
+{
+    return std::ranges::all_of(nodes_, [&](const auto& node) { return !node.second.in || node.second.heard >= frame_; });
+}
+
+double Gate::bound_s() const
+{
+    double slowest_ms = 0;
+    for (const auto& [name, node] : nodes_)
+        if (node.in)
+            slowest_ms = std::max(slowest_ms, node.frame_ms);
+    return std::clamp(2e-3 * slowest_ms, least_wait_s, most_wait_s);
+}
+
+GoMessage Gate::go()
+{
+    GoMessage message{frame_, {}};
+    for (auto& [name, node] : nodes_) {
+        if (node.heard >= frame_) {
+            node.silent = 0;
+            if (!node.in)
+                events_.push_back({NodeEvent::Kind::joins, name, frame_});
+            node.in = true;
+            message.members.push_back(name);
+        } else if (node.in) {
+            ++node.late;
+            if (++node.silent >= silent_frames) {
+                node.in = false;
+                events_.push_back({NodeEvent::Kind::leaves, name, frame_});
+            }
+        } else if (node.heard >= 0 && !node.refused && frame_ - node.heard < silent_frames) {
+            // It draws, but began late: the next frame waits for it.
+            node.in = true, node.silent = 0;
+            events_.push_back({NodeEvent::Kind::joins, name, frame_});
+        }
+    }
+    return message;
+}
+
+} // namespace starbow

@@ -1,0 +1,57 @@
+#pragma once
+#include "config/model/beside.h"
+#include "config/model/pattern.h"
+#include "input/controls.h"
+#include "runtime/hud/hud.h"
+#include "runtime/hud/instruments.h"
+#include "runtime/hud/overlay.h"
+#include "runtime/light/range_curve.h"
+
+namespace starbow {
+
+/// The head-up display's text.
+struct Written {
+    std::int64_t number = 0; ///< another one: the text may have changed
+    Readings readings{};
+};
+
+/// A sign at a thing: its lines, and the unit direction in which the thing is seen, cockpit axes.
+struct ShownSign {
+    std::vector<std::string> lines;
+    glm::dvec3 towards{0, 0, -1};
+};
+
+/// The small picture beside the large one.
+struct SmallPicture {
+    Beside kind = Beside::at_rest;
+    double start_ev = 0; ///< as beside()'s
+    double fov_deg = beside_fov_deg;
+    std::string name;
+};
+
+/// The instruments over the picture, and the probe straight ahead.
+struct Instruments {
+    Overlay overlay = Overlay::aim;
+    std::array<std::optional<Spot>, 2> marks{};
+    OverlayScale scale{};
+    const Panel* panel = nullptr; ///< readings, or null; it must last until the frame is drawn
+    glm::vec4 scale_place{0}; ///< of the false colours on the panel, see PanelPass::draw
+};
+
+/// Everything that the pictures of one frame depend on, beside the layout, the world, the quality and the visitors' words.
+struct Instant {
+    Shot shot; ///< with the head's look and the shown exposure
+    Head head;
+    std::optional<RangeCurve> range; ///< as FrameState's, and so are the next ones
+    bool meters = false;
+    double bloom = 0, black = 0;
+    Vignette vignette;
+    double vignette_part = 0;
+    Pattern pattern = Pattern::none;
+    std::optional<Written> hud; ///< none: it is off
+    std::optional<ShownSign> sign;
+    std::optional<SmallPicture> small_picture;
+    std::optional<Instruments> instruments;
+};
+
+} // namespace starbow

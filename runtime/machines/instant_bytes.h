@@ -1,0 +1,30 @@
+#pragma once
+#include "instant.h"
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace starbow {
+
+/// What the master of several machines says of a frame: its instant and the parts of the exhibit that change.
+struct SharedInstant {
+    std::string scene; ///< the scene's file, as the master's command line or a remote's names it
+    std::string language; ///< of the visitors' words
+    std::string quality; ///< a quality file's name; empty: `level` counts
+    std::int32_t level = -1; ///< of the governor's ladder; -1: none
+    Instant instant;
+};
+
+/// The bytes of an instant, the same on each machine: numbers as they are in memory, the lowest byte first. Its instruments'
+/// panel is left out: it is a picture. Throws InputError where they are more than most_state_bytes.
+std::vector<std::uint8_t> bytes_of(const SharedInstant& instant);
+
+/// The instant of such bytes. Throws InputError for bytes that are none: cut off, too many, or with numbers that no instant
+/// has.
+SharedInstant instant_of(std::span<const std::uint8_t> bytes);
+
+/// A digest of such bytes.
+std::uint64_t digest_of_instant(std::span<const std::uint8_t> bytes);
+
+} // namespace starbow

@@ -1,0 +1,145 @@
+// Several machines show what one would: each draws its own outputs of the same instants, which it has from their bytes.
+#include "config/model/shipped.h"
+#include "runtime/exhibit/instant_pictures.h"
+#include "runtime/machines/instant_bytes.h"
+#include "tests/support/gpu_environment.h"
+#include <cstring>
+
+namespace starbow::gpu_test::machines_gpu_test {
+namespace {
+
+/// One machine: it draws the outputs of one node, or all.
+class Machine {
+public:
+    Machine(const GpuWorld& world, const Layout& layout, std::string node)
+        : layout_(layout)
+        , node_(std::move(node))
+        , words_(words_in("en"))
+        , frame_(device(), pipelines(), world, layout, test_quality())
+    {
+        frame_.repeatable(true);
+        for (const Output& output : layout.outputs)
+            images_.push_back(make_image(device(),
+                {vk::Format::eR8G8B8A8Srgb, {std::uint32_t(output.size.x), std::uint32_t(output.size.y)},
+                    vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc}));
+    }
+
+    bool shows(std::size_t output) const { return node_.empty() || layout_.outputs[output].node == node_; }
+
+    /// The pictures of its outputs; of others, empty ones.
+    std::vector<std::vector<std::byte>> draw(const Instant& now)
+    {
+        using Stage = vk::PipelineStageFlagBits2;
+        using Access = vk::AccessFlagBits2;
+        std::vector<Target> targets;
+        for (std::size_t i = 0; i < images_.size(); ++i) {
+            const Image& image = images_[i];
+            targets.push_back(shows(i) ? Target{*image.image, *image.view, image.extent, image.format} : Target{});
+        }
+        const Panel* panel = pictures_.set_up(now, words_, frame_);
+        device().now([&](vk::CommandBuffer commands) {
+            for (const Image& image : images_)
+                transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {},
+                    vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+            frame_.draw(commands, now.shot, panel, targets);
+            for (const Image& image : images_)
+                transition(commands, image, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+                    Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer,
+                    Access::eTransferRead);
+        });
+        std::vector<std::vector<std::byte>> pictures;
+        for (std::size_t i = 0; i < images_.size(); ++i)
+            pictures.push_back(shows(i) ? read_back(device(), images_[i], 4) : std::vector<std::byte>());
+        return pictures;
+    }
+
+private:
+    Layout layout_;
+    std::string node_;
+    Words words_;
+    FrameRenderer frame_;
+    InstantPictures pictures_;
+    std::vector<Image> images_;
+};
+
+/// A shipped layout, small, with a node for each output.
+Layout layout_of(const std::string& name)
+{
+    Layout layout = load_layout(shipped_file("layouts", name));
+    for (Output& output : layout.outputs) {
+        const double scale = 320.0 / std::max(output.size.x, output.size.y);
+        output.size = glm::max(glm::ivec2(glm::dvec2(output.size) * scale) / 2 * 2, 2);
+        output.node = "node-" + output.name;
+    }
+    return layout;
+}
+
+/// Instants of one flight: at rest with a text, at speed with a head that moves, at gamma 100 with a small picture, a
+/// pattern, a fade.
+std::vector<Instant> instants(const Shot& start)
+{
+    const auto at = [&](double gamma) {
+        Instant now{.shot = start};
+        now.shot.u = start.ship_from_cockpit * dvec3(0, 0, -u_of_gamma(gamma));
+        now.shot.time += gamma;
+        now.meters = true;
+        return now;
+    };
+    std::vector<Instant> all;
+    Instant& rest = all.emplace_back(at(1));
+    rest.hud = Written{1, readings({}, avenue().world.scene, {})};
+    rest.hud->readings.caption = Caption{"You rest", {"go", "stay"}, 1};
+    Instant& fast = all.emplace_back(at(4));
+    fast.head = {{0.1, 0.05, -0.02}, glm::dquat(0.995, 0.0, 0.0998, 0.0)};
+    fast.hud = Written{2, readings({}, avenue().world.scene, {})};
+    fast.sign = ShownSign{{"behind you"}, glm::normalize(dvec3(0.2, 0.1, -1))};
+    Instant& faster = all.emplace_back(at(100));
+    faster.small_picture = SmallPicture{.kind = Beside::at_rest, .name = "at rest"};
+    faster.shot.exposure_ev = -3, faster.black = 0.25;
+    Instant& measured = all.emplace_back(at(2));
+    measured.instruments = Instruments{.overlay = Overlay::grid};
+    measured.vignette_part = 0.7;
+    all.emplace_back(at(1)).pattern = Pattern::names;
+    return all;
+}
+
+void expect_union(const GpuWorld& world, const Layout& layout, const std::vector<Instant>& all, const std::string& name)
+{
+    Machine whole(world, layout, "");
+    std::vector<std::unique_ptr<Machine>> nodes;
+    for (const std::string& node : nodes_of(layout))
+        nodes.push_back(std::make_unique<Machine>(world, layout, node));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const auto wanted = whole.draw(all[i]);
+        const std::vector<std::uint8_t> bytes = bytes_of({.instant = all[i]});
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            if (k == 1 && i == 1)
+                continue; // this one was away for a frame
+            const auto seen = nodes[k]->draw(instant_of(bytes).instant);
+            for (std::size_t output = 0; output < seen.size(); ++output)
+                if (nodes[k]->shows(output)) {
+                    EXPECT_EQ(seen[output], wanted[output])
+                        << name << ", " << layout.outputs[output].name << ", instant " << i;
+                }
+        }
+    }
+    EXPECT_NE(whole.draw(all[0]), whole.draw(all[1])) << name; // else equality would say nothing
+}
+
+} // namespace
+
+TEST(Machines, TogetherTheyShowWhatOneWould)
+{
+    const Shot start = load_shot(shipped_file("shots", "avenue-rest"));
+    for (const char* name : {"desk", "wall3", "dome2", "cave5", "passive-pair", "stereo", "mirror"})
+        expect_union(avenue().world, layout_of(name), instants(start), name);
+}
+
+TEST(Machines, TheSameWithMovingBodies)
+{
+    const Shot start = load_shot(shipped_file("shots", "clocks-passing"));
+    const GpuWorld world = upload_scene(avenue(), load_scene(shipped_file("scenes", "clocks")));
+    expect_union(world, layout_of("dome2"), instants(start), "clocks");
+}
+
+} // namespace starbow::gpu_test::machines_gpu_test

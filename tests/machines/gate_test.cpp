@@ -1,0 +1,159 @@
+// The master's count of the nodes in step.
+#include "runtime/machines/gate.h"
+#include <gtest/gtest.h>
+
+namespace starbow::gate_test {
+namespace {
+
+constexpr std::uint64_t state = 77;
+
+/// A gate of two nodes that are in step since frame 0.
+Gate two_in_step()
+{
+    Gate gate({"left", "right"});
+    gate.begin(0, state);
+    gate.hear({"left", 0, state, 4});
+    gate.hear({"right", 0, state, 9});
+    gate.go();
+    gate.take_events();
+    return gate;
+}
+
+std::vector<std::string> events_of(Gate& gate)
+{
+    std::vector<std::string> all;
+    for (const NodeEvent& event : gate.take_events()) {
+        const char* kind = event.kind == NodeEvent::Kind::joins ? " joins "
+            : event.kind == NodeEvent::Kind::leaves             ? " leaves "
+                                                                : " differs ";
+        all.push_back(event.node + kind + std::to_string(event.frame));
+    }
+    return all;
+}
+
+using List = std::vector<std::string>;
+
+TEST(GateTest, WaitsForNobodyAtFirst)
+{
+    Gate gate({"left", "right"});
+    gate.begin(0, state);
+    EXPECT_TRUE(gate.complete());
+    EXPECT_EQ(gate.go().members, List{});
+}
+
+TEST(GateTest, WaitsForThoseInStep)
+{
+    Gate gate = two_in_step();
+    gate.begin(1, state);
+    EXPECT_FALSE(gate.complete());
+    gate.hear({"right", 1, state, 9});
+    gate.hear({"left", 0, state, 4}); // an old word
+    EXPECT_FALSE(gate.complete());
+    gate.hear({"left", 1, state, 4});
+    EXPECT_TRUE(gate.complete());
+    const GoMessage go = gate.go();
+    EXPECT_EQ(go.frame, 1);
+    EXPECT_EQ(go.members, (List{"left", "right"}));
+    EXPECT_EQ(events_of(gate), List{});
+}
+
+TEST(GateTest, SilentNodesAreLeftOutAfterSixFrames)
+{
+    Gate gate = two_in_step();
+    for (int frame = 1; frame <= 10; ++frame) {
+        gate.begin(frame, state);
+        gate.hear({"left", frame, state, 4});
+        EXPECT_EQ(gate.complete(), frame > Gate::silent_frames) << frame;
+        EXPECT_EQ(gate.go().members, List{"left"});
+        EXPECT_EQ(events_of(gate), frame == Gate::silent_frames ? List{"right leaves 6"} : List{}) << frame;
+    }
+    EXPECT_EQ(gate.nodes().at("right").late, 6u);
+    // It comes back with its first frame, and is waited for from the next one on.
+    gate.begin(11, state);
+    gate.hear({"left", 11, state, 4});
+    gate.hear({"right", 11, state, 4});
+    EXPECT_EQ(gate.go().members, (List{"left", "right"}));
+    EXPECT_EQ(events_of(gate), List{"right joins 11"});
+    gate.begin(12, state);
+    gate.hear({"left", 12, state, 4});
+    EXPECT_FALSE(gate.complete());
+}
+
+TEST(GateTest, AFrameInTimeForgivesLateOnes)
+{
+    Gate gate = two_in_step();
+    for (int frame = 1; frame <= 60; ++frame) {
+        gate.begin(frame, state);
+        gate.hear({"left", frame, state, 4});
+        if (frame % Gate::silent_frames == 0)
+            gate.hear({"right", frame, state, 4});
+        gate.go();
+    }
+    EXPECT_EQ(events_of(gate), List{});
+}
+
+TEST(GateTest, ANodeThatIsAFrameBehindIsLetIn)
+{
+    Gate gate({"left"});
+    for (int frame = 0; frame < 4; ++frame) {
+        gate.begin(frame, state);
+        if (frame > 0)
+            gate.hear({"left", frame - 1, state, 4});
+        gate.go();
+    }
+    EXPECT_TRUE(gate.nodes().at("left").in);
+}
+
+TEST(GateTest, RefusedAndUnknownNodesCountForNothing)
+{
+    Gate gate = two_in_step();
+    gate.refuse("right", true);
+    gate.refuse("nobody", true);
+    gate.begin(1, state);
+    gate.hear({"left", 1, state, 4});
+    gate.hear({"right", 1, state, 4});
+    gate.hear({"nobody", 1, state, 4});
+    EXPECT_TRUE(gate.complete());
+    EXPECT_EQ(gate.go().members, List{"left"});
+    gate.refuse("right", false);
+    gate.begin(2, state);
+    gate.hear({"right", 2, state, 4});
+    gate.go();
+    EXPECT_EQ(events_of(gate), List{"right joins 2"});
+}
+
+TEST(GateTest, FramesOfAnEarlierMasterCountForNothing)
+{
+    Gate gate({"left"});
+    gate.begin(100, state);
+    gate.hear({"left", 5000, state, 4});
+    gate.go();
+    EXPECT_FALSE(gate.nodes().at("left").in);
+}
+
+TEST(GateTest, AnotherStateIsSaid)
+{
+    Gate gate = two_in_step();
+    gate.begin(1, state);
+    gate.hear({"left", 1, state + 1, 4});
+    EXPECT_EQ(events_of(gate), List{"left differs 1"});
+}
+
+TEST(GateTest, WaitsTwiceTheSlowestNodesTime)
+{
+    Gate gate({"left", "right"});
+    EXPECT_EQ(gate.bound_s(), Gate::least_wait_s);
+    gate.begin(0, state);
+    gate.hear({"left", 0, state, 4});
+    gate.hear({"right", 0, state, 60});
+    EXPECT_EQ(gate.bound_s(), Gate::least_wait_s) << "nobody is in yet";
+    gate.go();
+    EXPECT_DOUBLE_EQ(gate.bound_s(), 0.12);
+    gate.begin(1, state);
+    gate.hear({"left", 1, state, 4});
+    gate.hear({"right", 1, state, 6000});
+    EXPECT_EQ(gate.bound_s(), Gate::most_wait_s);
+}
+
+} // namespace
+} // namespace starbow::gate_test
