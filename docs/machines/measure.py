@@ -89,18 +89,21 @@ def part(values, share):
     return ordered[min(int(share * len(ordered)), len(ordered) - 1)] if ordered else float("nan")
 
 
-def picture(nodes, rows, kills, first, last):
+def picture(nodes, rows, kills):
     width, height, left, low = 1000, 420, 70, 380
     begin = min(row[0] for one in rows.values() for row in one)
     end = max(row[0] for one in rows.values() for row in one)
     x = lambda t: left + (t - begin) / max(end - begin, 1e-9) * (width - left - 20)
-    y = lambda frame: low - (frame - first) / max(last - first, 1) * (low - 60)
+    # Each master counts on from the time of its start, so a frame's place in the order is drawn.
+    order = {frame: i for i, frame in enumerate(sorted({row[1] for one in rows.values() for row in one}))}
+    last = len(order) - 1
+    y = lambda place: low - place / max(last, 1) * (low - 60)
     colours = ["#c0392b", "#2471a3", "#1e8449", "#b7950b", "#6c3483", "#117a65", "#884ea0", "#935116"]
     out = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 %d %d" font-family="sans-serif" font-size="14">' % (width, height),
            '<rect width="100%" height="100%" fill="white"/>']
     for when, name in kills:
         out.append('<line x1="%.1f" y1="50" x2="%.1f" y2="%d" stroke="#999" stroke-dasharray="3 3"/>' % (x(when), x(when), low))
-        out.append('<text x="%.1f" y="45" text-anchor="middle" fill="#666">%s killed</text>' % (x(when), name))
+        out.append('<text x="%.1f" y="45" text-anchor="middle" font-size="11" fill="#666">%s</text>' % (x(when), "end of " + name))
     for i, name in enumerate(nodes.names):
         colour, before = colours[i % len(colours)], None
         lift = 6 * (i - (len(nodes.names) - 1) / 2)  # beside each other: the lines would hide each other
@@ -114,7 +117,7 @@ def picture(nodes, rows, kills, first, last):
             if before and when - before > 0.4:
                 flush()
             if k % step == 0 or (before and when - before > 0.2):
-                points.append("%.1f,%.1f" % (x(when), y(frame) + lift))
+                points.append("%.1f,%.1f" % (x(when), y(order[frame]) + lift))
             before = when
         flush()
         out.append('<text x="%d" y="20" fill="%s">%s%s</text>' % (left + 150 * i, colour, name, " (master)" if i == 0 else ""))
@@ -122,8 +125,8 @@ def picture(nodes, rows, kills, first, last):
     for k in range(6):
         when = begin + (end - begin) * k / 5
         out.append('<text x="%.1f" y="%d" text-anchor="middle">%.0f s</text>' % (x(when), low + 20, when - begin))
-        frame = first + (last - first) * k / 5
-        out.append('<text x="%d" y="%.1f" text-anchor="end">%d</text>' % (left - 8, y(frame) + 5, frame - first))
+        frame = last * k / 5
+        out.append('<text x="%d" y="%.1f" text-anchor="end">%d</text>' % (left - 8, y(frame) + 5, frame))
     out.append('<text x="16" y="%d" transform="rotate(-90 16 %d)" text-anchor="middle">frame</text></svg>' % (low / 2, low / 2))
     return "\n".join(out) + "\n"
 
@@ -189,8 +192,7 @@ def main():
     if kills:
         print("%d kills; after those of a node the others stood still for at most %.1f frames (p50 %.1f)" % (len(kills), max(still, default=0), part(still, 0.5)))
         print("a killed node was in step %.0f ms (at most %.0f ms) after its first picture" % (1e3 * part(back, 0.5), 1e3 * max(back, default=0)))
-    frames = [row[1] for row in master]
-    options.out.with_suffix(".svg").write_text(picture(nodes, rows, kills, min(frames), max(frames)))
+    options.out.with_suffix(".svg").write_text(picture(nodes, rows, kills))
     print(options.out.with_suffix(".svg"))
 
 

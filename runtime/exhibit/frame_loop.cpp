@@ -154,6 +154,7 @@ bool FrameLoop::fly_frame()
         device_.await(*done_, "the end of the frame's drawing (fence)");
         master_->go();
         session_.missing = master_->missing();
+        frame_->add_samples(master_->samples());
     }
     screens_.present(session_.skew);
     held_since_.reset();
@@ -463,6 +464,7 @@ std::unique_ptr<FrameRenderer> FrameLoop::renderer(
     return in_room([&] {
         auto made = std::make_unique<FrameRenderer>(
             device_, context_.pipelines, context_.world, shown, quality, false, std::move(prepared));
+        made->only(session_.options.node);
         made->repeatable(
             session_.options.machines.has_value()); // all machines' pictures are alike, whatever each drew before
         return made;

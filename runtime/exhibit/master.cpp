@@ -35,6 +35,15 @@ Master::Master(const ExhibitOptions& options)
     bus_.send(config_);
 }
 
+std::vector<ViewSamples> Master::samples() const
+{
+    std::vector<ViewSamples> all;
+    for (const auto& [name, node] : gate_.nodes())
+        if (const auto found = samples_.find(name); node.in && found != samples_.end())
+            all.insert(all.end(), found->second.begin(), found->second.end());
+    return all;
+}
+
 std::string Master::missing() const
 {
     std::string names;
@@ -97,8 +106,11 @@ void Master::hear()
             write_log(LogKind::node_refused, why);
         refusals_[config.node] = why;
     }
-    for (const ReadyMessage& ready : bus_.readies())
+    for (ReadyMessage& ready : bus_.readies()) {
         gate_.hear(ready);
+        if (gate_.nodes().contains(ready.node))
+            samples_[ready.node] = std::move(ready.samples);
+    }
     bus_.state(), bus_.go(); // its own
 }
 

@@ -17,6 +17,8 @@ public:
     /// Waits until all who are in have drawn the frame, or for the gate's bound; then all show it.
     void go();
 
+    /// The luminance samples of the nodes in step, as they last said.
+    std::vector<ViewSamples> samples() const;
     /// The names of the nodes that are not in step, with commas; empty where all are.
     std::string missing() const;
     /// The time that the slowest node in step has taken to draw a frame, ms.
@@ -30,6 +32,7 @@ private:
     Bus bus_;
     ConfigMessage config_;
     Gate gate_;
+    std::map<std::string, std::vector<ViewSamples>> samples_; ///< by node
     std::map<std::string, std::string> refusals_; ///< by node, as last logged
     FrameLog log_;
     std::int64_t frame_; ///< of the last state

@@ -118,6 +118,7 @@ void Node::make_frame()
         return std::make_unique<FrameRenderer>(
             context_.device, context_.pipelines, context_.world, options_.layout, quality_, false);
     });
+    frame_->only(options_.node);
     frame_->repeatable(true); // each machine's pictures are those of one that has drawn all before
     pictures_.forget();
 }
@@ -248,7 +249,7 @@ void Node::draw(const SharedInstant& shared, bool fresh)
     if (fresh) {
         const std::uint64_t digest = digest_of_instant(state_->instant);
         const double drawn_ms = 1e3 * seconds(Clock::now() - begun);
-        bus_.send(ReadyMessage{options_.node, number, digest, drawn_ms});
+        bus_.send(ReadyMessage{options_.node, number, digest, drawn_ms, frame_->own_samples()});
         await_go(number);
         log_.add(number, digest, drawn_ms);
     }

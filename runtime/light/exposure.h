@@ -1,7 +1,9 @@
 #pragma once
 #include "config/model/exposing.h"
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace starbow {
 
@@ -9,6 +11,12 @@ namespace starbow {
 struct LuminanceSample {
     float luminance; ///< scene-linear, before exposure; white at EV 0 is 1
     float solid_angle_sr; ///< as the visitor sees it; 0: no picture there
+};
+
+/// The samples of one view of a layout, of surfaces and of stars.
+struct ViewSamples {
+    std::int32_t view = 0; ///< index into ViewSet::all
+    std::vector<LuminanceSample> surfaces, stars;
 };
 
 /// The exposure considers the lit view between these two parts of its solid angle, sorted from the darkest. Eyes adapt to

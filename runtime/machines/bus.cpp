@@ -1,6 +1,7 @@
 #include "bus.h"
 #include "config/json/error.h"
 #include "interface.h"
+#include <cstring>
 #include <dds/dds.h>
 #include <machines.h>
 
@@ -42,37 +43,6 @@ std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)> qos(Keeps keeps, int depth)
     return made;
 }
 
-struct Topic {
-    dds_entity_t writer = 0, reader = 0;
-
-    Topic(dds_entity_t participant, const dds_topic_descriptor_t& type, const char* name, Keeps keeps, int depth)
-    {
-        const auto rules = qos(keeps, depth);
-        const dds_entity_t topic = made(dds_create_topic(participant, &type, name, rules.get(), nullptr), name);
-        writer = made(dds_create_writer(participant, topic, rules.get(), nullptr), name);
-        reader = made(dds_create_reader(participant, topic, rules.get(), nullptr), name);
-    }
-
-    /// A message that can't be sent now is followed by the next one.
-    template <class Sample> void write(const Sample& sample) const { dds_write(writer, &sample); }
-
-    /// Takes all samples that have come.
-    template <class Sample, class Use> void take(const Use& use) const
-    {
-        constexpr int most = 32;
-        for (int count = most; count == most;) {
-            void* samples[most] = {};
-            dds_sample_info_t infos[most];
-            count = dds_take(reader, samples, infos, most, most);
-            for (int i = 0; i < count; ++i)
-                if (infos[i].valid_data)
-                    use(*static_cast<const Sample*>(samples[i]));
-            if (count > 0)
-                dds_return_loan(reader, samples, count);
-        }
-    }
-};
-
 std::string text(const char* from) { return from ? from : ""; }
 
 /// The address of a string that a sample only reads.
@@ -81,6 +51,37 @@ char* lent(const std::string& from) { return const_cast<char*>(from.c_str()); }
 } // namespace
 
 struct Bus::Topics {
+    struct Topic {
+        dds_entity_t writer = 0, reader = 0;
+
+        Topic(dds_entity_t participant, const dds_topic_descriptor_t& type, const char* name, Keeps keeps, int depth)
+        {
+            const auto rules = qos(keeps, depth);
+            const dds_entity_t topic = made(dds_create_topic(participant, &type, name, rules.get(), nullptr), name);
+            writer = made(dds_create_writer(participant, topic, rules.get(), nullptr), name);
+            reader = made(dds_create_reader(participant, topic, rules.get(), nullptr), name);
+        }
+
+        /// A message that can't be sent now is followed by the next one.
+        template <class Sample> void write(const Sample& sample) const { dds_write(writer, &sample); }
+
+        /// Takes all samples that have come.
+        template <class Sample, class Use> void take(const Use& use) const
+        {
+            constexpr int most = 32;
+            for (int count = most; count == most;) {
+                void* samples[most] = {};
+                dds_sample_info_t infos[most];
+                count = dds_take(reader, samples, infos, most, most);
+                for (int i = 0; i < count; ++i)
+                    if (infos[i].valid_data)
+                        use(*static_cast<const Sample*>(samples[i]));
+                if (count > 0)
+                    dds_return_loan(reader, samples, count);
+            }
+        }
+    };
+
     dds_entity_t domain, participant;
     Topic state, ready, go, config;
     dds_entity_t arrivals;
@@ -122,7 +123,24 @@ void Bus::send(const StateMessage& state)
 
 void Bus::send(const ReadyMessage& ready)
 {
-    topics_->ready.write(starbow_machines_Ready{lent(ready.node), ready.frame, ready.digest, ready.frame_ms});
+    // A sample is two floats.
+    static_assert(sizeof(LuminanceSample) == 2 * sizeof(float));
+    const auto put = [](dds_sequence_float& to, const std::vector<LuminanceSample>& from) {
+        to._buffer = const_cast<float*>(reinterpret_cast<const float*>(from.data()));
+        to._length = to._maximum = std::uint32_t(2 * from.size());
+    };
+    std::vector<starbow_machines_Samples> samples;
+    for (const ViewSamples& view : ready.samples) {
+        starbow_machines_Samples& sample = samples.emplace_back();
+        sample.view = view.view;
+        put(sample.surfaces, view.surfaces), put(sample.stars, view.stars);
+    }
+    starbow_machines_Ready sample{};
+    sample.node = lent(ready.node);
+    sample.frame = ready.frame, sample.digest = ready.digest, sample.frame_ms = ready.frame_ms;
+    sample.samples._buffer = samples.data();
+    sample.samples._length = sample.samples._maximum = std::uint32_t(samples.size());
+    topics_->ready.write(sample);
 }
 
 void Bus::send(const GoMessage& go)
@@ -174,7 +192,18 @@ std::vector<ReadyMessage> Bus::readies()
 {
     std::vector<ReadyMessage> all;
     topics_->ready.take<starbow_machines_Ready>([&](const starbow_machines_Ready& sample) {
-        all.push_back({text(sample.node), sample.frame, sample.digest, sample.frame_ms});
+        ReadyMessage ready{text(sample.node), sample.frame, sample.digest, sample.frame_ms};
+        const auto taken = [](const dds_sequence_float& from) {
+            std::vector<LuminanceSample> to(from._length / 2);
+            if (!to.empty())
+                std::memcpy(to.data(), from._buffer, to.size() * sizeof(LuminanceSample));
+            return to;
+        };
+        for (std::uint32_t i = 0; i < sample.samples._length; ++i) {
+            const starbow_machines_Samples& view = sample.samples._buffer[i];
+            ready.samples.push_back({view.view, taken(view.surfaces), taken(view.stars)});
+        }
+        all.push_back(std::move(ready));
     });
     return all;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "runtime/light/exposure.h"
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,7 @@ struct ReadyMessage {
     std::int64_t frame = 0;
     std::uint64_t digest = 0; ///< of the instant's bytes
     double frame_ms = 0; ///< that it took to draw
+    std::vector<ViewSamples> samples{}; ///< of its views; none where nothing is metered
 };
 
 /// A frame is to be shown by all who are in step.

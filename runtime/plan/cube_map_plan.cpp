@@ -376,6 +376,17 @@ CubeMapPlan plan_cube_map(
     return plan;
 }
 
+void mark_needed(CubeMapPlan& whole, const CubeMapPlan& part)
+{
+    const auto meet = [](const SubTiles& a, const SubTiles& b) {
+        return glm::all(glm::lessThan(a.first, b.first + b.count)) && glm::all(glm::lessThan(b.first, a.first + a.count));
+    };
+    for (PlannedImage& image : whole.images)
+        image.needed = std::ranges::any_of(part.images, [&](const PlannedImage& own) {
+            return own.rest_frame == image.rest_frame && own.tile == image.tile && meet(own.sub_tiles, image.sub_tiles);
+        });
+}
+
 bool can_reuse(const CubeMapPlan& drawn, const CubeMapPlan& wanted)
 {
     constexpr double hardly_less = 0.8;
@@ -386,7 +397,8 @@ bool can_reuse(const CubeMapPlan& drawn, const CubeMapPlan& wanted)
                });
                return same != drawn.images.end() && glm::all(glm::lessThanEqual(same->low, image.low))
                    && glm::all(glm::greaterThanEqual(same->high, image.high)) && same->clip_hole <= image.clip_hole
-                   && same->levels >= image.levels && same->texels_per_unit >= hardly_less * image.texels_per_unit;
+                   && same->levels >= image.levels && same->needed >= image.needed
+                   && same->texels_per_unit >= hardly_less * image.texels_per_unit;
            });
 }
 

@@ -18,6 +18,7 @@ struct PlannedImage {
     double clip_hole = 0; ///< half the side of the clip-map hole; 0: none. No pixel reads the image there
     int rest_frame = 0;
     SubTiles sub_tiles{}; ///< the sub-tiles of its tile that it covers
+    bool needed = true; ///< false: no output of this machine reads it, and it is not drawn
 };
 
 /// The demand of each rectangle that repeated halving of a tile yields. The intervals of a side form a binary heap: 0 is
@@ -60,6 +61,9 @@ CubeMapPlan plan_cube_map(
 CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& requests, const Quality& quality);
 /// The same for a world in which nothing moves. E: e^rapidity of the ship in the world.
 CubeMapPlan plan_cube_map(const std::vector<ViewRequest>& views, double E, const Quality& quality);
+
+/// Marks the images of a plan as needed that a part of its views reads. part: the plan of those views alone.
+void mark_needed(CubeMapPlan& whole, const CubeMapPlan& part);
 
 /// True if the drawn plan has nearly the wanted plan's density wherever the wanted plan has images: it may be shown
 /// again.

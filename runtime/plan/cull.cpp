@@ -372,6 +372,8 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
     std::vector<std::vector<std::uint32_t>>& by_level = list.by_level;
     for (std::uint32_t i = 0; i < images.size(); ++i) {
         const PlannedImage& image = images[i];
+        if (!image.needed)
+            continue;
         const std::size_t first_draw = list.draws.size();
         const Frustum frustum(image);
         const ClipHole hole(image);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
+#include <utility>
 
 namespace starbow {
 namespace {
@@ -111,10 +112,13 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
     constexpr auto stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
     auto draw = list_.draws.begin();
     vk::Pipeline bound;
+    int rest_frame = -1; // whose uploads are bound
     for (std::uint32_t i = 0; i < images_.size(); ++i) {
         const PlannedImage& image = images_[i];
+        if (!image.needed)
+            continue;
         set_guarded_area(commands, image);
-        if (i == 0 || image.rest_frame != images_[i - 1].rest_frame)
+        if (image.rest_frame != std::exchange(rest_frame, image.rest_frame))
             uploads_.bind(commands, image.rest_frame);
         glm::dmat4 clip = clip_from_cube(image, near_distance);
         clip[2] *= contractions_[std::size_t(image.rest_frame)];

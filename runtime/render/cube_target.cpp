@@ -186,12 +186,13 @@ void CubeTarget::make_mips(
 {
     for (std::uint32_t level = 1; level < levels; ++level) {
         chain.begin(commands, level);
-        for (const PlannedImage& image : images)
-            if (image.levels >= int(level)) {
+        for (const PlannedImage& image : images) {
+            if (image.needed && image.levels >= int(level)) {
                 const glm::ivec2 low = image.atlas >> glm::ivec2(level),
                                  high = (image.atlas + image.size) >> glm::ivec2(level);
                 chain.halve(commands, low, high - low);
             }
+        }
         chain.end(commands);
     }
 }

@@ -193,6 +193,8 @@ void EyeCubes::request_views(std::size_t i, double pre_exposure, const Probe* pr
     EyeCube& eye = all[i];
     const std::vector<RestFrameView>& rest_frames = observers[eye.observer].rest_frames;
     eye.requests.resize(rest_frames.size());
+    const bool all_here = draws_all();
+    eye.own_requests.resize(all_here ? 0 : rest_frames.size());
     eye.eye_events.clear();
     eye.nearest.clear();
     for (std::size_t at = 0; at < rest_frames.size(); ++at) {
@@ -201,6 +203,7 @@ void EyeCubes::request_views(std::size_t i, double pre_exposure, const Probe* pr
         eye.nearest.push_back(state_.reprojects() ? std::max(nearest_box(world_.world, eye_event), 1e-30) : 1);
         RestFrameRequest& request = eye.requests[at];
         request.views.clear();
+        std::vector<bool> here; // of the views in the request
         request.E = rest_frame.E;
         request.cube_from_motion = rest_frame.cube_from_motion;
         request.galilean = observers[eye.observer].shot.effects.comparison == Comparison::galilean;
@@ -213,8 +216,11 @@ void EyeCubes::request_views(std::size_t i, double pre_exposure, const Probe* pr
                     dark_D(view, pre_exposure), rays_of(view) / state_.quality.pixel_rays,
                     view.observer != eye.observer && !looks_closer(*views_.inset)});
         };
-        for (const ViewState& view : views_.all)
+        for (const ViewState& view : views_.all) {
             add(view);
+            if (view.eye == i)
+                here.push_back(state_.is_here(state_.layout.outputs[view.output]));
+        }
         // A request within the first view's would change nothing but the rounding of the plan.
         if (views_.inset
             && (inset_eye_ || looks_closer(*views_.inset)
@@ -225,8 +231,22 @@ void EyeCubes::request_views(std::size_t i, double pre_exposure, const Probe* pr
                 request.views.push_back({&probe->view(ray), rest_frame.motion_from_cockpit});
         if (at > 0)
             request.bounds = bounding_spheres(world_.world, eye_event);
+        if (!all_here) {
+            // Views of other machines leave; the small picture and the probes stay, as each machine may show them.
+            RestFrameRequest& own = eye.own_requests[at];
+            own = request;
+            std::size_t number = 0;
+            std::erase_if(own.views, [&](const ViewRequest&) { return number < here.size() && !here[number++]; });
+        }
         eye.eye_events.push_back(eye_event);
     }
+}
+
+bool EyeCubes::draws_all() const
+{
+    const std::vector<Output>& outputs = state_.layout.outputs;
+    const auto shows_all = [&](const Output& output) { return output.preview && state_.is_here(output); };
+    return state_.node.empty() || std::ranges::any_of(outputs, shows_all);
 }
 
 double EyeCubes::dark_D(const ViewState& view, double pre_exposure) const
@@ -314,6 +334,10 @@ void EyeCubes::plan(double pre_exposure, const Probe* probe)
         const Trace::Span span(device_.trace, "plan");
         request_views(i, pre_exposure, probe);
         all[i].wanted = plan_cube_map(all[i].requests, state_.quality, scratch_, std::move(all[i].wanted));
+        if (!all[i].own_requests.empty()) {
+            all[i].own = plan_cube_map(all[i].own_requests, state_.quality, scratch_, std::move(all[i].own));
+            mark_needed(all[i].wanted, all[i].own);
+        }
         keep = keep && can_reuse(i);
     }
     shown_ = keep ? shown_ + 1 : 1;

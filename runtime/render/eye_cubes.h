@@ -16,11 +16,13 @@ struct EyeCube {
     std::vector<EyeEvent> drawn{}; ///< the cube map was drawn at these events, one for each rest frame
     std::vector<StarRun> stars{}; ///< stars that the views may show
     std::vector<RestFrameRequest> requests{};
+    std::vector<RestFrameRequest> own_requests{}; ///< those of this machine's outputs; none where it shows all
     std::vector<BoundingCap> caps{}; ///< one for each rest frame: of the drawn surfaces and the filter around them
     std::vector<std::vector<BoundingCap>>
         bodies{}; ///< by rest frame: of its drawn surfaces one by one; none for the world's
     std::vector<EyeEvent> eye_events{}; ///< the cube map would be drawn at these events now
     CubeMapPlan wanted{}; ///< the plan of that cube map
+    CubeMapPlan own{}; ///< of own_requests
     std::vector<double> nearest{}; ///< one for each rest frame: a lower bound of its surfaces' distance, scene units; 1
                                    ///< where no distance counts
 };
@@ -78,6 +80,7 @@ private:
     /// Bounds the surfaces of the cube map that is drawn now.
     void bound(EyeCube& eye, const CubeMapPlan& plan) const;
     void request_views(std::size_t eye, double pre_exposure, const Probe* probe);
+    bool draws_all() const; ///< outputs of this machine may show every view
     bool can_reuse(std::size_t eye) const;
 
     Device& device_;

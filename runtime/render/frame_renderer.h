@@ -51,6 +51,8 @@ public:
     /// Moves every head from the layout's place and turns its eyes. Walls follow, unless they would be seen from behind.
     /// Maps of mirrors and of measured points stay as they are.
     void move_head(const Head& head);
+    /// Draws the outputs of one machine alone, from the next frame on, as they are among all others; empty: all outputs.
+    void only(const std::string& node) { state_.node = node; }
     /// on: equal shots have equal bytes, whatever was drawn before. It takes longer where the plan changes.
     void repeatable(bool on);
     /// on: light counts however dim, because numbers are read. Without it no light is drawn that no screen shows.
@@ -84,6 +86,10 @@ public:
     /// The samples that it follows from; empty where nothing was metered.
     std::span<const LuminanceSample> surface_samples() const { return meter_.surfaces(); }
     std::span<const LuminanceSample> star_samples() const { return meter_.stars(); }
+    /// The last frame's samples of this machine's views, and those of another's, which then count as its own. The device
+    /// must have finished that frame.
+    std::vector<ViewSamples> own_samples() const { return meter_.own_samples(); }
+    void add_samples(std::span<const ViewSamples> others) { meter_.add_samples(others); }
     std::vector<Probed> probed() const { return measurement_.probed(); }
     const MeasuringObserver& head(std::size_t probe = 0) const { return measurement_.head(probe); }
     const MeasuringObserver& observer(std::size_t probe = 0) const { return measurement_.observer(probe); }

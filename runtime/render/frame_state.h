@@ -14,6 +14,7 @@ namespace starbow {
 struct FrameState {
     Quality quality;
     Layout layout; ///< with the quality's stereo method
+    std::string node{}; ///< the machine whose outputs are drawn; empty: all are
     bool keeps_depth = false; ///< the cube map's depth is read after its pass
     bool repeatable = false; ///< equal shots have equal bytes, whatever was drawn before
     Pattern pattern = Pattern::none;
@@ -31,6 +32,7 @@ struct FrameState {
     double pre_exposure = 1; ///< every radiance in the cube map is stored times this
 
     double exposure_of(const Shot& shown) const { return range ? 1 : std::exp2(shown.exposure_ev); } ///< of light, as drawn
+    bool is_here(const Output& output) const { return node.empty() || output.node == node; }
     bool reprojects() const { return layout.stereo.method == StereoMethod::reprojected; }
 };
 

@@ -92,4 +92,16 @@ std::span<const LuminanceSample> Meter::stars() const
         std::size_t(picture_.extent.width) * picture_.extent.height - view};
 }
 
+std::span<LuminanceSample> Meter::rows(const Cell& cell)
+{
+    if (!drawn_)
+        return {};
+    const std::size_t width = picture_.extent.width;
+    return {
+        static_cast<LuminanceSample*>(back_.mapped) + width * std::size_t(cell.corner.y), width * std::size_t(cell.size.y)};
+}
+
+std::span<LuminanceSample> Meter::view(std::size_t view) { return rows(cells_[view]); }
+std::span<LuminanceSample> Meter::stars(std::size_t view) { return rows(star_cells_[view]); }
+
 } // namespace starbow

@@ -28,10 +28,15 @@ public:
     /// that frame.
     std::span<const LuminanceSample> view() const;
     std::span<const LuminanceSample> stars() const;
+    /// The same of one view; they can be replaced.
+    std::span<LuminanceSample> view(std::size_t view);
+    std::span<LuminanceSample> stars(std::size_t view);
 
     vk::DeviceSize memory() const { return picture_.bytes; }
 
 private:
+    std::span<LuminanceSample> rows(const Cell& cell);
+
     std::vector<Cell> cells_, star_cells_;
     int every_ = 1, view_rows_ = 0;
     Image picture_;

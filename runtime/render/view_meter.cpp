@@ -1,5 +1,6 @@
 #include "view_meter.h"
 #include "debug.h"
+#include <algorithm>
 
 namespace starbow {
 
@@ -22,7 +23,7 @@ void ViewMeter::record(vk::CommandBuffer commands)
     device_.begin_rendering(commands, {{}, {{0, 0}, meter_->extent()}, 1, 0, picture});
     for (std::size_t i = 0; i < views_.all.size(); ++i) {
         const ViewState& view = views_.all[i];
-        if (state_.layout.outputs[view.output].preview)
+        if (!counts_here(view))
             continue;
         const Meter::Cell& cell = meter_->cell(i);
         shared::ViewPush constants = constants_.exposed_push(view, 1);
@@ -60,6 +61,39 @@ std::span<const LuminanceSample> ViewMeter::surfaces() const
 std::span<const LuminanceSample> ViewMeter::stars() const
 {
     return state_.meters && meter_ ? meter_->stars() : std::span<const LuminanceSample>();
+}
+
+bool ViewMeter::counts_here(const ViewState& view) const
+{
+    const Output& output = state_.layout.outputs[view.output];
+    return !output.preview && state_.is_here(output);
+}
+
+std::vector<ViewSamples> ViewMeter::own_samples() const
+{
+    std::vector<ViewSamples> all;
+    for (std::size_t i = 0; state_.meters && meter_ && i < views_.all.size(); ++i) {
+        if (!counts_here(views_.all[i]))
+            continue;
+        const std::span<LuminanceSample> surfaces = meter_->view(i), stars = meter_->stars(i);
+        all.push_back({std::int32_t(i), {surfaces.begin(), surfaces.end()}, {stars.begin(), stars.end()}});
+    }
+    return all;
+}
+
+void ViewMeter::add_samples(std::span<const ViewSamples> others)
+{
+    for (const ViewSamples& other : others) {
+        if (!state_.meters || !meter_ || other.view < 0 || std::size_t(other.view) >= views_.all.size()
+            || counts_here(views_.all[std::size_t(other.view)]))
+            continue;
+        const std::span<LuminanceSample> surfaces = meter_->view(std::size_t(other.view)),
+                                         stars = meter_->stars(std::size_t(other.view));
+        if (surfaces.size() != other.surfaces.size() || stars.size() != other.stars.size())
+            continue; // of another layout
+        std::ranges::copy(other.surfaces, surfaces.begin());
+        std::ranges::copy(other.stars, stars.begin());
+    }
 }
 
 } // namespace starbow

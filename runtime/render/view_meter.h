@@ -32,10 +32,14 @@ public:
     /// Its samples; empty where nothing was metered.
     std::span<const LuminanceSample> surfaces() const;
     std::span<const LuminanceSample> stars() const;
+    /// As FrameRenderer's.
+    std::vector<ViewSamples> own_samples() const;
+    void add_samples(std::span<const ViewSamples> others);
     void reset() { meter_.reset(); } ///< call it when the views have changed
     vk::DeviceSize memory() const { return meter_ ? meter_->memory() : 0; }
 
 private:
+    bool counts_here(const ViewState& view) const; ///< an output of this machine, and no preview
     void meter_stars(vk::CommandBuffer commands, const ViewState& view, const Meter::Cell& cell);
 
     Device& device_;
