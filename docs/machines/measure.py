@@ -6,7 +6,7 @@ Usage: docs/machines/measure.py PROGRAM OUT [--seconds 60] [--kill-every 10] [--
 Writes OUT.svg, each node's frame number over time, and prints: the skew between the nodes' words to show a frame, frames that were
 shown with two states, how long the others stood still after a kill, and how soon the killed node was in step again. With
 --kill-every 0 nobody is killed. Needs Xvfb."""
-import argparse, json, os, random, signal, subprocess, sys, tempfile, time
+import argparse, json, os, random, shutil, signal, subprocess, sys, tempfile, time
 from pathlib import Path
 
 
@@ -21,6 +21,9 @@ def arguments():
     parser.add_argument("--scene", default="avenue")
     parser.add_argument("--quality", default="draft")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--logs", type=Path, help="a folder that keeps the logs of the frames")
+    parser.add_argument("--namespaces", default="", help="network namespaces, as ip netns made them, one for each node: A,B,...")
+    parser.add_argument("--interface", default="lo", help="the network of the namespaces, such as 10.77.0.0/24")
     return parser.parse_args()
 
 
@@ -39,15 +42,16 @@ class Nodes:
         (folder / "walls.json").write_text(json.dumps({"outputs": outputs}))
         (folder / "exhibit.json").write_text(json.dumps(
             {"layout": "walls.json", "scene": options.scene, "tutorial": False,
-             "machines": {"master": self.names[0], "interface": "lo", "domain": 20 + os.getpid() % 170}}))
+             "machines": {"master": self.names[0], "interface": options.interface, "domain": 20 + os.getpid() % 170}}))
 
     def begin(self, name):
         life = len(self.logs[name])
         log = self.folder / ("%s-%d.csv" % (name, life))
         self.logs[name].append(log)
         with open(self.folder / ("%s-%d.log" % (name, life)), "w") as said:
+            there = self.options.namespaces.split(",") if self.options.namespaces else []
             self.processes[name] = subprocess.Popen(
-                [self.options.program, "run", "--exhibit", self.folder / "exhibit.json", "--node", name, "--frame-log", log,
+                (["ip", "netns", "exec", there[self.names.index(name)]] if there else []) + [self.options.program, "run", "--exhibit", self.folder / "exhibit.json", "--node", name, "--frame-log", log,
                  "--quality", self.options.quality], stdout=said, stderr=said)
 
     def kill(self, name):
@@ -163,6 +167,10 @@ def main():
             time.sleep(0.05)
         nodes.end()
         rows = {node: nodes.shown(node) for node in nodes.names}
+        if options.logs:
+            options.logs.mkdir(parents=True, exist_ok=True)
+            for log in nodes.folder.glob("*.csv"):
+                shutil.copy(log, options.logs)
     server.terminate()
     server.wait()
 
