@@ -354,7 +354,9 @@ Instant FrameLoop::next_instant(const Head& head)
 
 SharedInstant FrameLoop::shared(const Instant& now) const
 {
+    const std::filesystem::path coming = worlds_.coming();
     return {.scene = shared_name_of_scene(session_.programme.scene),
+        .coming = coming.empty() ? "" : shared_name_of_scene(coming),
         .language = session_.words.language,
         .quality = session_.governor ? "" : session_.quality_name,
         .level = session_.governor ? std::int32_t(session_.governor->level()) : -1,

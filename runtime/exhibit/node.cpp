@@ -12,6 +12,7 @@
 #include "runtime/render/render_context.h"
 #include "screens.h"
 #include "session.h"
+#include "world_loader.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -78,6 +79,7 @@ private:
     std::filesystem::path scene_; ///< the shown one
     std::string scene_name_; ///< as the master names it; empty: the options'
     RenderContext context_;
+    WorldLoader worlds_;
     Screens screens_;
     Words words_;
     std::string language_;
@@ -161,6 +163,10 @@ void Node::follow(const SharedInstant& shared)
             open_world(shared.scene);
         scene_name_ = shared.scene, scene_ = scene;
     }
+    if (!shared.coming.empty())
+        if (const std::filesystem::path coming = shipped_file("scenes", shared.coming); coming != scene_)
+            worlds_.open(coming);
+    worlds_.ready(); // a newer wish follows an older one
     if (shared.language != language_) {
         words_ = shared.language == options_.words.language ? options_.words : words_in(shared.language);
         language_ = shared.language;
@@ -181,7 +187,7 @@ void Node::follow(const SharedInstant& shared)
 void Node::open_world(const std::string& scene)
 {
     const LimitedWait loading("the world " + scene, loading_limit_s);
-    LoadedScene loaded = load_scene(shipped_file("scenes", scene));
+    LoadedScene loaded = worlds_.take(shipped_file("scenes", scene));
     GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), level()); });
     std::swap(context_.world, world);
     make_frame();

@@ -11,6 +11,8 @@ public:
     void open(const std::filesystem::path& scene);
     /// True once the last wish is read, or has failed. Call it each frame.
     bool ready();
+    /// The scene that is being read, or is read and not taken; empty: none.
+    std::filesystem::path coming() const { return work_.valid() ? wanted_ : std::filesystem::path(); }
     /// The scene's files: those that were read, or are being read, or else it reads them now. Throws InputError as
     /// load_scene does.
     LoadedScene take(const std::filesystem::path& scene);

@@ -10,6 +10,7 @@ namespace starbow {
 /// What the master of several machines says of a frame: its instant and the parts of the exhibit that change.
 struct SharedInstant {
     std::string scene; ///< the scene's file, as the master's command line or a remote's names it
+    std::string coming; ///< the scene that the master reads meanwhile, so that all read it at once; empty: none
     std::string language; ///< of the visitors' words
     std::string quality; ///< a quality file's name; empty: `level` counts
     std::int32_t level = -1; ///< of the governor's ladder; -1: none

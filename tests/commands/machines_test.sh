@@ -9,13 +9,14 @@ program=$(realpath "$1") rig=$(dirname "$0")/../rig
 serve Xvfb -noreset -screen 0 800x400x24
 export STARBOW_VALIDATION=1
 domain=$((20 + $$ % 170))
+prepare_remote
 
 output() { # NAME NODE X YAW
     printf '{ "name": "%s", "node": "%s", "size": [160, 120], "place": [%s, 0], "monitor": { "position": [0, 0] }, "viewports": [ { "projection": { "type": "planar", "fov_y_deg": 50, "turn_deg": { "yaw": %s } } } ] }' "$@"
 }
 # The head-up display, whose frame rate differs, is behind the walls.
 printf '{ "hud": { "azimuth_deg": 180, "width_deg": 10 }, "outputs": [ %s, %s, %s, %s ] }\n' "$(output one left 0 -90)" "$(output two left 160 -30)" "$(output three middle 320 30)" "$(output four right 480 90)" >"$folder/walls.json"
-printf '{ "layout": "walls.json", "scene": "avenue", "tutorial": false, "exposure": { "automatic": false }, "machines": { "master": "left", "interface": "lo", "domain": %s } }\n' $domain >"$folder/exhibit.json"
+printf '{ "layout": "walls.json", "scene": "avenue", "tutorial": false, "exposure": { "automatic": false }, "remote": { "port": %s, "pins": "pins" }, "machines": { "master": "left", "interface": "lo", "domain": %s } }\n' $port $domain >"$folder/exhibit.json"
 
 declare -A at
 begin() { # NODE OPTIONS...
@@ -39,6 +40,10 @@ started+=($one)
 until_true 60 lit 320 || fail "one program: no picture"
 sleep 2
 shot one
+ask scene chart >/dev/null
+is scene chart 60
+sleep 3
+shot chart
 kill -INT $one
 wait $one || fail "one program: exit $?"
 ok
@@ -50,8 +55,15 @@ begin left --quality fine
 for node in middle right; do until_true 60 says left "node '$node' is in step" || fail "$node does not join: $(cat "$folder/left.log" "$folder/$node.log")"; done
 ok
 until_true 60 lit 480 || fail "right: no picture"
-alike() { shot three && same one three; }
+alike() { shot three && same "${1:-one}" three; }
 until_true 20 alike || fail "three programs show something else than one: $(compare -metric AE "$folder/one.png" "$folder/three.png" null: 2>&1) pixels differ"
+ok
+
+# Another world, and back.
+ask scene chart >/dev/null
+until_true 60 alike chart || fail "three programs show something else than one in another world"
+ask scene avenue >/dev/null
+until_true 60 alike || fail "three programs show something else than one, back in the first world"
 ok
 
 # A node is killed: the others go on. It comes back, in step.

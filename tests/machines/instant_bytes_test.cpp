@@ -12,7 +12,8 @@ namespace {
 /// An instant in which every part differs from its default.
 SharedInstant full()
 {
-    SharedInstant shared{.scene = "gamow", .language = "de", .quality = "fine", .level = 3, .instant = {}};
+    SharedInstant shared{
+        .scene = "gamow", .coming = "train", .language = "de", .quality = "fine", .level = 3, .instant = {}};
     Instant& now = shared.instant;
     now.shot = {"gamow", 1.25, {1, 2, 3}, {0.1, -7, 1e5}, {0.5, 0.5, -0.5, 0.5},
         {false, false, false, Comparison::galilean, true}, -2.5};
@@ -49,6 +50,7 @@ TEST(InstantBytesTest, EveryPartComesBack)
     const SharedInstant come = instant_of(bytes);
     EXPECT_EQ(bytes_of(come), bytes);
     EXPECT_EQ(come.scene, "gamow");
+    EXPECT_EQ(come.coming, "train");
     EXPECT_EQ(come.language, "de");
     EXPECT_EQ(come.level, 3);
     const Instant &a = sent.instant, &b = come.instant;
