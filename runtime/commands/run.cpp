@@ -153,6 +153,15 @@ ExhibitOptions open(const RunOptions& options)
     return exhibit_options;
 }
 
+/// True for a machine that shows what its master says.
+bool follows_master(const RunOptions& options)
+{
+    if (options.node.empty())
+        return false;
+    const Exhibit exhibit = load_exhibit(shipped_file("exhibits", options.exhibit));
+    return exhibit.machines && exhibit.machines->master != options.node;
+}
+
 /// The options after many disorderly ends: what is drawn may be what ended them.
 RunOptions careful(RunOptions options, int ends)
 {
@@ -182,7 +191,7 @@ int run(const RunOptions& given)
     std::optional<Ends> ends;
     if (Service().supervised())
         ends.emplace(state_folder(), std::time(nullptr));
-    const bool care = ends && ends->lately() >= most_ends;
+    const bool care = ends && ends->lately() >= most_ends && !follows_master(given);
     RunOptions options = care ? careful(given, ends->lately()) : given;
     if (ends && ends->lately() > 0 && options.language.empty())
         options.language = language_after_crash();

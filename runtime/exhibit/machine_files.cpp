@@ -5,9 +5,13 @@
 #include "runtime/operation/log.h"
 #include "runtime/operation/record_files.h"
 #include "runtime/world/open_scene.h"
+#include <algorithm>
 
 namespace starbow {
 namespace fs = std::filesystem;
+
+/// Before the names of a scene's files. A master after many disorderly ends shows another one than the exhibit's.
+static constexpr std::string_view scenes = "the scene's ";
 
 ConfigMessage config_of(const ExhibitOptions& options)
 {
@@ -19,28 +23,35 @@ ConfigMessage config_of(const ExhibitOptions& options)
     add("the program", {fs::read_symlink("/proc/self/exe", error)});
     for (const fs::path& file : files_of(options.layout)) // the layout first, then its calibrations
         add(file.filename().string(), {file});
-    const fs::path& scene = options.programme.scene;
-    add(scene.filename().string(), {scene});
-    if (const fs::path gltf = open_scene(scene).gltf; !gltf.empty())
-        add(gltf.filename().string(), {gltf});
     add(options.words.file.filename().string(), {options.words.file});
+    const fs::path& scene = options.programme.scene;
+    const fs::path gltf = open_scene(scene).gltf;
+    for (const fs::path& file : {scene, gltf})
+        if (!file.empty())
+            add(std::string(scenes) + file.filename().string(), {file});
     return config;
 }
 
 std::string difference(const ConfigMessage& node, const ConfigMessage& master)
 {
-    for (std::size_t i = 0; i < std::max(node.files.size(), master.files.size()); ++i) {
-        if (i >= node.files.size() || i >= master.files.size() || node.files[i].first != master.files[i].first) {
-            const std::string here = i < node.files.size() ? node.files[i].first : "none",
-                              there = i < master.files.size() ? master.files[i].first : "none";
-            return "node '" + one_line(node.node) + "' has the file " + one_line(here) + " where the master '"
-                + one_line(master.node) + "' has " + one_line(there) + "; the same exhibit on both is right";
-        }
-        if (node.files[i].second != master.files[i].second)
-            return "node '" + one_line(node.node) + "' has another " + one_line(node.files[i].first) + " ("
-                + one_line(node.files[i].second) + ") than the master '" + one_line(master.node) + "' ("
-                + one_line(master.files[i].second) + "); the same file on both is right";
+    const auto find = [](const ConfigMessage& in, const std::string& name) {
+        return std::ranges::find(in.files, name, [](const auto& file) { return file.first; });
+    };
+    const std::string of_node = "node '" + one_line(node.node) + "'",
+                      of_master = "the master '" + one_line(master.node) + "'";
+    for (const auto& [name, digest] : node.files) {
+        const auto same = find(master, name);
+        if (same != master.files.end() && same->second != digest)
+            return of_node + " has another " + one_line(name) + " (" + one_line(digest) + ") than " + of_master + " ("
+                + one_line(same->second) + "); the same file on both is right";
+        if (same == master.files.end() && !name.starts_with(scenes))
+            return of_node + " has the file " + one_line(name) + ", and " + of_master
+                + " has not; the same exhibit on both is right";
     }
+    for (const auto& [name, digest] : master.files)
+        if (find(node, name) == node.files.end() && !name.starts_with(scenes))
+            return of_node + " has not the file " + one_line(name) + " of " + of_master
+                + "; the same exhibit on both is right";
     return "";
 }
 

@@ -212,7 +212,8 @@ template <class Part> void take(Part& part, Instant& now)
 
 template <class Part> void take(Part& part, SharedInstant& shared)
 {
-    take(part, shared.scene), take(part, shared.coming), take(part, shared.language), take(part, shared.quality), take(part, shared.level);
+    take(part, shared.scene), take(part, shared.coming), take(part, shared.language), take(part, shared.quality),
+        take(part, shared.level);
     take(part, shared.instant);
 }
 
