@@ -154,6 +154,7 @@ bool FrameLoop::fly_frame()
         device_.await(*done_, "the end of the frame's drawing (fence)");
         master_->go();
         session_.missing = master_->missing();
+        session_.machines = 1 + master_->nodes(), session_.machines_in_step = 1 + master_->nodes_in_step();
         frame_->add_samples(master_->samples());
     }
     screens_.present(session_.skew);

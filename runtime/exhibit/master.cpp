@@ -44,6 +44,11 @@ std::vector<ViewSamples> Master::samples() const
     return all;
 }
 
+std::size_t Master::nodes_in_step() const
+{
+    return std::size_t(std::ranges::count_if(gate_.nodes(), [](const auto& node) { return node.second.in; }));
+}
+
 std::string Master::missing() const
 {
     std::string names;

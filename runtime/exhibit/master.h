@@ -19,6 +19,8 @@ public:
 
     /// The luminance samples of the nodes in step, as they last said.
     std::vector<ViewSamples> samples() const;
+    std::size_t nodes() const { return gate_.nodes().size(); } ///< without the master
+    std::size_t nodes_in_step() const;
     /// The names of the nodes that are not in step, with commas; empty where all are.
     std::string missing() const;
     /// The time that the slowest node in step has taken to draw a frame, ms.

@@ -84,7 +84,7 @@ private:
     Words words_;
     std::string language_;
     std::unique_ptr<FrameRenderer> frame_;
-    Quality quality_;
+    std::optional<std::pair<std::int32_t, std::string>> chosen_; ///< SharedInstant's level and quality; none: not yet
     InstantPictures pictures_;
     vk::raii::Fence done_;
     vk::raii::CommandBuffers commands_;
@@ -115,11 +115,13 @@ Quality Node::quality_of(const SharedInstant& shared) const
 
 void Node::make_frame()
 {
-    quality_ = options_.quality ? within(context_.device, *options_.quality) : default_quality(context_.device, false);
+    const Quality first
+        = options_.quality ? within(context_.device, *options_.quality) : default_quality(context_.device, false);
     frame_ = in_room([&] {
         return std::make_unique<FrameRenderer>(
-            context_.device, context_.pipelines, context_.world, options_.layout, quality_, false);
+            context_.device, context_.pipelines, context_.world, options_.layout, first, false);
     });
+    chosen_.reset();
     frame_->only(options_.node);
     frame_->repeatable(true); // each machine's pictures are those of one that has drawn all before
     pictures_.forget();
@@ -178,9 +180,9 @@ void Node::follow(const SharedInstant& shared)
                 && (mark->frame < 0 || std::size_t(mark->frame) >= std::max<std::size_t>(world.frames.size(), 1)
                     || (mark->clock && *mark->clock >= world.instances.size())))
                 throw InputError("a state of the exhibit's machines has a mark on a thing that is not in the world");
-    if (const Quality wanted = quality_of(shared); wanted != quality_) {
-        frame_->adopt(wanted);
-        quality_ = wanted;
+    if (const std::pair choice(shared.level, shared.quality); choice != chosen_) {
+        frame_->adopt(quality_of(shared));
+        chosen_ = choice;
     }
 }
 

@@ -414,6 +414,8 @@ bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelin
             .outputs_shown = outputs_shown,
             .outputs = session.layout.outputs.size(),
             .pipelines = pipelines,
+            .machines = session.machines,
+            .machines_in_step = session.machines_in_step,
             .version = session.options.version});
 }
 

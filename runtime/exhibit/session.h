@@ -82,6 +82,7 @@ struct Session {
     Layout kept; ///< the file's layout, without a builder's unsaved changes
     LayoutLoader loader; ///< follows the files of `layout`
     std::string missing{}; ///< the exhibit's machines that are not in step, with commas
+    std::size_t machines = 1, machines_in_step = 1; ///< this one and the others
     std::string refused; ///< the reason why a changed layout was not applied, for the head-up display
     std::optional<Guide> guide;
     std::unique_ptr<ShownRecord> shown_record; ///< the attraction's; null: none

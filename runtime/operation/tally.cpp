@@ -155,6 +155,8 @@ std::string exposition_of(const Tally& since_start, const Gauges& now)
     out.one("worn_axes", "gauge", "Axes that are stuck or noisy and left out.", double(now.worn_axes));
     out.one("outputs", "gauge", "Outputs of the layout.", double(now.outputs));
     out.one("outputs_shown", "gauge", "Outputs with a picture now.", double(now.outputs_shown));
+    out.one("machines", "gauge", "Machines that show the exhibit.", double(now.machines));
+    out.one("machines_in_step", "gauge", "Machines that show it now.", double(now.machines_in_step));
     return out.text;
 }
 

@@ -39,7 +39,7 @@ Tally tally_of(const nlohmann::json& json);
 struct Gauges {
     double uptime_s = 0;
     std::size_t resident_bytes = 0, files = 0, threads = 0, devices = 0, worn_axes = 0, outputs_shown = 0, outputs = 0,
-                pipelines = 0;
+                pipelines = 0, machines = 1, machines_in_step = 1;
     std::string version;
 };
 

@@ -203,7 +203,7 @@ void EyeCubes::request_views(std::size_t i, double pre_exposure, const Probe* pr
         eye.nearest.push_back(state_.reprojects() ? std::max(nearest_box(world_.world, eye_event), 1e-30) : 1);
         RestFrameRequest& request = eye.requests[at];
         request.views.clear();
-        std::vector<bool> here; // of the views in the request
+        std::vector<bool> here; // of the views in the request; empty where all are
         request.E = rest_frame.E;
         request.cube_from_motion = rest_frame.cube_from_motion;
         request.galilean = observers[eye.observer].shot.effects.comparison == Comparison::galilean;
@@ -218,7 +218,7 @@ void EyeCubes::request_views(std::size_t i, double pre_exposure, const Probe* pr
         };
         for (const ViewState& view : views_.all) {
             add(view);
-            if (view.eye == i)
+            if (!all_here && view.eye == i)
                 here.push_back(state_.is_here(state_.layout.outputs[view.output]));
         }
         // A request within the first view's would change nothing but the rounding of the plan.

@@ -70,6 +70,7 @@ ok
 frames() { wc -l <"$folder/$1.csv"; }
 stop right
 until_true 20 says left "node 'right' was silent for 6 frames" || fail "left does not miss right"
+is error 'not in step: right'
 before=$(frames middle)
 sleep 1
 [ "$(frames middle)" -gt "$before" ] || fail "middle stands still without right"
