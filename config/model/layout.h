@@ -237,6 +237,9 @@ struct Layout {
     std::vector<Output> outputs;
 };
 
+/// True for an output that the machine `node` shows; empty: it shows all.
+inline bool is_shown_by(const std::string& node, const Output& output) { return node.empty() || output.node == node; }
+
 /// The machines of a layout's outputs, in their order; none where one machine shows all.
 std::vector<std::string> nodes_of(const Layout& layout);
 

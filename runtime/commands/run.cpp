@@ -132,11 +132,11 @@ ExhibitOptions open(const RunOptions& options)
     exhibit_options.textfile = exhibit.textfile;
     exhibit_options.remote = exhibit.remote;
     exhibit_options.presenter = exhibit.presenter;
-    if (!options.node.empty())
+    if (!options.node.empty()) {
         check_node(options.node, options.exhibit, exhibit.machines, exhibit_options.layout);
-    if (!options.node.empty())
-        exhibit_options.machines = exhibit.machines, exhibit_options.node = options.node,
+        exhibit_options.machines = exhibit.machines, exhibit_options.node = options.node;
         exhibit_options.frame_log = options.frame_log;
+    }
     if (options.presenter && !exhibit_options.presenter)
         exhibit_options.presenter.emplace();
     if (options.careful || (options.tour.empty() && options.scene.empty() && options.shot.empty()))

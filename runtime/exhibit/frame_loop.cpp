@@ -1,7 +1,6 @@
 #include "frame_loop.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
-#include "machine_files.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/progress.h"
 #include "runtime/operation/record_files.h"
@@ -120,7 +119,7 @@ bool FrameLoop::fly_frame()
         remote_.shown(session_); // there is no picture to wait for
         if (master_) { // but the other machines have some
             master_->send(shared(next_instant(controls.head)));
-            master_->go();
+            let_go();
         }
         guide_.show(session_, screens_.monitors());
         return true;
@@ -152,9 +151,7 @@ bool FrameLoop::fly_frame()
     const Clock::time_point handed = Clock::now();
     if (master_) {
         device_.await(*done_, "the end of the frame's drawing (fence)");
-        master_->go();
-        session_.missing = master_->missing();
-        session_.machines = 1 + master_->nodes(), session_.machines_in_step = 1 + master_->nodes_in_step();
+        let_go();
         frame_->add_samples(master_->samples());
     }
     screens_.present(session_.skew);
@@ -353,11 +350,18 @@ Instant FrameLoop::next_instant(const Head& head)
     return now;
 }
 
+void FrameLoop::let_go()
+{
+    master_->go();
+    session_.missing = master_->missing();
+    session_.machines = 1 + master_->nodes(), session_.machines_in_step = 1 + master_->nodes_in_step();
+}
+
 SharedInstant FrameLoop::shared(const Instant& now) const
 {
     const std::filesystem::path coming = worlds_.coming();
-    return {.scene = shared_name_of_scene(session_.programme.scene),
-        .coming = coming.empty() ? "" : shared_name_of_scene(coming),
+    return {.scene = master_->name_of(session_.programme.scene),
+        .coming = coming.empty() ? "" : master_->name_of(coming),
         .language = session_.words.language,
         .quality = session_.governor ? "" : session_.quality_name,
         .level = session_.governor ? std::int32_t(session_.governor->level()) : -1,

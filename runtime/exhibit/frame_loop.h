@@ -83,6 +83,8 @@ private:
     Instant next_instant(const Head& head);
     /// The same for the other machines.
     SharedInstant shared(const Instant& now) const;
+    /// Lets all machines show the frame, and keeps the names of those that are not in step.
+    void let_go();
     /// These two enclose FrameRenderer::draw with the timer and the layout transitions of the windows' images. The commands
     /// are in two buffers, of which only the second waits for the screens.
     void begin_commands();

@@ -44,6 +44,14 @@ std::vector<ViewSamples> Master::samples() const
     return all;
 }
 
+const std::string& Master::name_of(const std::filesystem::path& scene)
+{
+    const auto [known, is_new] = names_.try_emplace(scene);
+    if (is_new)
+        known->second = shared_name_of_scene(scene);
+    return known->second;
+}
+
 std::size_t Master::nodes_in_step() const
 {
     return std::size_t(std::ranges::count_if(gate_.nodes(), [](const auto& node) { return node.second.in; }));
@@ -56,14 +64,6 @@ std::string Master::missing() const
         if (!node.in)
             names += (names.empty() ? "" : ", ") + name;
     return names;
-}
-
-double Master::slowest_ms() const
-{
-    double slowest = 0;
-    for (const auto& [name, node] : gate_.nodes())
-        slowest = std::max(slowest, node.in ? node.frame_ms : 0);
-    return slowest;
 }
 
 void Master::send(const SharedInstant& shared)

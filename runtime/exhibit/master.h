@@ -24,7 +24,9 @@ public:
     /// The names of the nodes that are not in step, with commas; empty where all are.
     std::string missing() const;
     /// The time that the slowest node in step has taken to draw a frame, ms.
-    double slowest_ms() const;
+    double slowest_ms() const { return gate_.slowest_ms(); }
+    /// The name by which the nodes find a scene: shared_name_of_scene's, looked up once.
+    const std::string& name_of(const std::filesystem::path& scene);
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -36,6 +38,7 @@ private:
     Gate gate_;
     std::map<std::string, std::vector<ViewSamples>> samples_; ///< by node
     std::map<std::string, std::string> refusals_; ///< by node, as last logged
+    std::map<std::filesystem::path, std::string> names_; ///< of scenes
     FrameLog log_;
     std::int64_t frame_; ///< of the last state
     std::uint64_t digest_ = 0;

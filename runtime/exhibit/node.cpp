@@ -33,7 +33,7 @@ public:
         , config_(config_of(options))
         , bus_(options.machines.value().interface, options.machines->domain)
         , scene_(options.programme.scene)
-        , context_(scene_, device_options(true), level())
+        , context_(scene_, device_options(true), spectral_level_of(options))
         , screens_(context_.device, options.layout, options.node)
         , words_(options.words)
         , done_(context_.device.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
@@ -57,12 +57,6 @@ public:
     const Device& device() const { return context_.device; }
 
 private:
-    std::optional<SpectralLevel> level() const
-    {
-        if (options_.frame_budget_ms > 0)
-            return options_.ladder[0].quality.spectra;
-        return options_.quality ? options_.quality->spectra : std::nullopt;
-    }
     Quality quality_of(const SharedInstant& shared) const;
     void make_frame();
     void listen();
@@ -80,6 +74,7 @@ private:
     std::string scene_name_; ///< as the master names it; empty: the options'
     RenderContext context_;
     WorldLoader worlds_;
+    std::string coming_; ///< SharedInstant's
     Screens screens_;
     Words words_;
     std::string language_;
@@ -165,9 +160,8 @@ void Node::follow(const SharedInstant& shared)
             open_world(shared.scene);
         scene_name_ = shared.scene, scene_ = scene;
     }
-    if (!shared.coming.empty())
-        if (const std::filesystem::path coming = shipped_file("scenes", shared.coming); coming != scene_)
-            worlds_.open(coming);
+    if (std::exchange(coming_, shared.coming) != shared.coming && !coming_.empty())
+        worlds_.open(shipped_file("scenes", coming_));
     worlds_.ready(); // a newer wish follows an older one
     if (shared.language != language_) {
         words_ = shared.language == options_.words.language ? options_.words : words_in(shared.language);
@@ -190,7 +184,7 @@ void Node::open_world(const std::string& scene)
 {
     const LimitedWait loading("the world " + scene, loading_limit_s);
     LoadedScene loaded = worlds_.take(shipped_file("scenes", scene));
-    GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), level()); });
+    GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), spectral_level_of(options_)); });
     std::swap(context_.world, world);
     make_frame();
     log_world(context_);

@@ -65,7 +65,7 @@ private:
     void list_handles();
     void time_on_screen(Skew& skew);
 
-    bool is_here(const Screen& screen) const { return node_.empty() || screen.output.node == node_; }
+    bool is_here(const Screen& screen) const { return is_shown_by(node_, screen.output); }
 
     Device& device_;
     std::string node_;

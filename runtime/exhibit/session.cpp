@@ -257,6 +257,13 @@ void log_world(const RenderContext& context)
     print_message(describe_light(context));
 }
 
+std::optional<SpectralLevel> spectral_level_of(const ExhibitOptions& options)
+{
+    if (const std::optional<Governor> governor = governor_of(options))
+        return governor->ladder()[0].quality.spectra;
+    return options.quality ? options.quality->spectra : std::nullopt;
+}
+
 Quality quality_of(const Session& session, const Device& device)
 {
     if (session.governor)
@@ -277,6 +284,8 @@ bool take_coarser_level(Session& session, std::size_t level, const std::string& 
 
 bool shows_pins(const Session& session) { return !session.pins.empty() && session.alignment.pattern() != Pattern::none; }
 
+std::string steps_of(const Session& session) { return session.missing.empty() ? "" : "not in step: " + session.missing; }
+
 std::string notice_of(const Session& session)
 {
     if (!session.alignment.says().empty())
@@ -285,8 +294,8 @@ std::string notice_of(const Session& session)
         return session.refused;
     if (const std::string trouble = session.hid.trouble(); !trouble.empty())
         return trouble;
-    if (!session.missing.empty())
-        return "not in step: " + session.missing;
+    if (const std::string steps = steps_of(session); !steps.empty())
+        return steps;
     if (session.tracker && !session.tracker->heard(Session::Clock::now()))
         return "no head tracker is heard on port " + std::to_string(session.tracker->tracking().port);
     if (session.governor)

@@ -161,6 +161,8 @@ std::optional<Guide> guide_of(const Programme& programme, const Flying& rules, b
 std::optional<Governor> governor_of(const ExhibitOptions& options);
 /// The spectral level that the qualities request; none: the world's own need.
 std::optional<SpectralLevel> spectral_level_of(const Session& session);
+/// The same for an exhibit's start.
+std::optional<SpectralLevel> spectral_level_of(const ExhibitOptions& options);
 /// Logs the remarks on a newly loaded world and its spectral level.
 void log_world(const RenderContext& context);
 /// The quality of the next frame.
@@ -174,6 +176,8 @@ const std::optional<RangeCurve>& curve_of(const Session& session);
 double ev_of(const Session& session);
 /// True while a test pattern, which only a builder calls up, shows the drawn PINs.
 bool shows_pins(const Session& session);
+/// A sentence about the machines that are not in step; empty where all are.
+std::string steps_of(const Session& session);
 /// The line below the head-up display's figures.
 std::string notice_of(const Session& session);
 /// True once the requested frames are shown, or a remote or the caller says so.

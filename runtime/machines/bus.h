@@ -39,7 +39,7 @@ struct ConfigMessage {
     std::vector<std::pair<std::string, std::string>> files;
 };
 
-/// What the machines of one exhibit tell each other, on one network interface: topics of DDS (machines.idl). A node that
+/// The messages between the machines of one exhibit, on one network interface: topics of DDS (machines.idl). A node that
 /// joins late receives the last state and every config.
 class Bus {
 public:
@@ -54,7 +54,7 @@ public:
     void send(const GoMessage& go);
     void send(const ConfigMessage& config);
 
-    /// What has come since the last call. Of states and goes only the last counts.
+    /// The messages that have come since the last call. Of states and goes only the last counts.
     std::optional<StateMessage> state();
     std::optional<GoMessage> go();
     std::vector<ReadyMessage> readies();

@@ -38,14 +38,15 @@ bool Gate::complete() const
     return std::ranges::all_of(nodes_, [&](const auto& node) { return !node.second.in || node.second.heard >= frame_; });
 }
 
-double Gate::bound_s() const
+double Gate::slowest_ms() const
 {
-    double slowest_ms = 0;
+    double slowest = 0;
     for (const auto& [name, node] : nodes_)
-        if (node.in)
-            slowest_ms = std::max(slowest_ms, node.frame_ms);
-    return std::clamp(2e-3 * slowest_ms, least_wait_s, most_wait_s);
+        slowest = std::max(slowest, node.in ? node.frame_ms : 0);
+    return slowest;
 }
+
+double Gate::bound_s() const { return std::clamp(2e-3 * slowest_ms(), least_wait_s, most_wait_s); }
 
 GoMessage Gate::go()
 {

@@ -5,7 +5,7 @@
 
 namespace starbow {
 
-/// What has happened to a node, for the log.
+/// A change of a node, for the log.
 struct NodeEvent {
     enum class Kind { joins, leaves, differs } kind;
     std::string node;
@@ -31,6 +31,8 @@ public:
     void refuse(const std::string& node, bool refused);
     /// True when all who are in are ready for the frame.
     bool complete() const;
+    /// The time that the slowest node in step has taken to draw a frame, ms.
+    double slowest_ms() const;
     /// Seconds that the frame may wait from its beginning on.
     double bound_s() const;
     /// Ends the frame. Returns the nodes in step with it.

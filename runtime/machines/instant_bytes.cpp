@@ -45,13 +45,10 @@ struct Reader {
 template <class Part> std::uint32_t length(Part& part, std::size_t of, std::uint32_t most)
 {
     auto count = std::uint32_t(of);
-    if constexpr (Part::reads) {
-        part.raw(&count, sizeof count);
-        if (count > most)
-            throw InputError("a state of the exhibit's machines has a part of " + std::to_string(count) + "; at most "
-                + std::to_string(most) + " is right");
-    } else
-        part.raw(&count, sizeof count);
+    part.raw(&count, sizeof count);
+    if (Part::reads && count > most)
+        throw InputError("a state of the exhibit's machines has a part of " + std::to_string(count) + "; at most "
+            + std::to_string(most) + " is right");
     return count;
 }
 
@@ -93,13 +90,7 @@ template <class Part> void take(Part& part, std::string& text)
     part.raw(text.data(), count);
 }
 
-template <class Part> void take(Part& part, glm::dvec2& v) { take(part, v.x), take(part, v.y); }
 template <class Part> void take(Part& part, glm::dvec3& v) { take(part, v.x), take(part, v.y), take(part, v.z); }
-template <class Part> void take(Part& part, glm::vec3& v) { take(part, v.x), take(part, v.y), take(part, v.z); }
-template <class Part> void take(Part& part, glm::vec4& v)
-{
-    take(part, v.x), take(part, v.y), take(part, v.z), take(part, v.w);
-}
 template <class Part> void take(Part& part, glm::dquat& q)
 {
     take(part, q.w), take(part, q.x), take(part, q.y), take(part, q.z);

@@ -7,7 +7,7 @@
 
 namespace starbow {
 
-/// What the master of several machines says of a frame: its instant and the parts of the exhibit that change.
+/// The master's message about a frame: its instant, and the parts of the exhibit that change.
 struct SharedInstant {
     std::string scene; ///< the scene's file, as the master's command line or a remote's names it
     std::string coming; ///< the scene that the master reads meanwhile, so that all read it at once; empty: none

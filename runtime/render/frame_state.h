@@ -32,7 +32,7 @@ struct FrameState {
     double pre_exposure = 1; ///< every radiance in the cube map is stored times this
 
     double exposure_of(const Shot& shown) const { return range ? 1 : std::exp2(shown.exposure_ev); } ///< of light, as drawn
-    bool is_here(const Output& output) const { return node.empty() || output.node == node; }
+    bool is_here(const Output& output) const { return is_shown_by(node, output); }
     bool reprojects() const { return layout.stereo.method == StereoMethod::reprojected; }
 };
 

@@ -32,7 +32,7 @@ public:
     /// Its samples; empty where nothing was metered.
     std::span<const LuminanceSample> surfaces() const;
     std::span<const LuminanceSample> stars() const;
-    /// As FrameRenderer's.
+    /// FrameRenderer describes both.
     std::vector<ViewSamples> own_samples() const;
     void add_samples(std::span<const ViewSamples> others);
     void reset() { meter_.reset(); } ///< call it when the views have changed
