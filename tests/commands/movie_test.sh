@@ -92,6 +92,10 @@ film first --join >/dev/null 2>"$folder/errors" && fail "half a movie is joined"
 ok grep -q '15 of 30 frames are missing, frame 1 the first of them' "$folder/errors"
 film first --join --others "$folder/second.mp4.frames" >/dev/null || fail "joining two folders"
 ok cmp "$folder/whole.mp4" "$folder/first.mp4"
+# A machine that has drawn no part joins those of others.
+film third --part 1/2 >/dev/null 2>&1 || fail "a part"
+film head --join --others "$folder/second.mp4.frames" "$folder/third.mp4.frames" >/dev/null || fail "joining the folders of others alone"
+ok cmp "$folder/whole.mp4" "$folder/head.mp4"
 
 # refused TEXT COMMAND...: exit 2, one line, and nothing drawn.
 refused() { # TEXT STATUS COMMAND...
@@ -110,6 +114,9 @@ refused 'its frames have another "sizes": ["64x48"] there, ["32x32"] here' film 
 size=64x48
 ok [ "$(ls "$folder/mixed.mp4.frames" | grep -c 'png$')" = 15 ]
 refused 'holds no frames of a movie' film mixed --join --others "$folder"
+refused 'there is nothing to join' film nowhere --join
+ok [ ! -e "$folder/nowhere.mp4.frames" ]
+refused 'holds no frames of a movie' film nowhere --join --others "$folder/third.mp4.frames" "$folder"
 for part in 0/2 3/2 2 1/ a/b 1/2x; do refused "--part $part is no part" film mixed --part $part; done
 refused '--join' film mixed --part 1/2 --join
 mkdir "$folder/empty"

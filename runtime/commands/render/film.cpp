@@ -43,11 +43,20 @@ std::string line_of(nlohmann::ordered_json json, const FilmOptions& options, con
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-/// The device that a movie's frames were drawn on; empty where there are none.
-std::string kept_device(const std::string& movie)
+/// The device that the parts of a movie were drawn on, here or into the folders of others. Throws InputError where there
+/// is no part.
+std::string device_of_parts(const FilmOptions& options)
 {
-    const auto kept = nlohmann::json::parse(MovieFrames::made_from(MovieFrames::folder_of(movie)), nullptr, false);
-    return kept.is_object() ? kept.value("device", "") : "";
+    std::vector<fs::path> folders{MovieFrames::folder_of(options.movie)};
+    folders.insert(folders.end(), options.others.begin(), options.others.end());
+    for (const fs::path& folder : folders) {
+        const auto kept = nlohmann::json::parse(MovieFrames::made_from(folder), nullptr, false);
+        if (kept.is_object())
+            return kept.value("device", "");
+    }
+    throw InputError(one_line(folders.front().string()), "",
+        "is no folder of frames, so there is nothing to join; all parts drawn before, or --others with the folders of their "
+        "frames, is right");
 }
 
 void print_line(const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }
@@ -84,7 +93,7 @@ Filming::Filming(const FilmOptions& options, const Layout& layout, const fs::pat
     , frames_(frames)
     , kept_(options.movie,
           line_of(std::move(made_from), options, layout, scene, words, frames,
-              options.joins ? kept_device(options.movie) : device),
+              options.joins ? device_of_parts(options) : device),
           options.joins || !options.part.whole(), print_line)
 {
     catch_interrupts();
