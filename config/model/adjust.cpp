@@ -1,4 +1,6 @@
 #include "adjust.h"
+#include "config/json/error.h"
+#include "config/json/reader.h"
 #include <algorithm>
 #include <cmath>
 
@@ -36,6 +38,21 @@ double* place_of(Layout& layout, const Adjustable& a, const Adjustable::Spot& sp
         return &mirror->dome_tilt_deg;
     Turn& turn = *turn_of(projection);
     return a.kind == Kind::yaw ? &turn.yaw_deg : a.kind == Kind::pitch ? &turn.pitch_deg : &turn.roll_deg;
+}
+
+/// The least and the largest value by the file format.
+std::pair<double, double> range_of(Kind kind)
+{
+    switch (kind) {
+    case Kind::blend_power:
+        return {0.1, 10};
+    case Kind::hud_elevation:
+        return {-90, 90};
+    case Kind::tilt:
+        return {-180, 180};
+    default:
+        return {-360, 360};
+    }
 }
 
 /// The numbers of one viewport.
@@ -118,9 +135,7 @@ Layout adjusted(Layout layout, const Adjustable& adjustable, double steps)
 {
     double value = value_of(layout, adjustable);
     // Rounded to whole steps, so that the file reads 30.1 and not 30.099999.
-    const bool dome = adjustable.kind == Kind::tilt, display = adjustable.kind == Kind::hud_elevation;
-    const double high = adjustable.kind == Kind::blend_power ? 10 : display ? 90 : dome ? 180 : 360;
-    const double low = adjustable.kind == Kind::blend_power ? 0.1 : -high;
+    const auto [low, high] = range_of(adjustable.kind);
     value = std::clamp(std::round((value / adjustable.step + steps) * 1e6) * 1e-6 * adjustable.step, low, high);
     for (const Adjustable::Spot& spot : adjustable.spots)
         *place_of(layout, adjustable, spot) = std::round(value * 1e6) / 1e6;
@@ -137,6 +152,34 @@ std::vector<Change> changes(const Layout& saved, const Layout& now)
             all.push_back({one.spots[0].pointer, value});
     }
     return all;
+}
+
+std::vector<TurnedNumber> turned_numbers(const Layout& kept, const Layout& now)
+{
+    std::vector<TurnedNumber> numbers;
+    const std::vector<Adjustable> all = adjustables(kept);
+    for (std::size_t place = 0; place < all.size(); ++place)
+        if (const double value = value_of(now, all[place]);
+            all[place].spots.size() == 1 && value != value_of(kept, all[place]))
+            numbers.push_back({std::uint16_t(place), value});
+    return numbers;
+}
+
+Layout with_turned(Layout kept, std::span<const TurnedNumber> numbers)
+{
+    const std::vector<Adjustable> all = adjustables(kept);
+    for (const TurnedNumber& number : numbers) {
+        if (number.place >= all.size() || all[number.place].spots.size() != 1)
+            throw InputError(kept.name + ": the number in place " + std::to_string(number.place)
+                + " can't be turned; a place below " + std::to_string(all.size()) + " is right");
+        const Adjustable& one = all[number.place];
+        const auto [low, high] = range_of(one.kind);
+        if (!(number.value >= low && number.value <= high))
+            throw InputError(kept.name + ": " + one.name + " can't become " + shown(number.value) + "; a number from "
+                + shown(low) + " to " + shown(high) + " is right");
+        *place_of(kept, one, one.spots[0]) = number.value;
+    }
+    return kept;
 }
 
 Layout turned_again(Layout fresh, const Layout& kept, const Layout& turned)

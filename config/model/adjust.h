@@ -1,6 +1,8 @@
 #pragma once
 #include "config/json/patch.h"
 #include "layout.h"
+#include <cstdint>
+#include <span>
 
 namespace starbow {
 
@@ -29,6 +31,19 @@ Layout adjusted(Layout layout, const Adjustable& adjustable, double steps);
 
 /// The differences of two layouts as changes of the first one's file. Members that the first lacks are left out.
 std::vector<Change> changes(const Layout& saved, const Layout& now);
+
+/// A number that a builder has turned: its place among the adjustables of the file's layout, and its value.
+struct TurnedNumber {
+    std::uint16_t place = 0;
+    double value = 0;
+    bool operator==(const TurnedNumber&) const = default;
+};
+
+/// The differences of a layout from its file's, for another machine that has the same file.
+std::vector<TurnedNumber> turned_numbers(const Layout& kept, const Layout& now);
+
+/// A file's layout with such differences. Throws InputError for a place or a value that the layout has not.
+Layout with_turned(Layout kept, std::span<const TurnedNumber> numbers);
 
 /// A newly read layout with the builder's changes since the last reading (from `kept` to `turned`). Numbers that the file
 /// itself has changed keep the file's value.

@@ -67,6 +67,8 @@ enum class LogKind : std::uint8_t {
     master_back,
     state_unread,
     network_routed,
+    screens_together,
+    screens_apart,
 };
 
 struct LogRule {
@@ -133,9 +135,11 @@ inline constexpr auto log_rules = std::to_array<LogRule>({
     {"master-back", "fb0dba00f73e4b138d9aa5918993361d", LogLevel::info, "machines"},
     {"state-unread", "ffe0a68e5a144419b59b8b4869dcb106", LogLevel::warning, "machines"},
     {"network-routed", "0033e635bb734a4abe0bdeddcabc27fe", LogLevel::warning, "machines"},
+    {"screens-together", "f01b21983ef75b6fd0b77e0b8fb291ba", LogLevel::info, "machines"},
+    {"screens-apart", "b32a8c175c837d72531b389e0fe0862f", LogLevel::info, "machines"},
 });
 
-static_assert(log_rules.size() == std::size_t(LogKind::network_routed) + 1);
+static_assert(log_rules.size() == std::size_t(LogKind::screens_apart) + 1);
 
 constexpr const LogRule& rule_of(LogKind kind) { return log_rules[std::size_t(kind)]; }
 

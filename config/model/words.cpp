@@ -406,6 +406,8 @@ const std::vector<Known> known{
     {"remote.runs"},
     {"remote.hours", {"hours", "minutes"}},
     {"remote.days", {"number"}},
+    {"remote.machines"},
+    {"remote.one_machine"},
     {"remote.last_error"},
     {"remote.no_error"},
     {"remote.which_tour"},

@@ -131,6 +131,7 @@ function showStatus() {
         show("frames", word("remote.frames_value",
             { rate: showNumber(status["frames-per-s"], 3), ms: showNumber(status["frame-ms"], 3) }));
         show("runs", `${duration(status["uptime-s"])}, ${serverVersion}`);
+        show("machines", status.machines || word("remote.one_machine"));
         show("error", status.error || word("remote.no_error"));
     }
     for (const button of all("[data-switch]")) {

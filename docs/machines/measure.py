@@ -4,8 +4,8 @@
 Usage: docs/machines/measure.py PROGRAM OUT [--seconds 60] [--kill-every 10] [--nodes 4] [--size 320x240] [--scene avenue]
 
 Writes OUT.svg, each node's frame number over time, and prints: the skew between the nodes' words to show a frame, frames that were
-shown with two states, how long the others stood still after a kill, and how soon the killed node was in step again. With
---kill-every 0 nobody is killed. Needs Xvfb."""
+shown with two states, how long the others stood still after a kill, how soon the killed node was in step again, and how much memory
+the longest life has gained. With --kill-every 0 nobody is killed; --seconds 28800 is a night. Needs Xvfb."""
 import argparse, json, os, random, shutil, signal, subprocess, sys, tempfile, time
 from pathlib import Path
 
@@ -34,6 +34,7 @@ class Nodes:
         self.options, self.folder = options, folder
         self.names = ["node%d" % i for i in range(options.nodes)]
         self.processes, self.logs = {}, {name: [] for name in self.names}
+        self.memory = {}  # of each life: megabytes at each look
         width, height = map(int, options.size.split("x"))
         outputs = [
             {"name": name, "node": name, "size": [width, height], "place": [width * i, 0], "monitor": {"position": [0, 0]},
@@ -57,6 +58,12 @@ class Nodes:
     def kill(self, name):
         self.processes[name].send_signal(signal.SIGKILL)
         self.processes[name].wait()
+
+    def look_at_memory(self):
+        for name, process in self.processes.items():
+            status = Path("/proc/%d/status" % process.pid)
+            kilobytes = [int(line.split()[1]) for line in status.read_text().splitlines() if line.startswith("VmRSS")]
+            self.memory.setdefault((name, process.pid), []).append(sum(kilobytes) / 1024)
 
     def end(self):
         for process in self.processes.values():
@@ -151,7 +158,7 @@ def main():
         for node in nodes.names:
             wait_until(lambda: nodes.lives_frame(node), 120, "a frame of " + node)
         began, kills, backs = time.monotonic(), [], []
-        next_kill = began + options.kill_every
+        next_kill, next_look, look_every = began + options.kill_every, began, options.seconds / 200
         while (now := time.monotonic()) < began + options.seconds:
             if sys.stderr.isatty():
                 print("\r%.0f of %.0f s, %d kills" % (now - began, options.seconds, len(kills)), end="", file=sys.stderr)
@@ -161,7 +168,10 @@ def main():
                 kills.append((time.monotonic(), victim))
                 nodes.begin(victim)
                 next_kill += options.kill_every
-            if nodes.processes[nodes.names[0]].poll() is not None or any(p.poll() is not None for p in nodes.processes.values()):
+            if now >= next_look:
+                nodes.look_at_memory()
+                next_look += look_every
+            if any(p.poll() is not None for p in nodes.processes.values()):
                 sys.exit("measure: a node has ended by itself; its log is:\n" + "\n".join(
                     log.read_text() for log in sorted(nodes.folder.glob("*.log"))))
             time.sleep(0.05)
@@ -200,6 +210,9 @@ def main():
     if kills:
         print("%d kills; after those of a node the others stood still for at most %.1f frames (p50 %.1f)" % (len(kills), max(still, default=0), part(still, 0.5)))
         print("a killed node was in step %.0f ms (at most %.0f ms) after its first picture" % (1e3 * part(back, 0.5), 1e3 * max(back, default=0)))
+    (name, _), life = max(nodes.memory.items(), key=lambda one: len(one[1]))
+    print("memory of the longest life, %s's of %.0f s: %.0f MB after a tenth of it, %.0f MB at its end" % (
+        name, len(life) * look_every, life[len(life) // 10], life[-1]))
     options.out.with_suffix(".svg").write_text(picture(nodes, rows, kills))
     print(options.out.with_suffix(".svg"))
 

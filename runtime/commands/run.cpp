@@ -11,6 +11,7 @@
 #include "runtime/commands/options/quality.h"
 #include "runtime/exhibit/exhibit.h"
 #include "runtime/exhibit/node.h"
+#include "runtime/exhibit/open_exhibit.h"
 #include "runtime/exhibit/outputs.h"
 #include "runtime/flight/replay.h"
 #include "runtime/operation/ends.h"
@@ -18,7 +19,6 @@
 #include "runtime/operation/log.h"
 #include "runtime/operation/record_files.h"
 #include "runtime/operation/service.h"
-#include "runtime/operation/state_folder.h"
 #include "runtime/operation/trace.h"
 #include "version.h"
 #include <CLI/CLI.hpp>
@@ -60,27 +60,6 @@ ExhibitOptions reopen(const std::filesystem::path& record, const std::string& la
         .replay = record};
 }
 
-/// Throws InputError where an exhibit's machines have no such node, or its layout has not the master.
-void check_node(
-    const std::string& node, const std::string& exhibit, const std::optional<Machines>& machines, const Layout& layout)
-{
-    if (!machines)
-        throw InputError("--node " + node + " names a machine, and the exhibit " + exhibit
-            + " has none; \"machines\" in its file is right");
-    const std::vector<std::string> nodes = nodes_of(layout);
-    std::string list;
-    for (const std::string& one : nodes)
-        list += (list.empty() ? "" : ", ") + one;
-    if (nodes.empty())
-        throw InputError(
-            layout.file.string(), "", "has no \"node\" at its outputs; one at each is right for several machines");
-    if (std::ranges::find(nodes, node) == nodes.end())
-        throw InputError("--node " + node + " is none of the layout " + layout.name + "; one of these is right: " + list);
-    if (std::ranges::find(nodes, machines->master) == nodes.end())
-        throw InputError("The master of the exhibit's machines, \"" + machines->master + "\", is no node of the layout "
-            + layout.name + "; one of these is right: " + list);
-}
-
 ExhibitOptions open(const RunOptions& options)
 {
     if (!options.replay.empty())
@@ -97,59 +76,35 @@ ExhibitOptions open(const RunOptions& options)
         exhibit.tour = options.tour, exhibit.shot.clear();
     if (!exhibit.tour.empty() && !options.record.empty())
         throw InputError("A tour's flight can't be recorded; --record without a tour is right");
-    Words words = words_in(options.language.empty() ? exhibit.language : options.language);
-    Programme programme = !exhibit.tour.empty() ? programme_of_tour(exhibit.tour, words)
-        : !exhibit.shot.empty()                 ? programme_of_shot(exhibit.shot)
-                                                : programme_of_scene(exhibit.scene);
-    ExhibitOptions exhibit_options{.programme = std::move(programme),
-        .layout = load_layout(shipped_file("layouts", exhibit.layout)),
-        .words = std::move(words)};
-    exhibit_options.rules = exhibit.flying;
-    exhibit_options.paced_flight = exhibit.paced && options.log.empty(); // in a laboratory the throttle is the students'
-    exhibit_options.one_button = exhibit.one_button;
-    exhibit_options.left_handed = exhibit.left_handed;
-    exhibit_options.exposure = exhibit.exposure;
-    exhibit_options.profiles = known_profiles(exhibit.profiles);
-    exhibit_options.tutorial = exhibit.tutorial;
-    exhibit_options.speech = exhibit.speech;
-    exhibit_options.information = exhibit.information;
-    exhibit_options.menu_scenes = exhibit.menu_scenes.empty() ? shipped_names("scenes") : exhibit.menu_scenes;
-    exhibit_options.menu_tours = exhibit.menu_tours.empty() ? shipped_names("tours") : exhibit.menu_tours;
+    if (!options.language.empty())
+        exhibit.language = options.language;
+    exhibit.paced = exhibit.paced && options.log.empty(); // in a laboratory the throttle is the students'
     if (!options.quality.empty())
         exhibit.quality = options.quality, exhibit.frame_budget_ms = 0;
     if (options.frame_budget_ms >= 0)
         exhibit.frame_budget_ms = options.frame_budget_ms;
     if (!options.ladder.empty())
         exhibit.ladder = options.ladder;
-    if (!exhibit.quality.empty())
-        exhibit_options.quality = load_quality(shipped_file("qualities", exhibit.quality));
-    exhibit_options.frame_budget_ms = exhibit.frame_budget_ms;
-    if (exhibit_options.frame_budget_ms > 0)
-        exhibit_options.ladder = load_ladder(shipped_file("qualities", exhibit.ladder));
+    if (options.presenter && !exhibit.presenter)
+        exhibit.presenter.emplace();
+    if (!options.careful && (!options.tour.empty() || !options.scene.empty() || !options.shot.empty()))
+        exhibit.visiting.reset();
+    if (options.careful && exhibit.visiting)
+        exhibit.visiting->attract.clear(); // their worlds may be what ended it
+    ExhibitOptions exhibit_options = open_exhibit(exhibit);
     exhibit_options.pattern = pattern_named(options.pattern);
     exhibit_options.record = options.record;
-    exhibit_options.state = state_folder();
-    exhibit_options.textfile = exhibit.textfile;
-    exhibit_options.remote = exhibit.remote;
-    exhibit_options.presenter = exhibit.presenter;
     if (!options.node.empty()) {
-        check_node(options.node, options.exhibit, exhibit.machines, exhibit_options.layout);
+        if (!exhibit.machines)
+            throw InputError("--node " + options.node + " names a machine, and the exhibit " + options.exhibit
+                + " has none; \"machines\" in its file is right");
+        check_machines(*exhibit.machines, exhibit_options.layout, options.node);
         exhibit_options.machines = exhibit.machines, exhibit_options.node = options.node;
         exhibit_options.frame_log = options.frame_log;
     }
-    if (options.presenter && !exhibit_options.presenter)
-        exhibit_options.presenter.emplace();
-    if (options.careful || (options.tour.empty() && options.scene.empty() && options.shot.empty()))
-        exhibit_options.visiting = exhibit.visiting;
-    if (options.careful && exhibit.visiting)
-        exhibit_options.visiting->attract.clear(); // their worlds may be what ended it
-    if (exhibit_options.visiting)
-        for (std::size_t i = 0; i < exhibit_options.visiting->attract.size(); ++i)
-            attraction_of(exhibit_options, exhibit_options.words, i); // whatever is wrong in it is said now
     if (exhibit_options.visiting && !options.record.empty() && !std::filesystem::is_directory(options.record))
         throw InputError("--record " + options.record
             + " is no folder; the exhibit records each visit in a file of its own, and a folder is right");
-    exhibit_options.quality_name = std::filesystem::path(exhibit.quality).stem();
     return exhibit_options;
 }
 

@@ -103,13 +103,6 @@ void print_summary(const Session& session, const SceneFile& scene)
         print_message(describe(session.skew));
 }
 
-Device::Options device_of(const ExhibitOptions& options)
-{
-    Device::Options device = device_options(true);
-    device.counted = options.counts_driver_memory;
-    return device;
-}
-
 /// True if the error is a lack of memory and the governor has a level for which there may be room.
 bool leaves_level(Session& session, const std::exception& error)
 {

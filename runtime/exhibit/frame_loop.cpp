@@ -1,6 +1,7 @@
 #include "frame_loop.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
+#include "exhibit_renderer.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/progress.h"
 #include "runtime/operation/record_files.h"
@@ -36,7 +37,7 @@ FrameLoop::FrameLoop(Session& session, RemoteControl& remote, Presenter& present
     , presenter_(presenter)
     , context_(context)
     , device_(context.device)
-    , frame_(renderer(session.layout, quality_of(session, device_)))
+    , frame_(exhibit_renderer(context, session.layout, quality_of(session, device_), session.options.node))
     , timer_(device_)
     , screens_(device_, session.layout, session.options.node)
     , cold_(session.options.warms_up.value_or(!device_.on_processor()))
@@ -47,7 +48,8 @@ FrameLoop::FrameLoop(Session& session, RemoteControl& remote, Presenter& present
     , guide_(device_, presenter, session.options.presenter)
 {
     if (session.options.machines)
-        master_ = std::make_unique<Master>(session.options);
+        master_ = std::make_unique<Master>(session.options, session.kept),
+        turned_ = turned_numbers(session.kept, session.layout);
     name_object(device_, done_, "frame done");
     name_object(device_, commands_[0], "frame: world");
     name_object(device_, commands_[1], "frame: outputs");
@@ -113,6 +115,8 @@ bool FrameLoop::fly_frame()
     session_.lab.read(*frame_, controls, context_.world, 1e-9 * double(entry.dt_ns),
         [&](std::string line) { session_.alignment.say(std::move(line)); });
     apply_alignment(controls);
+    if (controls.pattern && master_ && session_.alignment.pattern() != Pattern::none)
+        session_.alignment.say(screens_of(session_));
     if (turn_diary(session_, screens_.shown(), context_.pipelines.count()))
         remote_.publish_condition(session_.diary);
     if (!visible) {
@@ -177,7 +181,8 @@ bool FrameLoop::fly_frame()
 void FrameLoop::warm_up_at_rest(const Shot& shot)
 {
     const ExhibitOptions& options = session_.options;
-    const bool wanted = device_.on_processor() && options.paced && options.warms_up.value_or(true);
+    // Other machines would take the master's silence for its end.
+    const bool wanted = device_.on_processor() && options.paced && !master_ && options.warms_up.value_or(true);
     const bool rests = shot.u == glm::dvec3(0) && session_.alignment.pattern() == Pattern::none;
     if (!wanted || !rests || rested_ || (at_rest_ && !at_rest_->ready()))
         return;
@@ -353,15 +358,27 @@ Instant FrameLoop::next_instant(const Head& head)
 void FrameLoop::let_go()
 {
     master_->go();
-    session_.missing = master_->missing();
-    session_.machines = 1 + master_->nodes(), session_.machines_in_step = 1 + master_->nodes_in_step();
+    master_->describe(session_.machines);
+    const bool barrier = screens_.barrier() && master_->nodes_barrier();
+    if (in_step(session_.machines) < 2 || std::exchange(session_.barrier, barrier) == barrier)
+        return;
+    if (barrier)
+        write_log(
+            LogKind::screens_together, "the screens of all machines in step change in the same refresh (present barrier)");
+    else
+        write_log(LogKind::screens_apart,
+            "the screens of the machines change at most one refresh apart; not every graphics card has "
+            "VK_NV_present_barrier");
 }
 
 SharedInstant FrameLoop::shared(const Instant& now) const
 {
     const std::filesystem::path coming = worlds_.coming();
-    return {.scene = master_->name_of(session_.programme.scene),
-        .coming = coming.empty() ? "" : master_->name_of(coming),
+    return {.scene = master_->name_of("scenes", session_.programme.scene),
+        .coming = coming.empty() ? "" : master_->name_of("scenes", coming),
+        .layout = master_->name_of("layouts", session_.layout.file),
+        .layout_digest = master_->layout_digest(),
+        .turned = turned_,
         .language = session_.words.language,
         .quality = session_.governor ? "" : session_.quality_name,
         .level = session_.governor ? std::int32_t(session_.governor->level()) : -1,
@@ -436,10 +453,8 @@ void FrameLoop::apply_file_changes()
         LayoutLoader::Shown shown{.kept = session_.kept,
             .layout = session_.layout,
             .quality = quality_of(session_, device_),
-            .sizes = {},
+            .sizes = screens_.sizes(),
             .has_stars = !context_.world.stars.stars.empty()};
-        for (const Target& target : screens_.targets())
-            shown.sizes.push_back(target.view ? glm::ivec2(target.extent.width, target.extent.height) : glm::ivec2(0));
         session_.loader.load(std::move(shown));
     }
     std::optional<LayoutLoader::Result> result = session_.loader.result();
@@ -460,24 +475,6 @@ void FrameLoop::apply_file_changes()
         session_.options.reloaded();
 }
 
-/// prepared: as FrameRenderer's.
-std::unique_ptr<FrameRenderer> FrameLoop::renderer(
-    const Layout& layout, const Quality& quality, std::optional<PreparedLayout> prepared)
-{
-    // Before a window's own size is known, no output may be beyond the device's limit.
-    Layout shown = layout;
-    for (Output& output : shown.outputs)
-        output.size = glm::min(output.size, int(device_.properties.limits.maxImageDimension2D));
-    return in_room([&] {
-        auto made = std::make_unique<FrameRenderer>(
-            device_, context_.pipelines, context_.world, shown, quality, false, std::move(prepared));
-        made->only(session_.options.node);
-        made->repeatable(
-            session_.options.machines.has_value()); // all machines' pictures are alike, whatever each drew before
-        return made;
-    });
-}
-
 void FrameLoop::apply(LayoutLoader::Loaded loaded)
 {
     const LimitedWait applying("the changed layout", loading_limit_s);
@@ -489,12 +486,16 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
         prepared = std::move(loaded.prepared);
     const bool same_tracker = session_.layout.head_tracker == layout.head_tracker;
     std::unique_ptr<HeadTracker> tracker = same_tracker ? nullptr : tracker_of(layout);
-    frame_ = renderer(layout, quality_of(session_, device_), std::move(prepared));
+    frame_ = exhibit_renderer(context_, layout, quality_of(session_, device_), session_.options.node, std::move(prepared));
     forget_drawn();
     if (!same_tracker)
         session_.tracker = std::move(tracker);
     session_.layout = std::move(layout);
     session_.kept = std::move(loaded.fresh);
+    if (master_) {
+        master_->adopt(session_.layout, std::move(loaded.digests));
+        turned_ = turned_numbers(session_.kept, session_.layout);
+    }
     session_.refused.clear();
     if (session_.governor)
         session_.governor->forget_refusals();
@@ -513,6 +514,8 @@ void FrameLoop::apply_alignment(const Controls& controls)
     try {
         frame_->adopt(layout); // the device has finished the frame before
         session_.layout = std::move(layout);
+        if (master_)
+            turned_ = turned_numbers(session_.kept, session_.layout);
     } catch (const InputError& error) {
         session_.alignment.say(one_line(error.what()));
     }

@@ -55,9 +55,6 @@ private:
     /// picture stays until the new one can be drawn.
     void apply_file_changes();
     void apply(LayoutLoader::Loaded loaded);
-    /// Throws InputError where a layout is wrong, or there is no memory for it.
-    std::unique_ptr<FrameRenderer> renderer(
-        const Layout& layout, const Quality& quality, std::optional<PreparedLayout> prepared = {});
     /// Advances the visitors' menu; its choice is a command of this frame.
     void choose_in_menu(RecordEntry& entry);
     /// Takes those of the frame's commands out that lead to another world, until it is read, and brings them back then. So a
@@ -111,6 +108,7 @@ private:
     Placards placards_;
     InstantPictures pictures_;
     std::unique_ptr<Master> master_; ///< null: this machine shows all
+    std::vector<TurnedNumber> turned_; ///< the builder's changes, for the other machines
     FramePace pace_;
     vk::raii::Fence done_;
     LiveCopy live_;

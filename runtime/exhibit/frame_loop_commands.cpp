@@ -2,6 +2,7 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/model/shipped.h"
+#include "exhibit_renderer.h"
 #include "frame_loop.h"
 #include "menu_pages.h"
 #include "obey.h"
@@ -74,7 +75,7 @@ void FrameLoop::show_programme(Programme programme, bool visitors)
         forget_drawn(); // it draws the old world
         std::swap(context_.world, world);
         try {
-            frame_ = renderer(session_.layout, quality_of(session_, device_));
+            frame_ = exhibit_renderer(context_, session_.layout, quality_of(session_, device_), session_.options.node);
         } catch (...) {
             std::swap(context_.world, world); // the old renderer draws the old world, in its place
             throw;

@@ -10,6 +10,7 @@ Lab::Lab(const std::filesystem::path& log, double every_s, const Words& words)
     : words_(words)
     , log_(log.empty() ? nullptr : std::make_unique<LabLog>(log, write_log))
     , every_s_(every_s)
+    , panel_number_(std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count())
 {
     if (!log_ || log_->lines() == 0)
         return;
@@ -108,8 +109,8 @@ std::optional<Instruments> Lab::request(
         const double aspect = plot_ == Plot::none ? lab_aspect(overlay_, why_) : plot_aspect;
         const int width = views.lab_panel_width(aspect);
         if (again || panel_.size != glm::ivec2(width, int(width * aspect)))
-            panel_ = draw_panel(typesetter, width);
-        what.panel = &panel_;
+            panel_ = draw_panel(typesetter, width), ++panel_number_;
+        what.panel = &panel_, what.panel_number = panel_number_;
         if (plot_ == Plot::none)
             what.scale_place = scale_place(overlay_, why_);
     }

@@ -54,6 +54,7 @@ private:
     std::optional<Measured> measured_; ///< the last readings
     OverlayScale scale_;
     Panel panel_;
+    std::int64_t panel_number_; ///< Instruments'
     std::chrono::steady_clock::time_point drawn_{};
 };
 

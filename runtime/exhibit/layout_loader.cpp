@@ -82,10 +82,12 @@ struct LayoutLoader::State {
     {
         try {
             const FileWatch before({file});
-            Loaded loaded{.fresh = load_layout(file), .layout = {}, .prepared = {}};
+            Loaded loaded{.fresh = load_layout(file), .layout = {}, .prepared = {}, .digests = {}};
             loaded.layout = file == now.layout.file ? turned_again(loaded.fresh, now.kept, now.layout) : loaded.fresh;
             watch = FileWatch(files_of(loaded.layout));
             loaded.prepared = prepare_layout(loaded.layout, now.quality, sizes_of(loaded.layout, now), now.has_stars);
+            if (!nodes_of(loaded.fresh).empty())
+                loaded.digests = digests_of(loaded.fresh);
             if (!before.same() || !watch.same())
                 return {};
             return loaded;

@@ -1,4 +1,5 @@
 #pragma once
+#include "machine_files.h"
 #include "runtime/operation/file_watch.h"
 #include "runtime/render/layout_parts.h"
 #include <optional>
@@ -26,6 +27,7 @@ public:
     struct Loaded {
         Layout fresh, layout; ///< the file's new layout, and the same with the builder's changes
         PreparedLayout prepared;
+        FileDigests digests; ///< of its files, where several machines show it
     };
     /// A layout, or the reason why there is none.
     using Result = std::variant<Loaded, std::string>;

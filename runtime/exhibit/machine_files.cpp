@@ -1,5 +1,7 @@
 #include "machine_files.h"
 #include "config/json/error.h"
+#include "config/json/reader.h"
+#include "config/model/adjust.h"
 #include "config/model/shipped.h"
 #include "runtime/machines/interface.h"
 #include "runtime/operation/log.h"
@@ -13,16 +15,30 @@ namespace fs = std::filesystem;
 /// Before the names of a scene's files. A master after many disorderly ends shows another one than the exhibit's.
 static constexpr std::string_view scenes = "the scene's ";
 
-ConfigMessage config_of(const ExhibitOptions& options)
+FileDigests digests_of(const Layout& layout)
 {
-    ConfigMessage config{options.node, {}};
+    FileDigests digests;
+    for (const fs::path& file : files_of(layout)) // the layout first, then its calibrations
+        digests.emplace_back(file.filename().string(), shown_digest(digest_of({file})));
+    return digests;
+}
+
+std::uint64_t digest_of(const FileDigests& digests)
+{
+    std::uint64_t sum = digest(std::string_view());
+    for (const auto& [name, text] : digests)
+        sum = digest(name + "\n" + text + "\n", sum);
+    return sum;
+}
+
+ConfigMessage config_of(const ExhibitOptions& options, FileDigests of_layout)
+{
+    ConfigMessage config{options.node, {}, std::move(of_layout)};
     const auto add = [&](const std::string& name, const std::vector<fs::path>& files) {
         config.files.emplace_back(name, shown_digest(digest_of(files)));
     };
     std::error_code error;
     add("the program", {fs::read_symlink("/proc/self/exe", error)});
-    for (const fs::path& file : files_of(options.layout)) // the layout first, then its calibrations
-        add(file.filename().string(), {file});
     add(options.words.file.filename().string(), {options.words.file});
     const fs::path& scene = options.programme.scene;
     const fs::path gltf = open_scene(scene).gltf;
@@ -32,47 +48,79 @@ ConfigMessage config_of(const ExhibitOptions& options)
     return config;
 }
 
-std::string difference(const ConfigMessage& node, const ConfigMessage& master)
+/// The same for one of the lists of two configs.
+static std::string difference(const ConfigMessage& node, const ConfigMessage& master, FileDigests ConfigMessage::*list)
 {
-    const auto find = [](const ConfigMessage& in, const std::string& name) {
-        return std::ranges::find(in.files, name, [](const auto& file) { return file.first; });
+    const auto find = [](const FileDigests& in, const std::string& name) {
+        return std::ranges::find(in, name, [](const auto& file) { return file.first; });
     };
+    const FileDigests &nodes = node.*list, &masters = master.*list;
     const std::string of_node = "node '" + one_line(node.node) + "'",
                       of_master = "the master '" + one_line(master.node) + "'";
-    for (const auto& [name, digest] : node.files) {
-        const auto same = find(master, name);
-        if (same != master.files.end() && same->second != digest)
+    for (const auto& [name, digest] : nodes) {
+        const auto same = find(masters, name);
+        if (same != masters.end() && same->second != digest)
             return of_node + " has another " + one_line(name) + " (" + one_line(digest) + ") than " + of_master + " ("
                 + one_line(same->second) + "); the same file on both is right";
-        if (same == master.files.end() && !name.starts_with(scenes))
+        if (same == masters.end() && !name.starts_with(scenes))
             return of_node + " has the file " + one_line(name) + ", and " + of_master
                 + " has not; the same exhibit on both is right";
     }
-    for (const auto& [name, digest] : master.files)
-        if (find(node, name) == node.files.end() && !name.starts_with(scenes))
+    for (const auto& [name, digest] : masters)
+        if (find(nodes, name) == nodes.end() && !name.starts_with(scenes))
             return of_node + " has not the file " + one_line(name) + " of " + of_master
                 + "; the same exhibit on both is right";
     return "";
 }
 
-std::string shared_name_of_scene(const fs::path& scene)
+std::string difference(const ConfigMessage& node, const ConfigMessage& master)
 {
-    const std::string name = scene.stem().string();
+    return difference(node, master, &ConfigMessage::files);
+}
+
+std::string layout_difference(const ConfigMessage& node, const ConfigMessage& master)
+{
+    return difference(node, master, &ConfigMessage::layout);
+}
+
+std::vector<Change> changes_to_keep(
+    const ConfigMessage& node, const ConfigMessage& master, const Layout& kept, const Layout& shown)
+{
+    std::vector<Change> turned = changes(kept, shown);
+    if (turned.empty() || node.layout.empty())
+        return {};
+    std::string text = read_document(kept.file).text;
+    for (const Change& change : turned)
+        text = patched(kept.file.string(), text, change);
+    FileDigests then = node.layout;
+    then.front().second = shown_digest(digest(text, digest(std::string_view())));
+    return then == master.layout ? turned : std::vector<Change>();
+}
+
+std::string shared_name(const std::string& kind, const fs::path& file)
+{
+    const std::string name = file.stem().string();
     try {
-        if (shipped_file("scenes", name) == scene)
+        if (shipped_file(kind, name) == file)
             return name;
     } catch (const InputError&) { // no shipped one
     }
-    return scene.string();
+    return file.string();
 }
 
-void warn_of_routes(const Machines& machines)
+std::string warning_of_routes(const Machines& machines)
 {
     const NetworkInterface interface = interface_of(machines.interface);
-    if (leads_elsewhere(interface))
-        write_log(LogKind::network_routed,
-            "the network of interface " + interface.name + " (" + interface.address
-                + ") leads elsewhere, too; a switch of their own for the exhibit's machines, which know no login, is right");
+    if (!leads_elsewhere(interface))
+        return "";
+    return "the network of interface " + interface.name + " (" + interface.address
+        + ") leads elsewhere, too; a switch of their own for the exhibit's machines, which know no login, is right";
+}
+
+void log_routes(const Machines& machines)
+{
+    if (const std::string warning = warning_of_routes(machines); !warning.empty())
+        write_log(LogKind::network_routed, warning);
 }
 
 } // namespace starbow

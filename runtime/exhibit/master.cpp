@@ -1,17 +1,21 @@
 #include "master.h"
 #include "config/json/error.h"
 #include "machine_files.h"
+#include "runtime/machines/page_bytes.h"
 #include "runtime/operation/log.h"
 #include <algorithm>
 
 namespace starbow {
 namespace {
 
-std::set<std::string> others_of(const ExhibitOptions& options)
+/// A node whose files differ from the master's for so long is named in the log; a layout's change reaches all in less.
+constexpr auto longest_change = std::chrono::seconds(2);
+
+std::set<std::string> others_of(const Layout& layout, const std::string& master)
 {
     std::set<std::string> others;
-    for (const std::string& node : nodes_of(options.layout))
-        if (node != options.node)
+    for (const std::string& node : nodes_of(layout))
+        if (node != master)
             others.insert(node);
     return others;
 }
@@ -24,15 +28,26 @@ std::int64_t now_ns()
 
 } // namespace
 
-Master::Master(const ExhibitOptions& options)
+Master::Master(const ExhibitOptions& options, const Layout& layout)
     : bus_(options.machines.value().interface, options.machines->domain)
-    , config_(config_of(options))
-    , gate_(others_of(options))
+    , config_(config_of(options, digests_of(layout)))
+    , gate_(others_of(layout, options.node))
+    , layout_digest_(digest_of(config_.layout))
     , log_(options.frame_log)
     , frame_(now_ns()) // above the frames of a master before it
 {
-    warn_of_routes(*options.machines);
+    log_routes(*options.machines);
     bus_.send(config_);
+}
+
+void Master::adopt(const Layout& layout, FileDigests digests)
+{
+    config_.layout = std::move(digests);
+    layout_digest_ = digest_of(config_.layout);
+    gate_.have(others_of(layout, config_.node));
+    bus_.send(config_);
+    for (const auto& [node, config] : configs_)
+        judge(config); // else the next frames would wait for those that can't draw them yet
 }
 
 std::vector<ViewSamples> Master::samples() const
@@ -44,30 +59,31 @@ std::vector<ViewSamples> Master::samples() const
     return all;
 }
 
-const std::string& Master::name_of(const std::filesystem::path& scene)
+const std::string& Master::name_of(const std::string& kind, const std::filesystem::path& file)
 {
-    const auto [known, is_new] = names_.try_emplace(scene);
+    const auto [known, is_new] = names_.try_emplace(file);
     if (is_new)
-        known->second = shared_name_of_scene(scene);
+        known->second = shared_name(kind, file);
     return known->second;
 }
 
-std::size_t Master::nodes_in_step() const
+void Master::describe(std::vector<MachineHealth>& machines) const
 {
-    return std::size_t(std::ranges::count_if(gate_.nodes(), [](const auto& node) { return node.second.in; }));
-}
-
-std::string Master::missing() const
-{
-    std::string names;
+    machines.resize(1 + gate_.nodes().size());
+    auto next = machines.begin();
+    const auto put = [&](const std::string& name, bool in_step, double frame_ms, bool differs) {
+        next->name = name, next->in_step = in_step, next->frame_ms = frame_ms, next->differs = differs;
+        ++next;
+    };
+    put(config_.node, true, drawn_ms_, false);
     for (const auto& [name, node] : gate_.nodes())
-        if (!node.in)
-            names += (names.empty() ? "" : ", ") + name;
-    return names;
+        put(name, node.in, node.frame_ms, node.refused);
 }
 
 void Master::send(const SharedInstant& shared)
 {
+    if (const auto& on = shared.instant.instruments; on && on->panel && std::exchange(page_, on->panel_number) != page_)
+        bus_.send(page_of(*on->panel, on->panel_number));
     StateMessage state{++frame_, {}};
     try {
         state.instant = bytes_of(shared);
@@ -86,7 +102,7 @@ void Master::send(const SharedInstant& shared)
 
 void Master::go()
 {
-    const double drawn_ms = 1e3 * std::chrono::duration<double>(Clock::now() - begun_).count();
+    drawn_ms_ = 1e3 * std::chrono::duration<double>(Clock::now() - begun_).count();
     const auto until = begun_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(gate_.bound_s()));
     for (;;) {
         hear();
@@ -96,31 +112,44 @@ void Master::go()
         bus_.wait(left);
     }
     bus_.send(gate_.go());
-    log_.add(frame_, digest_, drawn_ms);
+    log_.add(frame_, digest_, drawn_ms_);
     report();
 }
 
 void Master::hear()
 {
-    for (const ConfigMessage& config : bus_.configs()) {
-        if (config.node == config_.node)
-            continue;
-        const std::string why = difference(config, config_);
-        gate_.refuse(config.node, !why.empty());
-        if (std::string& logged = refusals_[config.node]; logged != why && !why.empty())
-            write_log(LogKind::node_refused, why);
-        refusals_[config.node] = why;
-    }
+    for (ConfigMessage& config : bus_.configs())
+        if (config.node != config_.node) {
+            judge(config);
+            configs_[config.node] = std::move(config);
+        }
     for (ReadyMessage& ready : bus_.readies()) {
         gate_.hear(ready);
         if (gate_.nodes().contains(ready.node))
             samples_[ready.node] = std::move(ready.samples);
     }
-    bus_.state(), bus_.go(); // its own
+    bus_.state(), bus_.go(), bus_.page(); // its own
+}
+
+void Master::judge(const ConfigMessage& config)
+{
+    std::string why = difference(config, config_);
+    if (why.empty())
+        why = layout_difference(config, config_);
+    gate_.refuse(config.node, !why.empty());
+    Refusal& refusal = refusals_[config.node];
+    if (refusal.why.empty() != why.empty())
+        refusal = {.since = Clock::now()};
+    refusal.why = why;
 }
 
 void Master::report()
 {
+    for (auto& [node, refusal] : refusals_)
+        if (!refusal.why.empty() && !refusal.logged && Clock::now() - refusal.since > longest_change) {
+            write_log(LogKind::node_refused, refusal.why);
+            refusal.logged = true;
+        }
     for (const NodeEvent& event : gate_.take_events()) {
         const std::string node = "node '" + one_line(event.node) + "'";
         switch (event.kind) {

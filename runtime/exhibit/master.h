@@ -3,46 +3,64 @@
 #include "runtime/machines/frame_log.h"
 #include "runtime/machines/gate.h"
 #include "runtime/machines/instant_bytes.h"
+#include "runtime/operation/machine_health.h"
 
 namespace starbow {
 
 /// The master of several machines: it says what is drawn, waits until the nodes have drawn it, and says when it is shown.
 class Master {
 public:
-    /// Throws InputError where the network can't be opened.
-    explicit Master(const ExhibitOptions& options);
+    /// layout: that of its file. Throws InputError where the network can't be opened.
+    Master(const ExhibitOptions& options, const Layout& layout);
 
-    /// Sends the next frame's instant; the nodes draw it while the master does.
+    /// Another layout, with its files' digests: nodes whose files differ are left out.
+    void adopt(const Layout& layout, FileDigests digests);
+    /// Of the layout's files; the nodes compare it with their own.
+    std::uint64_t layout_digest() const { return layout_digest_; }
+
+    /// Sends the next frame's instant, before it the instruments' page if that is a new one; the nodes draw it while the
+    /// master does.
     void send(const SharedInstant& shared);
     /// Waits until all who are in have drawn the frame, or for the gate's bound; then all show it.
     void go();
 
     /// The luminance samples of the nodes in step, as they last said.
     std::vector<ViewSamples> samples() const;
-    std::size_t nodes() const { return gate_.nodes().size(); } ///< without the master
-    std::size_t nodes_in_step() const;
-    /// The names of the nodes that are not in step, with commas; empty where all are.
-    std::string missing() const;
+    /// The master and its nodes. machines: its memory is used again.
+    void describe(std::vector<MachineHealth>& machines) const;
     /// The time that the slowest node in step has taken to draw a frame, ms.
     double slowest_ms() const { return gate_.slowest_ms(); }
-    /// The name by which the nodes find a scene: shared_name_of_scene's, looked up once.
-    const std::string& name_of(const std::filesystem::path& scene);
+    /// True when the screens of all nodes in step change together, by their graphics cards.
+    bool nodes_barrier() const { return gate_.barrier(); }
+    /// The name by which the nodes find a scene or a layout: shared_name's, looked up once.
+    const std::string& name_of(const std::string& kind, const std::filesystem::path& file);
 
 private:
     using Clock = std::chrono::steady_clock;
+    struct Refusal {
+        std::string why; ///< empty: none
+        Clock::time_point since{};
+        bool logged = false;
+    };
+
     void hear();
+    void judge(const ConfigMessage& config);
     void report();
 
     Bus bus_;
     ConfigMessage config_;
     Gate gate_;
     std::map<std::string, std::vector<ViewSamples>> samples_; ///< by node
-    std::map<std::string, std::string> refusals_; ///< by node, as last logged
-    std::map<std::filesystem::path, std::string> names_; ///< of scenes
+    std::map<std::string, ConfigMessage> configs_; ///< by node, as last heard
+    std::map<std::string, Refusal> refusals_; ///< by node
+    std::map<std::filesystem::path, std::string> names_; ///< of scenes and layouts
+    std::uint64_t layout_digest_;
+    std::int64_t page_ = 0; ///< the last one sent
     FrameLog log_;
     std::int64_t frame_; ///< of the last state
     std::uint64_t digest_ = 0;
     Clock::time_point begun_{};
+    double drawn_ms_ = 0; ///< the last frame, here
     std::string too_long_; ///< the last complaint about a state
 };
 

@@ -1,11 +1,12 @@
 #include "node.h"
 #include "config/json/error.h"
 #include "config/model/shipped.h"
+#include "exhibit_renderer.h"
 #include "instant_pictures.h"
-#include "machine_files.h"
+#include "node_layout.h"
 #include "runtime/machines/frame_log.h"
 #include "runtime/machines/gate.h"
-#include "runtime/machines/instant_bytes.h"
+#include "runtime/machines/page_bytes.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/waits.h"
 #include "runtime/render/debug.h"
@@ -25,15 +26,17 @@ using Clock = std::chrono::steady_clock;
 constexpr double patience_s = 0.5, fade_s = 0.4;
 /// A frame waits for the master's word no longer than the master waits for the nodes.
 constexpr double longest_go_s = Gate::most_wait_s;
+/// A page is sent before the first state that names it, and may arrive after that.
+constexpr double longest_page_s = 0.05;
 
 class Node {
 public:
     explicit Node(const ExhibitOptions& options)
         : options_(options)
-        , config_(config_of(options))
+        , layout_(options)
         , bus_(options.machines.value().interface, options.machines->domain)
         , scene_(options.programme.scene)
-        , context_(scene_, device_options(true), spectral_level_of(options))
+        , context_(scene_, device_of(options), spectral_level_of(options))
         , screens_(context_.device, options.layout, options.node)
         , words_(options.words)
         , done_(context_.device.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
@@ -43,9 +46,9 @@ public:
         name_object(context_.device, done_, "frame done");
         name_object(context_.device, commands_[0], "frame: world");
         name_object(context_.device, commands_[1], "frame: outputs");
-        make_frame();
-        warn_of_routes(*options.machines);
-        bus_.send(config_);
+        make_frame(options.layout);
+        log_routes(*options.machines);
+        bus_.send(layout_.config());
     }
     ~Node() { context_.device.settle(); }
     Node(const Node&) = delete;
@@ -58,17 +61,22 @@ public:
 
 private:
     Quality quality_of(const SharedInstant& shared) const;
-    void make_frame();
+    Quality quality() const;
+    void make_frame(const Layout& layout, std::optional<PreparedLayout> prepared = {});
     void listen();
+    void follow_files();
+    void apply(LayoutLoader::Loaded loaded);
     void take(const StateMessage& state);
     void follow(const SharedInstant& shared);
     void open_world(const std::string& scene);
     double blackness() const;
+    bool lacks_page() const;
+    void await_page();
     void draw(const SharedInstant& shared, bool fresh);
     void await_go(std::int64_t number);
 
     const ExhibitOptions& options_;
-    ConfigMessage config_;
+    NodeLayout layout_;
     Bus bus_;
     std::filesystem::path scene_; ///< the shown one
     std::string scene_name_; ///< as the master names it; empty: the options'
@@ -86,12 +94,19 @@ private:
     std::optional<StateMessage> state_; ///< the last one
     std::optional<SharedInstant> shared_; ///< read from it
     bool fresh_ = false; ///< it is not drawn yet
+    bool was_in_step_ = false; ///< this node has drawn one exactly
+    std::int64_t page_number_ = 0; ///< of the page
+    Panel page_; ///< the instruments'
     bool away_ = true; ///< the master
     bool dark_ = false; ///< the outputs are black for want of it
     Clock::time_point heard_ = Clock::now();
     std::int64_t go_ = -1; ///< the last frame that may be shown
     Skew skew_;
     std::string unread_; ///< the last complaint
+    struct {
+        std::string scene, why;
+        Clock::time_point since;
+    } unreadable_; ///< the last world that could not be opened
     FrameLog log_;
     long shown_ = 0;
 };
@@ -108,17 +123,19 @@ Quality Node::quality_of(const SharedInstant& shared) const
     return default_quality(device, false);
 }
 
-void Node::make_frame()
+/// The last state's, or the start's.
+Quality Node::quality() const
 {
-    const Quality first
-        = options_.quality ? within(context_.device, *options_.quality) : default_quality(context_.device, false);
-    frame_ = in_room([&] {
-        return std::make_unique<FrameRenderer>(
-            context_.device, context_.pipelines, context_.world, options_.layout, first, false);
-    });
+    if (shared_)
+        return quality_of(*shared_);
+    return options_.quality ? within(context_.device, *options_.quality) : default_quality(context_.device, false);
+}
+
+/// Makes the renderer anew; the next state says its quality.
+void Node::make_frame(const Layout& layout, std::optional<PreparedLayout> prepared)
+{
+    frame_ = exhibit_renderer(context_, layout, quality(), options_.node, std::move(prepared));
     chosen_.reset();
-    frame_->only(options_.node);
-    frame_->repeatable(true); // each machine's pictures are those of one that has drawn all before
     pictures_.forget();
 }
 
@@ -126,9 +143,14 @@ void Node::listen()
 {
     for (const ConfigMessage& config : bus_.configs())
         if (config.node == options_.machines->master)
-            if (const std::string why = difference(config_, config); !why.empty())
-                throw InputError(why);
+            layout_.compare(config, was_in_step_);
     bus_.readies(); // the others'
+    if (const std::optional<PageMessage> page = bus_.page())
+        try {
+            page_ = panel_of(*page), page_number_ = page->number;
+        } catch (const InputError& error) {
+            write_log(LogKind::state_unread, one_line(error.what()) + "; the page before is shown");
+        }
     if (const std::optional<GoMessage> go = bus_.go())
         go_ = go->frame;
     if (const std::optional<StateMessage> state = bus_.state())
@@ -167,6 +189,10 @@ void Node::follow(const SharedInstant& shared)
         words_ = shared.language == options_.words.language ? options_.words : words_in(shared.language);
         language_ = shared.language;
     }
+    if (std::optional<Layout> turned = layout_.turned_by(shared)) {
+        frame_->adopt(*turned);
+        layout_.turn(*std::move(turned), shared.turned);
+    }
     const World& world = context_.world.world;
     if (shared.instant.instruments)
         for (const auto& mark : shared.instant.instruments->marks)
@@ -182,12 +208,59 @@ void Node::follow(const SharedInstant& shared)
 
 void Node::open_world(const std::string& scene)
 {
+    constexpr double again_s = 5; // each state names it
+    if (scene == unreadable_.scene && seconds(Clock::now() - unreadable_.since) < again_s)
+        throw InputError(unreadable_.why);
     const LimitedWait loading("the world " + scene, loading_limit_s);
-    LoadedScene loaded = worlds_.take(shipped_file("scenes", scene));
-    GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), spectral_level_of(options_)); });
-    std::swap(context_.world, world);
-    make_frame();
+    try {
+        LoadedScene loaded = worlds_.take(shipped_file("scenes", scene));
+        GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), spectral_level_of(options_)); });
+        std::swap(context_.world, world);
+        try {
+            make_frame(layout_.shown());
+        } catch (...) {
+            std::swap(context_.world, world); // the old renderer draws the old world, in its place
+            throw;
+        }
+    } catch (const InputError& error) {
+        unreadable_ = {scene, error.what(), Clock::now()};
+        throw;
+    }
     log_world(context_);
+}
+
+/// Has a changed layout loaded beside, and applies one that is ready. If any file is wrong, nothing changes.
+void Node::follow_files()
+{
+    LayoutLoader& loader = layout_.loader;
+    if (loader.changed())
+        loader.load({.kept = layout_.kept(),
+            .layout = layout_.kept(),
+            .quality = quality(),
+            .sizes = screens_.sizes(),
+            .has_stars = !context_.world.stars.stars.empty()});
+    std::optional<LayoutLoader::Result> result = loader.result();
+    if (!result)
+        return;
+    try {
+        if (const std::string* why = std::get_if<std::string>(&*result))
+            throw InputError(*why);
+        apply(std::get<LayoutLoader::Loaded>(std::move(*result)));
+    } catch (const InputError& error) {
+        write_log(LogKind::layout_refused, one_line(error.what()) + "; the exhibit stays as it was");
+    }
+}
+
+void Node::apply(LayoutLoader::Loaded loaded)
+{
+    const LimitedWait applying("the changed layout", loading_limit_s);
+    make_frame(loaded.fresh, std::move(loaded.prepared));
+    screens_.adopt(loaded.fresh);
+    write_log(LogKind::layout_applied, loaded.fresh.file.string() + ": applied");
+    layout_.take(std::move(loaded));
+    bus_.send(layout_.config());
+    if (shared_)
+        follow(*shared_);
 }
 
 /// The part of black while the master is away.
@@ -204,7 +277,10 @@ bool Node::step(Service& service)
     if (options_.frames > 0 && shown_ >= options_.frames)
         return false;
     screens_.follow();
+    follow_files();
     listen();
+    if (fresh_)
+        await_page();
     const double black = blackness();
     if (away_)
         service.waits("Waits for the master.");
@@ -221,12 +297,30 @@ bool Node::step(Service& service)
         return true;
     }
     SharedInstant shared = shared_.value_or(SharedInstant{});
+    if (shared.instant.instruments && page_number_ != 0)
+        shared.instant.instruments->panel = shared.instant.instruments->panel_number != 0 ? &page_ : nullptr;
     shared.instant.black = std::max(shared.instant.black, glm::smoothstep(0.0, 1.0, black));
     draw(shared, std::exchange(fresh_, false));
     dark_ = black == 1;
     return true;
 }
 
+/// True where the state names a page that is still to come.
+bool Node::lacks_page() const
+{
+    const auto& on = shared_ ? shared_->instant.instruments : std::nullopt;
+    return on && on->panel_number != 0 && on->panel_number != page_number_;
+}
+
+void Node::await_page()
+{
+    for (const Clock::time_point begun = Clock::now(); lacks_page() && seconds(Clock::now() - begun) < longest_page_s;) {
+        bus_.wait(std::chrono::milliseconds(5));
+        listen();
+    }
+}
+
+/// Only a frame that is exactly the master's counts as ready: one with another layout's file, or without its page, is not.
 void Node::draw(const SharedInstant& shared, bool fresh)
 {
     const Clock::time_point begun = Clock::now();
@@ -249,9 +343,14 @@ void Node::draw(const SharedInstant& shared, bool fresh)
     screens_.submit(*commands_[0], *commands_[1], *done_);
     device.await(*done_, "the end of the frame's drawing (fence)");
     if (fresh) {
-        const std::uint64_t digest = digest_of_instant(state_->instant);
+        const bool exact = layout_.is_of(shared) && !lacks_page();
+        // Another digest, for the log.
+        const std::uint64_t digest = digest_of_instant(state_->instant) + (exact ? 0 : 1);
         const double drawn_ms = 1e3 * seconds(Clock::now() - begun);
-        bus_.send(ReadyMessage{options_.node, number, digest, drawn_ms, frame_->own_samples()});
+        if (exact) {
+            bus_.send(ReadyMessage{options_.node, number, digest, drawn_ms, screens_.barrier(), frame_->own_samples()});
+            was_in_step_ = true;
+        }
         await_go(number);
         log_.add(number, digest, drawn_ms);
     }

@@ -204,6 +204,7 @@ Window::Window(Window&& other) noexcept
     , refused_(other.refused_)
     , bare_(other.bare_)
     , aside_(other.aside_)
+    , barrier_(other.barrier_)
     , stale_(other.stale_)
     , lost_(other.lost_)
     , late_(other.late_)
@@ -286,6 +287,15 @@ void Window::put(const WindowPlace& place)
         glfwSetWindowPos(window_, place.corner.x, place.corner.y);
 }
 
+static bool takes_part_in_barriers(const Device& device, vk::SurfaceKHR surface)
+{
+    return device.physical
+        .getSurfaceCapabilities2KHR<vk::SurfaceCapabilities2KHR, vk::SurfaceCapabilitiesPresentBarrierNV>(
+            vk::PhysicalDeviceSurfaceInfo2KHR(surface))
+        .get<vk::SurfaceCapabilitiesPresentBarrierNV>()
+        .presentBarrierSupported;
+}
+
 bool Window::make_swapchain()
 {
     if (clock_)
@@ -329,9 +339,13 @@ bool Window::make_swapchain()
                 mode = better;
     }
     const LimitedWait making("the swapchain of output '" + name_ + "' (vkCreateSwapchainKHR)");
-    swapchain_ = device_->device.createSwapchainKHR(
-        {{}, *surface_, count, format_, vk::ColorSpaceKHR::eSrgbNonlinear, extent, 1, usage, vk::SharingMode::eExclusive, {},
-            limits.currentTransform, alpha, mode, true, *std::exchange(swapchain_, nullptr)});
+    vk::SwapchainCreateInfoKHR info({}, *surface_, count, format_, vk::ColorSpaceKHR::eSrgbNonlinear, extent, 1, usage,
+        vk::SharingMode::eExclusive, {}, limits.currentTransform, alpha, mode, true, *std::exchange(swapchain_, nullptr));
+    const vk::SwapchainPresentBarrierCreateInfoNV in_barrier(true);
+    barrier_ = device_->present_barrier && !aside_ && takes_part_in_barriers(*device_, *surface_);
+    if (barrier_)
+        info.pNext = &in_barrier;
+    swapchain_ = device_->device.createSwapchainKHR(info);
     name_object(*device_, swapchain_, "outputs: swapchain");
     for (VkImage image : swapchain_.getImages()) {
         images_.resize(views_.size());

@@ -48,6 +48,8 @@ public:
 
     GLFWwindow* handle() const { return window_; }
     bool closed() const;
+    /// True where its pictures change with those of other windows and machines (VK_NV_present_barrier).
+    bool barrier() const { return barrier_; }
     /// To the monitor that shows most of the window, and back. For a window without a place.
     void switch_full_screen();
     /// Moves a bare window to its place, also after a window manager has moved it.
@@ -96,6 +98,7 @@ private:
     bool bare_ = false;
     bool aside_ = false;
     bool readable_ = false;
+    bool barrier_ = false; ///< the swapchain's
     bool stale_ = true; ///< the swapchain
     bool lost_ = false; ///< the surface
     bool late_ = false; ///< the last acquire timed out: the other windows don't wait for this one again

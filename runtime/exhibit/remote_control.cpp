@@ -17,6 +17,7 @@ void describe(const Session& session, Snapshot& out)
     out.frame_ms = 1e3 * session.frame_s;
     out.frames_per_s = session.frame_s > 0 ? 1 / session.frame_s : 0;
     out.error = session.refused.empty() ? session.directions.refusal : session.refused;
+    out.machines = line_of(session.machines);
     if (out.error.empty())
         out.error = steps_of(session);
     out.uptime_s = seconds(Session::Clock::now() - session.began);

@@ -146,6 +146,14 @@ bool Screens::acquire()
     return !acquired_.empty();
 }
 
+std::vector<glm::ivec2> Screens::sizes() const
+{
+    std::vector<glm::ivec2> sizes;
+    for (const Target& target : targets_)
+        sizes.push_back(target.view ? glm::ivec2(target.extent.width, target.extent.height) : glm::ivec2(0));
+    return sizes;
+}
+
 void Screens::draw_smaller(Pipelines& pipelines, std::size_t output, glm::ivec2 size)
 {
     Window& window = *screens_[output].window;
@@ -263,6 +271,12 @@ void Screens::switch_full_screen()
     for (Screen& screen : screens_)
         if (screen.window)
             screen.window->switch_full_screen();
+}
+
+bool Screens::barrier() const
+{
+    return !handles_.empty()
+        && std::ranges::all_of(screens_, [](const Screen& screen) { return !screen.window || screen.window->barrier(); });
 }
 
 double Screens::refresh_hz() const

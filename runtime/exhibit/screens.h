@@ -24,6 +24,8 @@ public:
     /// is minimised or changing. Returns false if there is no image at all.
     bool acquire();
     const std::vector<Target>& targets() const { return targets_; }
+    /// Of the targets, pixels; zero where there is none.
+    std::vector<glm::ivec2> sizes() const;
     /// Gives an output's window a smaller picture, which is scaled up. Throws InputError, as Window's.
     void draw_smaller(Pipelines& pipelines, std::size_t output, glm::ivec2 size);
     /// These two enclose the drawing of all targets.
@@ -49,6 +51,8 @@ public:
     void switch_full_screen();
     /// The refresh rate of the fastest monitor in use.
     double refresh_hz() const;
+    /// True when all open windows' pictures change together, and with those of other machines.
+    bool barrier() const;
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -284,7 +284,30 @@ bool take_coarser_level(Session& session, std::size_t level, const std::string& 
 
 bool shows_pins(const Session& session) { return !session.pins.empty() && session.alignment.pattern() != Pattern::none; }
 
-std::string steps_of(const Session& session) { return session.missing.empty() ? "" : "not in step: " + session.missing; }
+Device::Options device_of(const ExhibitOptions& options)
+{
+    Device::Options device = device_options(true);
+    device.counted = options.counts_driver_memory, device.barrier = options.machines.has_value();
+    return device;
+}
+
+std::string steps_of(const Session& session)
+{
+    std::string missing;
+    for (const MachineHealth& machine : session.machines)
+        if (!machine.in_step)
+            missing += (missing.empty() ? "" : ", ") + machine.name;
+    return missing.empty() ? "" : "not in step: " + missing;
+}
+
+std::string screens_of(const Session& session)
+{
+    return std::to_string(in_step(session.machines)) + " of " + std::to_string(session.machines.size())
+        + " machines in step; "
+        + (session.barrier.value_or(false) ? "their screens change in the same refresh (present barrier)"
+                                           : "their screens change at most one refresh apart")
+        + "; " + line_of(session.machines);
+}
 
 std::string notice_of(const Session& session)
 {
@@ -424,7 +447,6 @@ bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelin
             .outputs = session.layout.outputs.size(),
             .pipelines = pipelines,
             .machines = session.machines,
-            .machines_in_step = session.machines_in_step,
             .version = session.options.version});
 }
 

@@ -81,8 +81,8 @@ struct Session {
     Layout layout; ///< the shown layout
     Layout kept; ///< the file's layout, without a builder's unsaved changes
     LayoutLoader loader; ///< follows the files of `layout`
-    std::string missing{}; ///< the exhibit's machines that are not in step, with commas
-    std::size_t machines = 1, machines_in_step = 1; ///< this one and the others
+    std::vector<MachineHealth> machines{}; ///< of the exhibit, this one first; empty: this one shows all
+    std::optional<bool> barrier{}; ///< the screens of those in step change together; none: no others have shown anything yet
     std::string refused; ///< the reason why a changed layout was not applied, for the head-up display
     std::optional<Guide> guide;
     std::unique_ptr<ShownRecord> shown_record; ///< the attraction's; null: none
@@ -163,6 +163,8 @@ std::optional<Governor> governor_of(const ExhibitOptions& options);
 std::optional<SpectralLevel> spectral_level_of(const Session& session);
 /// The same for an exhibit's start.
 std::optional<SpectralLevel> spectral_level_of(const ExhibitOptions& options);
+/// The options of an exhibit's device, with windows.
+Device::Options device_of(const ExhibitOptions& options);
 /// Logs the remarks on a newly loaded world and its spectral level.
 void log_world(const RenderContext& context);
 /// The quality of the next frame.
@@ -178,6 +180,8 @@ double ev_of(const Session& session);
 bool shows_pins(const Session& session);
 /// A sentence about the machines that are not in step; empty where all are.
 std::string steps_of(const Session& session);
+/// A sentence about the machines and their screens, for a builder.
+std::string screens_of(const Session& session);
 /// The line below the head-up display's figures.
 std::string notice_of(const Session& session);
 /// True once the requested frames are shown, or a remote or the caller says so.

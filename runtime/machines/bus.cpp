@@ -83,7 +83,7 @@ struct Bus::Topics {
     };
 
     dds_entity_t domain, participant;
-    Topic state, ready, go, config;
+    Topic state, ready, go, config, page;
     dds_entity_t arrivals;
 
     Topics(const NetworkInterface& interface, int number)
@@ -93,9 +93,10 @@ struct Bus::Topics {
         , ready(participant, starbow_machines_Ready_desc, "starbow_ready", Keeps::nothing, 4)
         , go(participant, starbow_machines_Go_desc, "starbow_go", Keeps::nothing, 1)
         , config(participant, starbow_machines_Config_desc, "starbow_config", Keeps::last, 1)
+        , page(participant, starbow_machines_Page_desc, "starbow_page", Keeps::last, 1)
         , arrivals(made(dds_create_waitset(participant), "the wait"))
     {
-        for (const Topic* topic : {&state, &ready, &go, &config}) {
+        for (const Topic* topic : {&state, &ready, &go, &config, &page}) {
             const dds_entity_t condition = made(dds_create_readcondition(topic->reader, DDS_ANY_STATE), "the wait");
             dds_waitset_attach(arrivals, condition, 0);
         }
@@ -138,6 +139,7 @@ void Bus::send(const ReadyMessage& ready)
     starbow_machines_Ready sample{};
     sample.node = lent(ready.node);
     sample.frame = ready.frame, sample.digest = ready.digest, sample.frame_ms = ready.frame_ms;
+    sample.barrier = ready.barrier;
     sample.samples._buffer = samples.data();
     sample.samples._length = sample.samples._maximum = std::uint32_t(samples.size());
     topics_->ready.write(sample);
@@ -157,14 +159,26 @@ void Bus::send(const GoMessage& go)
 
 void Bus::send(const ConfigMessage& config)
 {
-    std::vector<starbow_machines_File> files;
-    for (const auto& [name, digest] : config.files)
-        files.push_back({lent(name), lent(digest)});
     starbow_machines_Config sample{};
     sample.node = lent(config.node);
-    sample.files._buffer = files.data();
-    sample.files._length = sample.files._maximum = std::uint32_t(files.size());
+    std::vector<starbow_machines_File> files, layout;
+    const auto put = [](auto& to, std::vector<starbow_machines_File>& held, const FileDigests& from) {
+        for (const auto& [name, digest] : from)
+            held.push_back({lent(name), lent(digest)});
+        to._buffer = held.data();
+        to._length = to._maximum = std::uint32_t(held.size());
+    };
+    put(sample.files, files, config.files), put(sample.layout, layout, config.layout);
     topics_->config.write(sample);
+}
+
+void Bus::send(const PageMessage& page)
+{
+    starbow_machines_Page sample{};
+    sample.number = page.number, sample.width = page.width, sample.height = page.height;
+    sample.texels._buffer = const_cast<std::uint8_t*>(page.texels.data());
+    sample.texels._length = sample.texels._maximum = std::uint32_t(page.texels.size());
+    topics_->page.write(sample);
 }
 
 std::optional<StateMessage> Bus::state()
@@ -192,7 +206,7 @@ std::vector<ReadyMessage> Bus::readies()
 {
     std::vector<ReadyMessage> all;
     topics_->ready.take<starbow_machines_Ready>([&](const starbow_machines_Ready& sample) {
-        ReadyMessage ready{text(sample.node), sample.frame, sample.digest, sample.frame_ms};
+        ReadyMessage ready{text(sample.node), sample.frame, sample.digest, sample.frame_ms, sample.barrier};
         const auto taken = [](const dds_sequence_float& from) {
             std::vector<LuminanceSample> to(from._length / 2);
             if (!to.empty())
@@ -212,12 +226,25 @@ std::vector<ConfigMessage> Bus::configs()
 {
     std::vector<ConfigMessage> all;
     topics_->config.take<starbow_machines_Config>([&](const starbow_machines_Config& sample) {
-        ConfigMessage config{text(sample.node), {}};
-        for (std::uint32_t i = 0; i < sample.files._length; ++i)
-            config.files.emplace_back(text(sample.files._buffer[i].name), text(sample.files._buffer[i].digest));
-        all.push_back(std::move(config));
+        const auto taken = [](const auto& from) {
+            FileDigests to;
+            for (std::uint32_t i = 0; i < from._length; ++i)
+                to.emplace_back(text(from._buffer[i].name), text(from._buffer[i].digest));
+            return to;
+        };
+        all.push_back({text(sample.node), taken(sample.files), taken(sample.layout)});
     });
     return all;
+}
+
+std::optional<PageMessage> Bus::page()
+{
+    std::optional<PageMessage> last;
+    topics_->page.take<starbow_machines_Page>([&](const starbow_machines_Page& sample) {
+        const std::uint8_t* bytes = sample.texels._buffer;
+        last = {sample.number, sample.width, sample.height, {bytes, bytes + sample.texels._length}};
+    });
+    return last;
 }
 
 void Bus::wait(std::chrono::nanoseconds longest)

@@ -24,6 +24,7 @@ struct ReadyMessage {
     std::int64_t frame = 0;
     std::uint64_t digest = 0; ///< of the instant's bytes
     double frame_ms = 0; ///< that it took to draw
+    bool barrier = false; ///< its screens change with those of the others
     std::vector<ViewSamples> samples{}; ///< of its views; none where nothing is metered
 };
 
@@ -33,10 +34,21 @@ struct GoMessage {
     std::vector<std::string> members;
 };
 
-/// The files that a node's pictures depend on: names and digests, in the same order on each node.
+/// Names of files and their digests, in the same order on each node.
+using FileDigests = std::vector<std::pair<std::string, std::string>>;
+
+/// The files that a node's pictures depend on.
 struct ConfigMessage {
     std::string node;
-    std::vector<std::pair<std::string, std::string>> files;
+    FileDigests files; ///< program, scene, words
+    FileDigests layout; ///< the layout's own, then its calibrations
+};
+
+/// A picture of the instruments' readings, which an instant names by its number.
+struct PageMessage {
+    std::int64_t number = 0;
+    std::int32_t width = 0, height = 0; ///< pixels
+    std::vector<std::uint8_t> texels; ///< page_bytes.h
 };
 
 /// The messages between the machines of one exhibit, on one network interface: topics of DDS (machines.idl). A node that
@@ -53,12 +65,14 @@ public:
     void send(const ReadyMessage& ready);
     void send(const GoMessage& go);
     void send(const ConfigMessage& config);
+    void send(const PageMessage& page);
 
-    /// The messages that have come since the last call. Of states and goes only the last counts.
+    /// The messages that have come since the last call. Of states, goes and pages only the last counts.
     std::optional<StateMessage> state();
     std::optional<GoMessage> go();
     std::vector<ReadyMessage> readies();
     std::vector<ConfigMessage> configs();
+    std::optional<PageMessage> page();
 
     /// Waits until something has come that was not taken, or for so long.
     void wait(std::chrono::nanoseconds longest);

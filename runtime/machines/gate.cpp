@@ -3,8 +3,11 @@
 
 namespace starbow {
 
-Gate::Gate(const std::set<std::string>& nodes)
+Gate::Gate(const std::set<std::string>& nodes) { have(nodes); }
+
+void Gate::have(const std::set<std::string>& nodes)
 {
+    std::erase_if(nodes_, [&](const auto& node) { return !nodes.contains(node.first); });
     for (const std::string& node : nodes)
         nodes_[node];
 }
@@ -18,7 +21,7 @@ void Gate::hear(const ReadyMessage& ready)
         return; // a frame to come is one of an earlier master
     Node& node = found->second;
     node.heard = std::max(node.heard, ready.frame);
-    node.frame_ms = ready.frame_ms;
+    node.frame_ms = ready.frame_ms, node.barrier = ready.barrier;
     if (ready.frame == frame_ && ready.digest != digest_)
         events_.push_back({NodeEvent::Kind::differs, ready.node, frame_});
 }
@@ -46,6 +49,11 @@ double Gate::slowest_ms() const
     return slowest;
 }
 
+bool Gate::barrier() const
+{
+    return std::ranges::all_of(nodes_, [](const auto& node) { return !node.second.in || node.second.barrier; });
+}
+
 double Gate::bound_s() const { return std::clamp(2e-3 * slowest_ms(), least_wait_s, most_wait_s); }
 
 GoMessage Gate::go()
@@ -59,7 +67,6 @@ GoMessage Gate::go()
             node.in = true;
             message.members.push_back(name);
         } else if (node.in) {
-            ++node.late;
             if (++node.silent >= silent_frames) {
                 node.in = false;
                 events_.push_back({NodeEvent::Kind::leaves, name, frame_});

@@ -23,6 +23,8 @@ public:
     /// nodes: all that the layout has, without the master itself.
     explicit Gate(const std::set<std::string>& nodes);
 
+    /// Other nodes: those of another layout. Known ones stay as they are.
+    void have(const std::set<std::string>& nodes);
     /// The frame that is drawn now, with the digest of its state.
     void begin(std::int64_t frame, std::uint64_t digest);
     /// A node's word. Of unknown nodes nothing is heard.
@@ -33,6 +35,8 @@ public:
     bool complete() const;
     /// The time that the slowest node in step has taken to draw a frame, ms.
     double slowest_ms() const;
+    /// True when the screens of all who are in change together.
+    bool barrier() const;
     /// Seconds that the frame may wait from its beginning on.
     double bound_s() const;
     /// Ends the frame. Returns the nodes in step with it.
@@ -45,7 +49,7 @@ public:
         std::int64_t heard = -1; ///< the last frame that it was ready for
         int silent = 0; ///< frames in turn
         double frame_ms = 0;
-        std::uint64_t late = 0; ///< frames that it was not ready for in time
+        bool barrier = false; ///< as ReadyMessage's
     };
     const std::map<std::string, Node>& nodes() const { return nodes_; }
 

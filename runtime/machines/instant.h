@@ -35,6 +35,7 @@ struct Instruments {
     std::array<std::optional<Spot>, 2> marks{};
     OverlayScale scale{};
     const Panel* panel = nullptr; ///< readings, or null; it must last until the frame is drawn
+    std::int64_t panel_number = 0; ///< another one: the panel may be another picture; 0: there is none
     glm::vec4 scale_place{0}; ///< of the false colours on the panel, see PanelPass::draw
 };
 

@@ -13,7 +13,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 /// Another order or kind of the fields below is another version.
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 /// Counts and lengths above these belong to no instant.
 constexpr std::uint32_t most_letters = 3000, most_things = 256;
@@ -187,7 +187,9 @@ template <class Part> void take(Part& part, Instruments& on)
     take_choice(part, on.overlay, overlay_names.size());
     for (std::optional<Spot>& mark : on.marks)
         take(part, mark);
-    take(part, on.scale);
+    take(part, on.scale), take(part, on.panel_number);
+    for (int i = 0; i < 4; ++i)
+        take(part, on.scale_place[i]);
 }
 
 template <class Part> void take(Part& part, Instant& now)
@@ -201,10 +203,13 @@ template <class Part> void take(Part& part, Instant& now)
     take(part, now.hud), take(part, now.sign), take(part, now.small_picture), take(part, now.instruments);
 }
 
+template <class Part> void take(Part& part, TurnedNumber& number) { take(part, number.place), take(part, number.value); }
+
 template <class Part> void take(Part& part, SharedInstant& shared)
 {
-    take(part, shared.scene), take(part, shared.coming), take(part, shared.language), take(part, shared.quality),
-        take(part, shared.level);
+    take(part, shared.scene), take(part, shared.coming);
+    take(part, shared.layout), take(part, shared.layout_digest), take(part, shared.turned);
+    take(part, shared.language), take(part, shared.quality), take(part, shared.level);
     take(part, shared.instant);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/model/adjust.h"
 #include "instant.h"
 #include <cstdint>
 #include <span>
@@ -11,14 +12,18 @@ namespace starbow {
 struct SharedInstant {
     std::string scene; ///< the scene's file, as the master's command line or a remote's names it
     std::string coming; ///< the scene that the master reads meanwhile, so that all read it at once; empty: none
+    std::string layout; ///< the layout's file, as `scene`
+    std::uint64_t layout_digest = 0; ///< of its files
+    std::vector<TurnedNumber> turned{}; ///< the builder's changes that the layout's file lacks
     std::string language; ///< of the visitors' words
     std::string quality; ///< a quality file's name; empty: `level` counts
     std::int32_t level = -1; ///< of the governor's ladder; -1: none
     Instant instant;
 };
 
-/// The bytes of an instant, the same on each machine: numbers as they are in memory, the lowest byte first. Its instruments'
-/// panel is left out: it is a picture. Throws InputError where they are more than most_state_bytes.
+/// The bytes of an instant, the same on each machine: numbers as they are in memory, the lowest byte first. Of the
+/// instruments' panel only the number is in them: the picture is a page's. Throws InputError where they are more than
+/// most_state_bytes.
 std::vector<std::uint8_t> bytes_of(const SharedInstant& instant);
 
 /// The instant of such bytes. Throws InputError for bytes that are none: cut off, too many, or with numbers that no instant

@@ -155,8 +155,19 @@ std::string exposition_of(const Tally& since_start, const Gauges& now)
     out.one("worn_axes", "gauge", "Axes that are stuck or noisy and left out.", double(now.worn_axes));
     out.one("outputs", "gauge", "Outputs of the layout.", double(now.outputs));
     out.one("outputs_shown", "gauge", "Outputs with a picture now.", double(now.outputs_shown));
-    out.one("machines", "gauge", "Machines that show the exhibit.", double(now.machines));
-    out.one("machines_in_step", "gauge", "Machines that show it now.", double(now.machines_in_step));
+    out.one("machines", "gauge", "Machines that show the exhibit.", now.machines.empty() ? 1 : double(now.machines.size()));
+    out.one(
+        "machines_in_step", "gauge", "Machines that show it now.", now.machines.empty() ? 1 : double(in_step(now.machines)));
+    if (now.machines.empty())
+        return out.text;
+    const auto each = [&](const char* name, const auto& value) {
+        for (const MachineHealth& machine : now.machines)
+            out.value(std::string(name) + "{machine=\"" + escaped_label(machine.name) + "\"}", value(machine));
+    };
+    out.metric("machine_in_step", "gauge", "1 for a machine that shows the exhibit now, 0 for one that is away.");
+    each("machine_in_step", [](const MachineHealth& machine) { return double(machine.in_step); });
+    out.metric("machine_frame_seconds", "gauge", "Time that a machine took to draw its last frame.");
+    each("machine_frame_seconds", [](const MachineHealth& machine) { return 1e-3 * machine.frame_ms; });
     return out.text;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "machine_health.h"
 #include <array>
 #include <cstdint>
 #include <map>
@@ -39,7 +40,8 @@ Tally tally_of(const nlohmann::json& json);
 struct Gauges {
     double uptime_s = 0;
     std::size_t resident_bytes = 0, files = 0, threads = 0, devices = 0, worn_axes = 0, outputs_shown = 0, outputs = 0,
-                pipelines = 0, machines = 1, machines_in_step = 1;
+                pipelines = 0;
+    std::vector<MachineHealth> machines{}; ///< where several show the exhibit
     std::string version;
 };
 

@@ -174,6 +174,7 @@ std::string status_text(const Snapshot& now, bool engineer)
         status["pattern"] = now.pattern.empty() ? "none" : now.pattern;
         status["quality"] = now.quality;
         status["error"] = now.error;
+        status["machines"] = now.machines;
     }
     return dump({{"status", status}});
 }

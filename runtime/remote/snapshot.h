@@ -14,6 +14,7 @@ struct Snapshot : ExhibitState {
     std::string visit; ///< one of visit_phase_names
     double frames_per_s = 0, frame_ms = 0;
     std::string error; ///< the last one, as a sentence; empty: none
+    std::string machines; ///< of the exhibit, in a line; empty: one shows all
     double uptime_s = 0;
 };
 

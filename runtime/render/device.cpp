@@ -50,8 +50,15 @@ vk::raii::Instance make_instance(Device& device, const Device::Options& options)
         &device.complaints);
     vk::ValidationFeatureEnableEXT synchronization = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
     vk::ValidationFeaturesEXT features(1, &synchronization, 0, nullptr, &messenger);
-    for (const vk::ExtensionProperties& offered : device.context.enumerateInstanceExtensionProperties())
-        device.debug_utils |= std::string_view(offered.extensionName) == VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    for (const vk::ExtensionProperties& offered : device.context.enumerateInstanceExtensionProperties()) {
+        const std::string_view name(offered.extensionName);
+        device.debug_utils |= name == VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+        // By it a surface says whether it can take part in a barrier.
+        if (options.windows && options.barrier && name == VK_KHR_GET_SURFACE_CAPABILITIES_2_EXTENSION_NAME) {
+            device.present_barrier = true;
+            extensions.push_back(VK_KHR_GET_SURFACE_CAPABILITIES_2_EXTENSION_NAME);
+        }
+    }
     device.debug_utils |= options.validation; // the layer brings it
     if (device.debug_utils)
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
@@ -121,14 +128,25 @@ const char* kind_of(vk::PhysicalDeviceType type)
     }
 }
 
+bool offers(const vk::raii::PhysicalDevice& physical, std::string_view extension)
+{
+    return std::ranges::any_of(physical.enumerateDeviceExtensionProperties(),
+        [&](const vk::ExtensionProperties& offered) { return std::string_view(offered.extensionName) == extension; });
+}
+
+/// True if the device can let screens of several machines change together (VK_NV_present_barrier).
+bool has_present_barrier(const vk::raii::PhysicalDevice& physical)
+{
+    return offers(physical, VK_NV_PRESENT_BARRIER_EXTENSION_NAME)
+        && physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDevicePresentBarrierFeaturesNV>()
+               .get<vk::PhysicalDevicePresentBarrierFeaturesNV>()
+               .presentBarrier;
+}
+
 /// True if the device reports when a picture is on its screen (VK_KHR_present_wait).
 bool has_present_wait(const vk::raii::PhysicalDevice& physical)
 {
-    int offered = 0;
-    for (const vk::ExtensionProperties& extension : physical.enumerateDeviceExtensionProperties())
-        for (const char* name : {VK_KHR_PRESENT_ID_EXTENSION_NAME, VK_KHR_PRESENT_WAIT_EXTENSION_NAME})
-            offered += std::string_view(extension.extensionName) == name;
-    if (offered != 2)
+    if (!offers(physical, VK_KHR_PRESENT_ID_EXTENSION_NAME) || !offers(physical, VK_KHR_PRESENT_WAIT_EXTENSION_NAME))
         return false;
     const auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDevicePresentIdFeaturesKHR,
         vk::PhysicalDevicePresentWaitFeaturesKHR>();
@@ -276,6 +294,12 @@ Device::Device(const Options& options)
         extensions.push_back(VK_KHR_PRESENT_ID_EXTENSION_NAME);
         extensions.push_back(VK_KHR_PRESENT_WAIT_EXTENSION_NAME);
         features13.pNext = &present_wait;
+    }
+    vk::PhysicalDevicePresentBarrierFeaturesNV barrier(true, features13.pNext);
+    present_barrier = present_barrier && has_present_barrier(physical);
+    if (present_barrier) {
+        extensions.push_back(VK_NV_PRESENT_BARRIER_EXTENSION_NAME);
+        features13.pNext = &barrier;
     }
     device = physical.createDevice({{}, queue_info, {}, extensions, &features, &features13}, allocator_of(options));
     queue = device.getQueue(family, 0);

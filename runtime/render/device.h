@@ -17,6 +17,7 @@ public:
     struct Options {
         bool windows = false; ///< for windows: enables swapchains and the instance extensions that GLFW names
         bool validation = false; ///< the validation layers, synchronization included; see complaints()
+        bool barrier = false; ///< VK_NV_present_barrier, where the GPU has it: screens of several machines change together
         bool counted = false; ///< driver_memory() counts the host memory of all objects
         std::string name; ///< part of a GPU's name; empty: the GPU of the fastest kind
     };
@@ -37,6 +38,7 @@ public:
     vk::PhysicalDeviceProperties properties;
     vk::PhysicalDeviceMemoryProperties memory;
     bool reports_presentation = false; ///< VK_KHR_present_wait
+    bool present_barrier = false; ///< VK_NV_present_barrier; a surface may lack it nevertheless
     bool compresses = false; ///< large textures are compressed; false where the processor would decode them at each look-up
     bool debug_utils = false; ///< VK_EXT_debug_utils: objects have names, passes have labels
     Trace* trace = nullptr; ///< receives the processor's spans of each frame during a trace

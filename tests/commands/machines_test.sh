@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # One exhibit on several machines, here three programs on the loopback interface under Xvfb: they show what one program would,
-# in step; nodes and the master are killed and come back; a node with another file is refused.
+# in step, also while a builder changes the layout; nodes and the master are killed and come back; a node with another file is
+# refused.
 # It bears any load under which a frame takes at most a second.
 # Usage: machines_test.sh PROGRAM FOLDER_OF_THE_RIG
 set -u
-program=$(realpath "$1") rig=$(dirname "$0")/../rig
+program=$(realpath "$1") tools=$(realpath "$2") rig=$(dirname "$0")/../rig
 . "$rig/monitors.sh"
 serve Xvfb -noreset -screen 0 800x400x24
 export STARBOW_VALIDATION=1
@@ -14,15 +15,21 @@ prepare_remote
 output() { # NAME NODE X YAW
     printf '{ "name": "%s", "node": "%s", "size": [160, 120], "place": [%s, 0], "monitor": { "position": [0, 0] }, "viewports": [ { "projection": { "type": "planar", "fov_y_deg": 50, "turn_deg": { "yaw": %s } } } ] }' "$@"
 }
+wall='{ "name": "four", "node": "right", "size": [160, 120], "place": [480, 0], "monitor": { "position": [0, 0] }, "viewports": [ { "projection": { "type": "wall", "lower_left_m": [1, -0.5, -0.7], "lower_right_m": [1, -0.5, 0.7], "upper_left_m": [1, 0.5, -0.7] } } ] }'
 # The head-up display, whose frame rate differs, is behind the walls.
-printf '{ "hud": { "azimuth_deg": 180, "width_deg": 10 }, "outputs": [ %s, %s, %s, %s ] }\n' "$(output one left 0 -90)" "$(output two left 160 -30)" "$(output three middle 320 30)" "$(output four right 480 90)" >"$folder/walls.json"
-printf '{ "layout": "walls.json", "scene": "avenue", "tutorial": false, "exposure": { "automatic": false }, "remote": { "port": %s, "pins": "pins" }, "machines": { "master": "left", "interface": "lo", "domain": %s } }\n' $port $domain >"$folder/exhibit.json"
+tracker=$((port + 1))
+printf '{ "hud": { "azimuth_deg": 180, "width_deg": 10 }, "head_tracker": { "port": %s }, "outputs": [ %s, %s, %s, %s ] }\n' $tracker "$(output one left 0 -90)" "$(output two left 160 -30)" "$(output three middle 320 30)" "$wall" >"$folder/walls.json"
+printf '{ "layout": "walls.json", "scene": "avenue", "tutorial": false, "exposure": { "automatic": false }, "remote": { "port": %s, "pins": "../pins" }, "machines": { "master": "left", "interface": "lo", "domain": %s } }\n' $port $domain >"$folder/exhibit.json"
+for machine in one left middle right; do # each has its own copy of the exhibit
+    mkdir "$folder/$machine"
+    cp "$folder/walls.json" "$folder/exhibit.json" "$folder/$machine/"
+done
 
 declare -A at
 begin() { # NODE OPTIONS...
     local node=$1
     shift
-    "$program" run --exhibit "$folder/exhibit.json" --node "$node" --frame-log "$folder/$node.csv" "$@" >"$folder/$node.log" 2>&1 &
+    "$program" run --exhibit "$folder/$node/exhibit.json" --node "$node" --frame-log "$folder/$node.csv" "$@" >"$folder/$node.log" 2>&1 &
     at[$node]=$!
     started+=($!)
 }
@@ -31,10 +38,27 @@ says() { grep -q "$2" "$folder/$1.log"; } # NODE TEXT
 shot() { import -window root -crop 640x120+0+0 +repage "$folder/$1.png"; }
 lit() { [ "$(import -window root -crop "160x120+$1+0" -format '%[fx:mean>0.01]' info:)" = 1 ]; }
 dark() { ! lit "$1"; }
+press() { # KEY...: in the window of the output one, the master's
+    xdotool windowfocus "$(xdotool search --name '^Starbow one' | head -n 1)"
+    for key in "$@"; do xdotool key "$key" && sleep 0.15; done
+}
+head_at() { # CENTIMETRES to the right, from now on; 0: the tracker ends
+    [ -n "${sender-}" ] && kill $sender 2>/dev/null
+    sender=
+    [ "$1" = 0 ] && return
+    python3 -c '
+import socket, struct, sys, time
+to = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+while True:
+    to.sendto(struct.pack("<6d", float(sys.argv[1]), 0, 0, 0, 0, 0), ("127.0.0.1", int(sys.argv[2])))
+    time.sleep(0.02)' "$1" $tracker &
+    sender=$!
+    started+=($sender)
+}
 same() { compare -metric AE "$folder/$1.png" "$folder/$2.png" null: >/dev/null 2>&1; }
 
 # One program shows all outputs, without a network.
-"$program" run --exhibit "$folder/exhibit.json" --quality fine >"$folder/one.log" 2>&1 &
+"$program" run --exhibit "$folder/one/exhibit.json" --quality fine >"$folder/one.log" 2>&1 &
 one=$!
 started+=($one)
 until_true 60 lit 320 || fail "one program: no picture"
@@ -44,6 +68,26 @@ ask scene chart >/dev/null
 is scene chart 60
 sleep 3
 shot chart
+ask scene avenue >/dev/null
+is scene avenue 60
+back() { shot again && same one again; }
+until_true 20 back || fail "one program: another picture after another world"
+press F2
+sleep 2
+shot pattern
+press F2 F2 F2 F2 F2 # until there is none again
+until_true 20 back || fail "one program: another picture after the patterns"
+head_at 30
+sleep 3
+shot head
+head_at 0
+same one head && fail "the picture does not follow the head"
+until_true 20 back || fail "one program: another picture after the head's moves"
+sed -i 's/"yaw": 30 /"yaw": 31 /' "$folder/one/walls.json"
+until_true 20 says one 'layout: .*applied' || fail "one program: the changed layout is not applied"
+sleep 2
+shot turned
+same one turned && fail "the changed layout shows the same"
 kill -INT $one
 wait $one || fail "one program: exit $?"
 ok
@@ -66,18 +110,81 @@ ask scene avenue >/dev/null
 until_true 60 alike || fail "three programs show something else than one, back in the first world"
 ok
 
+# A test pattern, and a visitor's tracked head.
+press F2
+until_true 20 alike pattern || fail "three programs show another pattern than one"
+says left '3 of 3 machines in step; their screens change at most one refresh apart' || fail "the builder is not told of the screens"
+press F2 F2 F2 F2 F2
+head_at 30
+until_true 20 alike head || fail "three programs show something else than one to a head that moves"
+head_at 0
+until_true 20 alike || fail "after a pattern and a head's moves something else is shown"
+ok
+
+# A builder turns a number at the master: the node shows it at once. F5 keeps it in the files of all.
+in_step() { [ "$(now error)" = "" ]; }
+press F3 F3 F3 F3 F3 F3 F3 shift+Page_Up
+until_true 20 alike turned || fail "a turned number is not shown by the node: $(tail -n 3 "$folder/left.log")"
+grep -q '"yaw": 30 ' "$folder/left/walls.json" || fail "the file has changed before F5"
+press F5
+kept() { for machine in left middle right; do grep -q '"yaw": 31 ' "$folder/$machine/walls.json" || return 1; done; }
+until_true 20 kept || fail "F5 does not keep the number on all machines"
+cmp -s "$folder/left/walls.json" "$folder/right/walls.json" || fail "the files of master and node differ after F5"
+until_true 20 in_step || fail "after F5: $(now error)"
+until_true 20 alike turned || fail "after F5 something else is shown"
+ok
+# A node that starts while a number is turned and not kept shows it as well.
+press shift+Page_Down
+until_true 20 alike || fail "the number is not turned back"
+stop right
+begin right --quality fine
+again() { [ "$(grep -c "node 'right' is in step" "$folder/left.log")" -ge 3 ]; }
+until_true 60 again || fail "right does not come back: $(cat "$folder/right.log")"
+until_true 20 alike || fail "right does not show the turned number after its start"
+press shift+Page_Up
+until_true 20 alike turned || fail "the number is not turned again"
+ok
+# A builder edits the master's file: nodes whose file is another one go on, are named, and follow once they have it.
+sed -i 's/"yaw": 31 /"yaw": 30 /' "$folder/left/walls.json"
+until_true 20 says left "node 'middle' has another walls.json" || fail "the master does not say whose file differs"
+is error 'not in step: middle, right'
+lit 320 || fail "middle does not go on with its last good layout"
+for machine in middle right; do cp "$folder/left/walls.json" "$folder/$machine/walls.json"; done
+until_true 20 in_step || fail "after the copies: $(now error)"
+until_true 20 alike || fail "after the copies something else is shown"
+ok
+
+# The instruments' page reaches the nodes: without it they would not be in step. A tour runs on all.
+silences=$(grep -c 'was silent' "$folder/left.log")
+press o
+sleep 1
+press o
+sleep 1
+ask tour first-minute >/dev/null
+is tour first-minute 60
+sleep 4
+ask scene avenue >/dev/null
+is scene avenue 60
+in_step || fail "with instruments or in a tour: $(now error)"
+[ "$(grep -c 'was silent' "$folder/left.log")" = "$silences" ] || fail "a node was silent with instruments or in a tour: $(tail -n 3 "$folder/left.log")"
+ask reset >/dev/null
+until_true 60 alike || fail "after instruments and a tour something else is shown"
+ok
+
 # A node is killed: the others go on. It comes back, in step.
 frames() { wc -l <"$folder/$1.csv"; }
 stop right
 until_true 20 says left "node 'right' was silent for 6 frames" || fail "left does not miss right"
 is error 'not in step: right'
+[[ $(now machines) =~ ^'left '[0-9.]+' ms, middle '[0-9.]+' ms, right away'$ ]] || fail "the machines are: $(now machines)"
 before=$(frames middle)
 sleep 1
 [ "$(frames middle)" -gt "$before" ] || fail "middle stands still without right"
 ok
 cp "$folder/right.csv" "$folder/right-first.csv"
+joins=$(grep -c "node 'right' is in step" "$folder/left.log")
 begin right --quality fine
-joined() { [ "$(grep -c "node 'right' is in step" "$folder/left.log")" = 2 ]; }
+joined() { [ "$(grep -c "node 'right' is in step" "$folder/left.log")" -gt "$joins" ]; }
 until_true 60 joined || fail "right does not come back"
 ok
 until_true 20 alike || fail "after a restart something else is shown"
@@ -111,7 +218,7 @@ ok
 begin left --quality fine
 until_true 60 lit 0 || fail "left: no picture"
 mkdir "$folder/other"
-sed 's/"yaw": 90/"yaw": 91/' "$folder/walls.json" >"$folder/other/walls.json"
+sed 's/"yaw": -30/"yaw": -31/' "$folder/walls.json" >"$folder/other/walls.json"
 cp "$folder/exhibit.json" "$folder/other/"
 said=$(timeout 60 "$program" run --exhibit "$folder/other/exhibit.json" --node right --quality fine 2>&1)
 [ $? = 2 ] || fail "a node with another layout is not refused: $said"
@@ -126,13 +233,43 @@ refused() { # TEXT OPTIONS...
     [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]] || fail "'$text' is not the message: $said"
     ok
 }
+# check reads an exhibit, and says who shows what on which network.
+said=$("$program" check "$folder/exhibit.json" --svg "$folder/plan.svg") || fail "check: $said"
+for line in 'exhibit exhibit: layout walls, world avenue, words en' 'machine left, the master: one, two' 'machine right: four' \
+    "network: interface lo, 127.0.0.1 here, domain $domain" 'note: interface lo reaches no other machine'; do
+    [[ $said == *"$line"* ]] || fail "check does not say '$line': $said"
+done
+ok
 refused 'one of these is right: left, middle, right' --exhibit "$folder/exhibit.json" --node up
 refused '"machines" in its file is right' --exhibit desk --node left
 sed 's/"interface": "lo"/"interface": "none0"/' "$folder/exhibit.json" >"$folder/none.json"
 refused 'interface "none0" is none of this machine; one of these is right: lo (127.0.0.1)' --exhibit "$folder/none.json" --node right
 sed 's/"master": "left"/"master": "up"/' "$folder/exhibit.json" >"$folder/up.json"
 refused 'is no node of the layout walls; one of these is right: left, middle, right' --exhibit "$folder/up.json" --node right
+said=$(timeout 60 "$program" check "$folder/up.json" 2>&1)
+[ $? = 2 ] && [[ $said == *'is no node of the layout walls'* ]] || fail "check of a wrong master: $said"
+"$program" check "$folder/none.json" --svg "$folder/plan.svg" | grep -q 'note: interface "none0" is none of this machine' || fail "check at a desk"
+ok
 kill -INT ${at[left]}
 wait ${at[left]} || fail "left: exit $?"
+
+# Graphics cards that let all screens change together are used, and the display says so; not where a screen can't.
+export VK_LAYER_PATH=$tools VK_INSTANCE_LAYERS=VK_LAYER_STARBOW_faults STARBOW_VALIDATION=0
+for machine in left middle right; do cp "$folder/walls.json" "$folder/$machine/"; done
+for kind in all none; do
+    for node in right middle left; do STARBOW_BARRIER=$kind begin $node --quality fine; done
+    for node in middle right; do until_true 60 says left "node '$node' is in step" || fail "barrier $kind: $node does not join"; done
+    until_true 60 in_step || fail "barrier $kind: $(now error)"
+    press F2
+    [ $kind = all ] && text='3 of 3 machines in step; their screens change in the same refresh (present barrier)' || text='at most one refresh apart'
+    until_true 10 says left "$text" || fail "barrier $kind: the display does not say '$text'"
+    for node in right middle left; do
+        kill -INT ${at[$node]}
+        wait ${at[$node]} || fail "barrier $kind: $node: exit $?"
+        says $node 'fault: in the barrier' && took=all || took=none
+        [ $took = $kind ] || fail "barrier $kind: $node takes part: $took"
+    done
+    ok
+done
 
 echo "$passed passed, 0 failed"

@@ -1,6 +1,8 @@
 // Alignment on site: every number is adjustable in whole steps within its range, and is kept in the file.
 #include "config/model/adjust.h"
 #include "tests/support/files.h"
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <set>
@@ -50,6 +52,14 @@ TEST(Adjust, EveryShippedLayoutKeepsItsAdjustments)
             EXPECT_NEAR(value_of(turned, one) - value_of(before, one), 3 * one.step, 1e-9) << one.name;
         }
         EXPECT_EQ(changes(before, turned).size(), pointers.size());
+
+        // Another machine, which has the same file, has the same layout by the numbers alone.
+        const std::vector<TurnedNumber> numbers = turned_numbers(before, turned);
+        EXPECT_EQ(numbers.size(), pointers.size());
+        EXPECT_TRUE(turned_numbers(before, before).empty());
+        const Layout there = with_turned(before, numbers);
+        for (const Adjustable& one : all)
+            EXPECT_EQ(value_of(there, one), value_of(turned, one)) << one.name;
         EXPECT_TRUE(changes(before, before).empty());
 
         std::ifstream stream(entry.path());
@@ -75,6 +85,27 @@ TEST(Adjust, StaysInTheRangeAndOnWholeSteps)
     EXPECT_EQ(value_of(adjusted(layout, named(all, "dome, tilt"), 1e6), named(all, "dome, tilt")), 180);
     EXPECT_EQ(value_of(adjusted(layout, named(all, "blend, power"), -1e6), named(all, "blend, power")), 0.1);
     EXPECT_EQ(value_of(adjusted(layout, named(all, "dome, rotation"), -10), named(all, "dome, rotation")), -1);
+}
+
+TEST(Adjust, NumbersThatALayoutHasNotAreRefused)
+{
+    const Layout dome = load_layout(starbow::testing::source_dir() / "config/layouts/dome2.json");
+    const std::size_t count = adjustables(dome).size();
+    const auto said = [&](TurnedNumber number) {
+        try {
+            with_turned(dome, std::array{number});
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const std::uint16_t place_of_left_tilt = 2; // after the whole dome's tilt and rotation
+    EXPECT_EQ(said({place_of_left_tilt, 20}), "");
+    EXPECT_EQ(said({place_of_left_tilt, 181}), "dome2: left, tilt can't become 181; a number from -180 to 180 is right");
+    EXPECT_NE(said({place_of_left_tilt, std::nan("")}), "");
+    EXPECT_EQ(said({0, 20}), "dome2: the number in place 0 can't be turned; a place below " + std::to_string(count)
+            + " is right") << "the whole dome's is the sum of its projectors'";
+    EXPECT_NE(said({std::uint16_t(count), 20}), "");
 }
 
 TEST(Adjust, ProjectorsOfOneDomeAreAdjustedTogether)

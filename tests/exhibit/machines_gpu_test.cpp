@@ -2,6 +2,7 @@
 #include "config/model/shipped.h"
 #include "runtime/exhibit/instant_pictures.h"
 #include "runtime/machines/instant_bytes.h"
+#include "runtime/machines/page_bytes.h"
 #include "tests/support/gpu_environment.h"
 #include <cstring>
 
@@ -55,6 +56,8 @@ public:
     }
 
     FrameRenderer& frame() { return frame_; }
+    /// The layout with a builder's changes.
+    void adopt(const Layout& layout) { frame_.adopt(layout); }
 
 private:
     Layout layout_;
@@ -166,6 +169,71 @@ TEST(Machines, TogetherTheyShowWhatOneWould)
     const Shot start = load_shot(shipped_file("shots", "avenue-rest"));
     for (const char* name : {"desk", "wall3", "dome2", "cave5", "passive-pair", "stereo", "mirror"})
         expect_union(avenue().world, layout_of(name), instants(start), name);
+}
+
+/// A builder turns numbers at the master: the nodes have them by the state's bytes, in the same frame.
+TEST(Machines, TheSameWhileABuilderTurnsNumbers)
+{
+    const Shot start = load_shot(shipped_file("shots", "avenue-rest"));
+    for (const char* name : {"desk", "dome2", "cave5", "mirror"}) {
+        const Layout layout = layout_of(name);
+        Layout turned = layout;
+        const std::vector<Adjustable> all = adjustables(layout);
+        for (std::size_t i = 0; i < all.size(); i += 2)
+            turned = adjusted(turned, all[i], 7);
+        Machine whole(avenue().world, layout, "");
+        std::vector<std::unique_ptr<Machine>> nodes;
+        for (const std::string& node : nodes_of(layout))
+            nodes.push_back(std::make_unique<Machine>(avenue().world, layout, node));
+        const Instant now = instants(start)[1];
+        const auto before = whole.draw(now);
+        whole.adopt(turned);
+        const auto wanted = whole.draw(now);
+        EXPECT_NE(wanted, before) << name;
+        const auto bytes = bytes_of({.turned = turned_numbers(layout, turned), .instant = now});
+        for (const auto& node : nodes) {
+            node->draw(now); // in the file's layout
+            const SharedInstant shared = instant_of(bytes);
+            node->adopt(with_turned(layout, shared.turned));
+            const auto seen = node->draw(shared.instant);
+            for (std::size_t output = 0; output < seen.size(); ++output)
+                if (node->shows(output)) {
+                    EXPECT_EQ(seen[output], wanted[output]) << name << ", " << layout.outputs[output].name;
+                }
+        }
+    }
+}
+
+/// The instruments' page is a message of its own, which the state names.
+TEST(Machines, TheSameWithThePageOfTheInstruments)
+{
+    const Shot start = load_shot(shipped_file("shots", "avenue-rest"));
+    const Layout layout = layout_of("dome2");
+    Panel panel = plate({360, 240}, 20);
+    for (std::size_t i = 0; i < panel.texels.size(); i += 7)
+        panel.texels[i] = 255;
+    Instant now = instants(start)[0];
+    Instruments& on = now.instruments.emplace();
+    on.panel_number = 5, on.scale_place = {0.2f, 0.3f, 0.5f, 0.1f};
+    Machine whole(avenue().world, layout, "");
+    const auto without = whole.draw(now);
+    on.panel = &panel;
+    const auto wanted = whole.draw(now);
+    EXPECT_NE(wanted, without);
+    const PageMessage page = page_of(panel, 5);
+    const auto bytes = bytes_of({.instant = now});
+    for (const std::string& name : nodes_of(layout)) {
+        Machine node(avenue().world, layout, name);
+        SharedInstant shared = instant_of(bytes);
+        EXPECT_EQ(shared.instant.instruments->panel_number, page.number);
+        const Panel come = panel_of(page);
+        shared.instant.instruments->panel = &come;
+        const auto seen = node.draw(shared.instant);
+        for (std::size_t output = 0; output < seen.size(); ++output)
+            if (node.shows(output)) {
+                EXPECT_EQ(seen[output], wanted[output]) << layout.outputs[output].name;
+            }
+    }
 }
 
 TEST(Machines, TheSameWithMovingBodies)

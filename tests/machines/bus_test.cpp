@@ -2,8 +2,10 @@
 #include "config/json/error.h"
 #include "runtime/machines/bus.h"
 #include "runtime/machines/interface.h"
+#include "runtime/machines/page_bytes.h"
 #include "tests/support/files.h"
 #include <gtest/gtest.h>
+#include <random>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -62,21 +64,21 @@ TEST(BusTest, ALateNodeReceivesTheLastStateAndItsWordsReachTheMaster)
             }))
             return false;
         const bool right = state->frame == 7 && state->instant == std::vector<std::uint8_t>(1000, 7)
-            && configs[0].node == "master" && configs[0].files.size() == 2 && configs[0].files[1].first == "dome.json"
-            && configs[0].files[1].second == "22";
-        bus.send(ReadyMessage{"left", state->frame, 99, 12.5});
+            && configs[0].node == "master" && configs[0].files == FileDigests{{"the program", "11"}, {"en.json", "33"}}
+            && configs[0].layout == FileDigests{{"dome.json", "22"}};
+        bus.send(ReadyMessage{"left", state->frame, 99, 12.5, true});
         std::optional<GoMessage> go;
         return in_time(bus,
                    [&] {
                        if (!go)
-                           bus.send(ReadyMessage{"left", state->frame, 99, 12.5});
+                           bus.send(ReadyMessage{"left", state->frame, 99, 12.5, true});
                        go = bus.go();
                        return go.has_value();
                    })
             && right && go->frame == 7 && go->members == std::vector<std::string>{"left", "right"};
     });
     Bus bus("lo", domain);
-    bus.send(ConfigMessage{"master", {{"the program", "11"}, {"dome.json", "22"}}});
+    bus.send(ConfigMessage{"master", {{"the program", "11"}, {"en.json", "33"}}, {{"dome.json", "22"}}});
     for (std::uint8_t frame = 1; frame <= 7; ++frame)
         bus.send(StateMessage{frame, std::vector<std::uint8_t>(1000, frame)});
     ASSERT_EQ(write(start[1], "x", 1), 1);
@@ -90,6 +92,7 @@ TEST(BusTest, ALateNodeReceivesTheLastStateAndItsWordsReachTheMaster)
         EXPECT_EQ(readies[0].frame, 7);
         EXPECT_EQ(readies[0].digest, 99u);
         EXPECT_EQ(readies[0].frame_ms, 12.5);
+        EXPECT_TRUE(readies[0].barrier);
     }
     const auto over = [&] {
         siginfo_t info{};
@@ -98,6 +101,43 @@ TEST(BusTest, ALateNodeReceivesTheLastStateAndItsWordsReachTheMaster)
     for (const auto until = Clock::now() + 10s; Clock::now() < until && !over(); bus.wait(20ms)) {
         bus.send(GoMessage{7, {"left", "right"}});
         bus.state(), bus.go(), bus.readies(), bus.configs();
+    }
+    EXPECT_TRUE(ended_well(node));
+}
+
+/// A page of the instruments is larger than a datagram, and is there for those that join late, too.
+TEST(BusTest, ALateNodeReceivesTheLastPage)
+{
+    const int domain = free_domain();
+    int start[2];
+    ASSERT_EQ(pipe(start), 0);
+    Panel panel{{640, 480}, std::vector<std::uint8_t>(2 * 640 * 480)};
+    std::mt19937 random(3);
+    for (std::uint8_t& texel : panel.texels)
+        texel = std::uint8_t(random()); // packed, it is as large
+    const pid_t node = elsewhere([&] {
+        char ready = 0;
+        if (read(start[0], &ready, 1) != 1)
+            return false;
+        Bus bus("lo", domain);
+        std::optional<PageMessage> page;
+        return in_time(bus,
+                   [&] {
+                       if (auto come = bus.page())
+                           page = come;
+                       return page.has_value();
+                   })
+            && page->number == 9 && panel_of(*page).size == panel.size && panel_of(*page).texels == panel.texels;
+    });
+    Bus bus("lo", domain);
+    bus.send(page_of(Panel{{1, 1}, {7, 8}}, 8));
+    bus.send(page_of(panel, 9));
+    ASSERT_EQ(write(start[1], "x", 1), 1);
+    for (const auto until = Clock::now() + 10s; Clock::now() < until;) {
+        siginfo_t info{};
+        if (waitid(P_PID, id_t(node), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == node)
+            break;
+        bus.wait(20ms), bus.page();
     }
     EXPECT_TRUE(ended_well(node));
 }

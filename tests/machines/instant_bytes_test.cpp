@@ -13,7 +13,8 @@ namespace {
 SharedInstant full()
 {
     SharedInstant shared{
-        .scene = "gamow", .coming = "train", .language = "de", .quality = "fine", .level = 3, .instant = {}};
+        .scene = "gamow", .coming = "train", .layout = "dome2", .layout_digest = 0xfedcba9876543210u,
+        .turned = {{2, 30.1}, {7, -0.5}}, .language = "de", .quality = "fine", .level = 3, .instant = {}};
     Instant& now = shared.instant;
     now.shot = {"gamow", 1.25, {1, 2, 3}, {0.1, -7, 1e5}, {0.5, 0.5, -0.5, 0.5},
         {false, false, false, Comparison::galilean, true}, -2.5};
@@ -39,6 +40,7 @@ SharedInstant full()
     on.overlay = Overlay::ring;
     on.marks[0] = Spot{{4, 5, 6}, 2, false, 17};
     on.scale = {2, 300, 5};
+    on.panel_number = 1234567890123, on.scale_place = {0.1f, 0.2f, 0.3f, 0.4f};
     return shared;
 }
 
@@ -51,6 +53,9 @@ TEST(InstantBytesTest, EveryPartComesBack)
     EXPECT_EQ(bytes_of(come), bytes);
     EXPECT_EQ(come.scene, "gamow");
     EXPECT_EQ(come.coming, "train");
+    EXPECT_EQ(come.layout, "dome2");
+    EXPECT_EQ(come.layout_digest, sent.layout_digest);
+    EXPECT_EQ(come.turned, sent.turned);
     EXPECT_EQ(come.language, "de");
     EXPECT_EQ(come.level, 3);
     const Instant &a = sent.instant, &b = come.instant;
@@ -68,6 +73,8 @@ TEST(InstantBytesTest, EveryPartComesBack)
     EXPECT_EQ(a.small_picture->name, b.small_picture->name);
     EXPECT_EQ(a.instruments->marks[0]->clock, b.instruments->marks[0]->clock);
     EXPECT_FALSE(b.instruments->marks[1]);
+    EXPECT_EQ(a.instruments->panel_number, b.instruments->panel_number);
+    EXPECT_EQ(a.instruments->scale_place, b.instruments->scale_place);
     // The plain one, too.
     const SharedInstant plain = instant_of(bytes_of(SharedInstant{}));
     EXPECT_FALSE(plain.instant.range || plain.instant.hud || plain.instant.sign || plain.instant.small_picture
@@ -113,7 +120,7 @@ TEST(InstantBytesTest, WhatIsNoInstantIsRefused)
     EXPECT_EQ(complaint(longer), "a state of the exhibit's machines has 1 bytes too many");
     other[0] = 99;
     EXPECT_EQ(complaint(other),
-        "a state of the exhibit's machines has version 99; the same program, with version 1, on all machines is right");
+        "a state of the exhibit's machines has version 99; the same program, with version 2, on all machines is right");
     SharedInstant none = full();
     none.instant.shot.position.x = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(complaint(bytes_of(none)), "a state of the exhibit's machines has a number that is none");

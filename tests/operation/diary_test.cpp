@@ -226,6 +226,21 @@ TEST(Exposition, SaysWhatWasCounted)
     EXPECT_EQ(values.at(R"(starbow_scene_seconds_total{scene="a\"b\\c\nd"})"), 4);
 }
 
+TEST(Exposition, SaysWhichMachinesAreInStep)
+{
+    EXPECT_EQ(values_in(exposition_of({}, {})).at("starbow_machines"), 1);
+    const std::vector<MachineHealth> machines{{"left", true, 6.94}, {"up", true, 7.06}, {"right", false, 9, true}, {"a\"b"}};
+    const auto values = values_in(exposition_of({}, {.machines = machines}));
+    EXPECT_EQ(values.at("starbow_machines"), 4);
+    EXPECT_EQ(values.at("starbow_machines_in_step"), 2);
+    EXPECT_EQ(values.at("starbow_machine_in_step{machine=\"left\"}"), 1);
+    EXPECT_EQ(values.at("starbow_machine_in_step{machine=\"right\"}"), 0);
+    EXPECT_EQ(values.at(R"(starbow_machine_in_step{machine="a\"b"})"), 0);
+    EXPECT_NEAR(values.at("starbow_machine_frame_seconds{machine=\"up\"}"), 0.00706, 1e-9);
+    EXPECT_EQ(line_of(machines), "left 6.9 ms, up 7.1 ms, right has another file, a\"b away");
+    EXPECT_EQ(line_of({}), "");
+}
+
 TEST(Diary, TheTextfileIsWhole)
 {
     const fs::path folder = empty_folder("textfile");

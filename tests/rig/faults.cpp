@@ -23,6 +23,8 @@
 // after the first presentation.
 // STARBOW_SHOWN_LATE_MS=MS: the layer provides VK_KHR_present_wait. Each swapchain shows its pictures MS later than the
 // swapchain made before it.
+// STARBOW_BARRIER=SURFACES: the layer provides VK_NV_present_barrier. SURFACES is `all`, or `none` where no surface can take
+// part. For each swapchain that takes part it prints `fault: in the barrier` on stderr.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -55,6 +57,7 @@ VkInstance last_instance;
 PFN_vkEnumerateDeviceExtensionProperties next_enumerate;
 PFN_vkGetPhysicalDeviceFeatures2 next_features;
 PFN_vkDestroySurfaceKHR next_destroy_surface;
+PFN_vkGetPhysicalDeviceSurfaceCapabilities2KHR next_capabilities;
 int presented = 0, losses = 0; // pictures; devices
 std::map<std::string, std::pair<int, int>> calls; // before and after the first presentation
 std::map<VkSwapchainKHR, VkSurfaceKHR> surfaces;
@@ -76,6 +79,35 @@ double late_ms()
 {
     const char* text = std::getenv("STARBOW_SHOWN_LATE_MS");
     return text ? std::atof(text) : -1;
+}
+
+std::string_view barrier()
+{
+    const char* text = std::getenv("STARBOW_BARRIER");
+    return text ? text : "";
+}
+
+/// The extensions that the layer provides, not the driver, with the structures of their features.
+std::map<std::string_view, VkStructureType> provided()
+{
+    std::map<std::string_view, VkStructureType> all;
+    if (late_ms() >= 0) {
+        all[VK_KHR_PRESENT_ID_EXTENSION_NAME] = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_ID_FEATURES_KHR;
+        all[VK_KHR_PRESENT_WAIT_EXTENSION_NAME] = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_WAIT_FEATURES_KHR;
+    }
+    if (!barrier().empty())
+        all[VK_NV_PRESENT_BARRIER_EXTENSION_NAME] = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_BARRIER_FEATURES_NV;
+    return all;
+}
+
+/// Takes structures out of a chain that the driver must not see.
+template <class Wrong> void leave_out(void* first, const Wrong& wrong)
+{
+    for (auto* before = static_cast<VkBaseOutStructure*>(first); before->pNext;)
+        if (wrong(before->pNext->sType))
+            before->pNext = before->pNext->pNext;
+        else
+            before = before->pNext;
 }
 
 struct Fault {
@@ -269,7 +301,13 @@ VKAPI_ATTR VkResult VKAPI_CALL create_swapchain(
         if (lost.count(info->surface))
             return VK_ERROR_SURFACE_LOST_KHR;
     }
-    const VkResult result = next<PFN_vkCreateSwapchainKHR>(device, "vkCreateSwapchainKHR")(device, info, allocator, made);
+    VkSwapchainCreateInfoKHR copy = *info;
+    for (auto* s = static_cast<const VkBaseInStructure*>(info->pNext); s; s = s->pNext)
+        if (s->sType == VK_STRUCTURE_TYPE_SWAPCHAIN_PRESENT_BARRIER_CREATE_INFO_NV)
+            std::fprintf(stderr, "fault: in the barrier\n");
+    leave_out(
+        &copy, [](VkStructureType type) { return type == VK_STRUCTURE_TYPE_SWAPCHAIN_PRESENT_BARRIER_CREATE_INFO_NV; });
+    const VkResult result = next<PFN_vkCreateSwapchainKHR>(device, "vkCreateSwapchainKHR")(device, &copy, allocator, made);
     const std::lock_guard lock(mutex);
     if (result == VK_SUCCESS) {
         replaced |= info->oldSwapchain != VK_NULL_HANDLE;
@@ -341,22 +379,19 @@ VKAPI_ATTR VkResult VKAPI_CALL wait_for_present(VkDevice, VkSwapchainKHR swapcha
     return VK_SUCCESS;
 }
 
-// The layer provides these extensions, not the driver.
-const char* const provided[] = {VK_KHR_PRESENT_ID_EXTENSION_NAME, VK_KHR_PRESENT_WAIT_EXTENSION_NAME};
-
 VKAPI_ATTR VkResult VKAPI_CALL enumerate_extensions(
     VkPhysicalDevice physical, const char* layer, uint32_t* count, VkExtensionProperties* properties)
 {
     const auto below = next_enumerate;
-    if (layer || late_ms() < 0)
+    if (layer || provided().empty())
         return below(physical, layer, count, properties);
     uint32_t theirs = 0;
     below(physical, nullptr, &theirs, nullptr);
     std::vector<VkExtensionProperties> all(theirs);
     below(physical, nullptr, &theirs, all.data());
-    for (const char* name : provided) {
+    for (const auto& [name, features] : provided()) {
         VkExtensionProperties extension{};
-        std::strncpy(extension.extensionName, name, sizeof extension.extensionName - 1);
+        std::strncpy(extension.extensionName, name.data(), sizeof extension.extensionName - 1);
         extension.specVersion = 1;
         all.push_back(extension);
     }
@@ -373,12 +408,21 @@ VKAPI_ATTR VkResult VKAPI_CALL enumerate_extensions(
 VKAPI_ATTR void VKAPI_CALL get_features(VkPhysicalDevice physical, VkPhysicalDeviceFeatures2* features)
 {
     next_features(physical, features);
-    for (auto* s = static_cast<VkBaseOutStructure*>(features->pNext); s && late_ms() >= 0; s = s->pNext) {
-        if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_ID_FEATURES_KHR)
-            reinterpret_cast<VkPhysicalDevicePresentIdFeaturesKHR*>(s)->presentId = VK_TRUE;
-        if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_WAIT_FEATURES_KHR)
-            reinterpret_cast<VkPhysicalDevicePresentWaitFeaturesKHR*>(s)->presentWait = VK_TRUE;
-    }
+    // Each of these structures has one feature.
+    for (auto* s = static_cast<VkBaseOutStructure*>(features->pNext); s; s = s->pNext)
+        for (const auto& [name, type] : provided())
+            if (s->sType == type)
+                *reinterpret_cast<VkBool32*>(s + 1) = VK_TRUE;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL surface_capabilities(
+    VkPhysicalDevice physical, const VkPhysicalDeviceSurfaceInfo2KHR* info, VkSurfaceCapabilities2KHR* capabilities)
+{
+    const VkResult result = next_capabilities(physical, info, capabilities);
+    for (auto* s = static_cast<VkBaseOutStructure*>(capabilities->pNext); s; s = s->pNext)
+        if (s->sType == VK_STRUCTURE_TYPE_SURFACE_CAPABILITIES_PRESENT_BARRIER_NV)
+            reinterpret_cast<VkSurfaceCapabilitiesPresentBarrierNV*>(s)->presentBarrierSupported = barrier() == "all";
+    return result;
 }
 
 const std::map<std::string_view, VkResult> errors = {
@@ -546,6 +590,8 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(
         next_enumerate = reinterpret_cast<PFN_vkEnumerateDeviceExtensionProperties>(
             calls(*made, "vkEnumerateDeviceExtensionProperties"));
         next_features = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(calls(*made, "vkGetPhysicalDeviceFeatures2"));
+        next_capabilities = reinterpret_cast<PFN_vkGetPhysicalDeviceSurfaceCapabilities2KHR>(
+            calls(*made, "vkGetPhysicalDeviceSurfaceCapabilities2KHR"));
         next_destroy_surface = reinterpret_cast<PFN_vkDestroySurfaceKHR>(calls(*made, "vkDestroySurfaceKHR"));
         for (const auto& [name, own] : of_instance)
             next_of_instance[name] = calls(*made, name.data());
@@ -565,21 +611,14 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(
     VkDeviceCreateInfo copy = *info;
     std::vector<const char*> names;
     for (uint32_t i = 0; i < info->enabledExtensionCount; ++i) {
-        const std::string_view name = info->ppEnabledExtensionNames[i];
-        if (late_ms() < 0 || (name != provided[0] && name != provided[1]))
+        if (!provided().contains(info->ppEnabledExtensionNames[i]))
             names.push_back(info->ppEnabledExtensionNames[i]);
     }
     copy.enabledExtensionCount = uint32_t(names.size());
     copy.ppEnabledExtensionNames = names.data();
-    auto* before = reinterpret_cast<VkBaseOutStructure*>(&copy);
-    while (before->pNext && late_ms() >= 0) {
-        const bool provided_here = before->pNext->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_ID_FEATURES_KHR
-            || before->pNext->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_WAIT_FEATURES_KHR;
-        if (provided_here)
-            before->pNext = before->pNext->pNext;
-        else
-            before = before->pNext;
-    }
+    leave_out(&copy, [](VkStructureType type) {
+        return std::ranges::any_of(provided(), [&](const auto& one) { return one.second == type; });
+    });
     const VkResult result = reinterpret_cast<PFN_vkCreateDevice>(instance_calls(last_instance, "vkCreateDevice"))(
         physical, &copy, allocator, made);
     if (result == VK_SUCCESS) {
@@ -615,6 +654,7 @@ PFN_vkVoidFunction layer_function(std::string_view name)
         FUNCTION("vkDestroySurfaceKHR", destroy_surface),
         FUNCTION("vkGetPhysicalDeviceFeatures2", get_features),
         FUNCTION("vkDestroySwapchainKHR", destroy_swapchain),
+        FUNCTION("vkGetPhysicalDeviceSurfaceCapabilities2KHR", surface_capabilities),
 #undef FUNCTION
 #define OWN(name, function) {#name, reinterpret_cast<PFN_vkVoidFunction>(Own<#name, function>::call)}
         OWN(vkCreateInstance, create_instance),

@@ -9,6 +9,7 @@
 #include "displays/check/lint.h"
 #include "displays/compile/compiled_view.h"
 #include "displays/finish/shade.h"
+#include "exhibit_lines.h"
 #include "flashes.h"
 #include "runtime/commands/commands.h"
 #include "runtime/images/capture.h"
@@ -142,10 +143,12 @@ void add_check(CLI::App& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<CheckOptions>();
     CLI::App* command = app.add_subcommand("check",
-        "Read a layout, print what each viewport shows, and draw the floor plan; or a world of your own, and show it; or a "
+        "Read a layout, print what each viewport shows, and draw the floor plan; or an exhibit, with all that it names, its "
+        "machines and its layout; or a world of your own, and show it; or a "
         "scene, and say how exact its light is; or a tour or a flight, and count its flashes.");
     CLI::Option* file = command->add_option("FILE", options->file,
-        "A layout file, or the name of one in config/layouts: its viewports and its floor plan. Or a scene file or a glTF "
+        "A layout file, or the name of one in config/layouts: its viewports and its floor plan. Or an exhibit's file: "
+        "everything that it names is read, and its machines and their network are told. Or a scene file or a glTF "
         "world (.glb, .gltf): its size, its cost, what is drawn otherwise than it says, and a page with a plan and stills");
     CLI::Option* scene = command->add_option("--scene", options->scene,
         "A scene file, or the name of one in config/scenes: how its light is represented, the worst error of a colour, and "
@@ -179,7 +182,8 @@ void add_check(CLI::App& app, std::function<int()>& chosen)
         ->needs(file);
     command->add_option("--page", options->page, "With a world: the page; without it NAME-world.html in the current folder")
         ->needs(file);
-    command->footer("Examples:\n  starbow check dome --svg out/dome.svg\n  starbow check my.glb --write my.json\n  starbow "
+    command->footer("Examples:\n  starbow check dome --svg out/dome.svg\n  starbow check our-dome.json\n  starbow check "
+                    "my.glb --write my.json\n  starbow "
                     "check --scene chart\n"
                     "  starbow check --flashes first-minute --layout dome --out out/flashes.png");
     command->callback([options, file, scene, flashes, &chosen] {
@@ -191,9 +195,14 @@ void add_check(CLI::App& app, std::function<int()>& chosen)
             if (!options->scene.empty())
                 return check_scene(options->scene);
             const std::optional<FileKind> kind = kind_of_file(options->file);
-            return kind == FileKind::scene || kind == FileKind::gltf
-                ? check_world(options->file, options->page, options->write)
-                : check(*options);
+            if (kind == FileKind::exhibit) {
+                CheckOptions of_layout = *options;
+                of_layout.file = print_exhibit(options->file);
+                return check(of_layout);
+            }
+            if (kind == FileKind::scene || kind == FileKind::gltf)
+                return check_world(options->file, options->page, options->write);
+            return check(*options);
         };
     });
 }

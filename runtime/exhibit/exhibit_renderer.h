@@ -1,0 +1,12 @@
+#pragma once
+#include "runtime/render/frame_renderer.h"
+#include "runtime/render/render_context.h"
+
+namespace starbow {
+
+/// The renderer of a machine's outputs. node: this machine among several; empty: it shows all. prepared: as
+/// FrameRenderer's. Throws InputError where a layout is wrong, or there is no memory for it.
+std::unique_ptr<FrameRenderer> exhibit_renderer(RenderContext& context, const Layout& layout, const Quality& quality,
+    const std::string& node, std::optional<PreparedLayout> prepared = {});
+
+} // namespace starbow

@@ -1,0 +1,14 @@
+#pragma once
+#include "config/model/exhibit_file.h"
+#include "exhibit.h"
+
+namespace starbow {
+
+/// Reads all files that an exhibit names. Throws InputError where one is wrong.
+ExhibitOptions open_exhibit(const Exhibit& exhibit);
+
+/// Throws InputError where the outputs of a layout have no machines, where none is the master, and where none is `node`, as
+/// --node names it; empty: it names none.
+void check_machines(const Machines& machines, const Layout& layout, const std::string& node = "");
+
+} // namespace starbow
