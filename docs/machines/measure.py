@@ -20,6 +20,7 @@ def arguments():
     parser.add_argument("--size", default="320x240")
     parser.add_argument("--scene", default="avenue")
     parser.add_argument("--quality", default="draft")
+    parser.add_argument("--display", default="", help="a running X server, such as :5, with a screen for all nodes side by side")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--logs", type=Path, help="a folder that keeps the logs of the frames")
     parser.add_argument("--namespaces", default="", help="network namespaces, as ip netns made them, one for each node: A,B,...")
@@ -142,15 +143,23 @@ def picture(nodes, rows, kills):
     return "\n".join(out) + "\n"
 
 
-def main():
-    options = arguments()
-    random.seed(options.seed)
+def begin_server(options):
+    """An X server with room for all nodes; sets DISPLAY."""
     read, write = os.pipe()
     width, height = map(int, options.size.split("x"))
     server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-noreset", "-screen", "0", "%dx%dx24" % (width * options.nodes, height)],
                               pass_fds=[write], stderr=subprocess.DEVNULL)
     os.close(write)
     os.environ["DISPLAY"] = ":" + os.read(read, 16).decode().strip()
+    return server
+
+
+def main():
+    options = arguments()
+    random.seed(options.seed)
+    server = None if options.display else begin_server(options)
+    if options.display:
+        os.environ["DISPLAY"] = options.display
     with tempfile.TemporaryDirectory() as name:
         nodes = Nodes(options, Path(name))
         for node in nodes.names:
@@ -181,8 +190,9 @@ def main():
             options.logs.mkdir(parents=True, exist_ok=True)
             for log in nodes.folder.glob("*.csv"):
                 shutil.copy(log, options.logs)
-    server.terminate()
-    server.wait()
+    if server:
+        server.terminate()
+        server.wait()
 
     master = rows[nodes.names[0]]
     by_frame = {}

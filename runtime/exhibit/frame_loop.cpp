@@ -154,7 +154,8 @@ bool FrameLoop::fly_frame()
     submitted_ = true;
     const Clock::time_point handed = Clock::now();
     if (master_) {
-        device_.await(*done_, "the end of the frame's drawing (fence)");
+        if (master_->awaits_drawing())
+            device_.await(*done_, "the end of the frame's drawing (fence)");
         let_go();
         frame_->add_samples(master_->samples());
     }

@@ -21,6 +21,8 @@ public:
     /// Sends the next frame's instant, before it the instruments' page if that is a new one; the nodes draw it while the
     /// master does.
     void send(const SharedInstant& shared);
+    /// True where somebody waits until the master has drawn the frame: nodes in step, or the log of frames.
+    bool awaits_drawing() const { return log_.is_open() || gate_.somebody_in(); }
     /// Waits until all who are in have drawn the frame, or for the gate's bound; then all show it.
     void go();
 

@@ -14,6 +14,7 @@ public:
     /// An empty path: nothing is written. Throws InputError where the file can't be made.
     explicit FrameLog(const std::filesystem::path& file);
 
+    bool is_open() const { return file_ != nullptr; }
     /// The frame, which took so long to draw, goes to the screen now.
     void add(std::int64_t frame, std::uint64_t digest, double drawn_ms);
 

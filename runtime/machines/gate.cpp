@@ -49,6 +49,11 @@ double Gate::slowest_ms() const
     return slowest;
 }
 
+bool Gate::somebody_in() const
+{
+    return std::ranges::any_of(nodes_, [](const auto& node) { return node.second.in; });
+}
+
 bool Gate::barrier() const
 {
     return std::ranges::all_of(nodes_, [](const auto& node) { return !node.second.in || node.second.barrier; });

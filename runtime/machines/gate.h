@@ -35,6 +35,7 @@ public:
     bool complete() const;
     /// The time that the slowest node in step has taken to draw a frame, ms.
     double slowest_ms() const;
+    bool somebody_in() const;
     /// True when the screens of all who are in change together.
     bool barrier() const;
     /// Seconds that the frame may wait from its beginning on.

@@ -122,7 +122,7 @@ until_true 20 alike || fail "after a pattern and a head's moves something else i
 ok
 
 # A builder turns a number at the master: the node shows it at once. F5 keeps it in the files of all.
-in_step() { [ "$(now error)" = "" ]; }
+in_step() { [ "$(now error)" = - ]; }
 press F3 F3 F3 F3 F3 F3 F3 shift+Page_Up
 until_true 20 alike turned || fail "a turned number is not shown by the node: $(tail -n 3 "$folder/left.log")"
 grep -q '"yaw": 30 ' "$folder/left/walls.json" || fail "the file has changed before F5"

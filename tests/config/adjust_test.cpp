@@ -103,8 +103,9 @@ TEST(Adjust, NumbersThatALayoutHasNotAreRefused)
     EXPECT_EQ(said({place_of_left_tilt, 20}), "");
     EXPECT_EQ(said({place_of_left_tilt, 181}), "dome2: left, tilt can't become 181; a number from -180 to 180 is right");
     EXPECT_NE(said({place_of_left_tilt, std::nan("")}), "");
-    EXPECT_EQ(said({0, 20}), "dome2: the number in place 0 can't be turned; a place below " + std::to_string(count)
-            + " is right") << "the whole dome's is the sum of its projectors'";
+    EXPECT_EQ(
+        said({0, 20}), "dome2: the number in place 0 can't be turned; a place below " + std::to_string(count) + " is right")
+        << "the whole dome's is the sum of its projectors'";
     EXPECT_NE(said({std::uint16_t(count), 20}), "");
 }
 
