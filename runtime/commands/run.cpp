@@ -19,6 +19,7 @@
 #include "runtime/operation/log.h"
 #include "runtime/operation/record_files.h"
 #include "runtime/operation/service.h"
+#include "runtime/operation/state_folder.h"
 #include "runtime/operation/trace.h"
 #include "version.h"
 #include <CLI/CLI.hpp>

@@ -19,8 +19,9 @@ void NodeLayout::compare(const ConfigMessage& master, bool was_in_step)
     if (const std::string why = difference(config_, master); !why.empty())
         throw InputError(why);
     const std::string why = layout_difference(config_, master);
-    const bool same_name = !master.layout.empty() && master.layout.front().first == config_.layout.front().first;
-    if (why.empty() || !same_name) { // a state says where another layout is
+    const bool other_name
+        = !master.layout.empty() && !config_.layout.empty() && master.layout.front().first != config_.layout.front().first;
+    if (why.empty() || other_name) { // a state says where another layout is
         difference_.clear();
         return;
     }

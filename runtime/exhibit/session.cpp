@@ -302,11 +302,14 @@ std::string steps_of(const Session& session)
 
 std::string screens_of(const Session& session)
 {
-    return std::to_string(in_step(session.machines)) + " of " + std::to_string(session.machines.size())
-        + " machines in step; "
-        + (session.barrier.value_or(false) ? "their screens change in the same refresh (present barrier)"
-                                           : "their screens change at most one refresh apart")
-        + "; " + line_of(session.machines);
+    constexpr std::size_t most_in_a_line = 4; // more would be too small to be read
+    const std::vector<MachineHealth>& machines = session.machines;
+    const std::string times = machines.size() <= most_in_a_line
+        ? line_of(machines)
+        : "the slowest is " + line_of({*std::ranges::max_element(machines, {}, &MachineHealth::frame_ms)});
+    return std::to_string(in_step(machines)) + " of " + std::to_string(machines.size()) + " machines in step, "
+        + (session.barrier.value_or(false) ? "in the same refresh (present barrier)" : "at most one refresh apart") + "; "
+        + times;
 }
 
 std::string notice_of(const Session& session)

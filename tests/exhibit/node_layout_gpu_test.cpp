@@ -2,6 +2,7 @@
 #include "config/model/shipped.h"
 #include "runtime/exhibit/node_layout.h"
 #include "tests/support/files.h"
+#include <fstream>
 #include <thread>
 
 namespace starbow::node_layout_gpu_test {
@@ -12,7 +13,8 @@ using namespace starbow::testing;
 /// Two machines' copies of one exhibit: its layout has two outputs.
 ExhibitOptions copy(const std::string& node, const std::string& yaw = "-30")
 {
-    write_text(node + "-walls.json", R"({ "outputs": [
+    write_text(node + "-walls.json",
+        R"({ "outputs": [
         { "name": "a", "node": "left", "size": [160, 120], // by the window
           "viewports": [ { "projection": { "type": "planar", "turn_deg": { "yaw": )"
             + yaw + R"(, "pitch": 0, "roll": 0 } } } ] },
@@ -21,17 +23,13 @@ ExhibitOptions copy(const std::string& node, const std::string& yaw = "-30")
     std::filesystem::create_directories(scratch(node));
     const std::filesystem::path file = scratch(node) / std::filesystem::path("walls.json");
     std::filesystem::rename(scratch(node + "-walls.json"), file);
-    ExhibitOptions options{.programme = {.scene = shipped_file("scenes", "avenue")},
-        .layout = load_layout(file),
-        .words = words_in("en")};
+    ExhibitOptions options{
+        .programme = {.scene = shipped_file("scenes", "avenue")}, .layout = load_layout(file), .words = words_in("en")};
     options.node = node;
     return options;
 }
 
-double yaw_of(const Layout& layout)
-{
-    return std::get<Planar>(layout.outputs[0].viewports[0].projection).turn.yaw_deg;
-}
+double yaw_of(const Layout& layout) { return std::get<Planar>(layout.outputs[0].viewports[0].projection).turn.yaw_deg; }
 
 /// The layout with its first output turned by tenths of a degree.
 Layout turned(const Layout& layout, double tenths) { return adjusted(layout, adjustables(layout)[0], tenths); }
@@ -81,7 +79,8 @@ TEST(NodeLayoutTest, TheMastersNumbersAreShownAndKept)
 
     // He keeps it in the master's file: the node's file becomes the same, its comment with it.
     patch_file(master.layout.file, changes(master.layout, shown));
-    const ExhibitOptions kept{.programme = master.programme, .layout = load_layout(master.layout.file), .words = master.words};
+    const ExhibitOptions kept{
+        .programme = master.programme, .layout = load_layout(master.layout.file), .words = master.words};
     const SharedInstant after = said(kept, kept.layout);
     EXPECT_FALSE(node.turned_by(after)) << "the same picture until its own file is read";
     EXPECT_FALSE(node.is_of(after));
@@ -103,7 +102,8 @@ TEST(NodeLayoutTest, ItsFileIsTheMastersOrItIsNamed)
         node.compare(masters, false);
         FAIL() << "before it was ever in step, it is refused";
     } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("node 'right' has another walls.json ("), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("node 'right' has another walls.json ("), std::string::npos)
+            << error.what();
     }
     // While it shows, it goes on with its last good layout, and no number is turned in a file that is another one.
     const std::string before = read_text(options.layout.file);
@@ -113,8 +113,7 @@ TEST(NodeLayoutTest, ItsFileIsTheMastersOrItIsNamed)
     EXPECT_FALSE(node.turned_by(said(master, turned(master.layout, 5))));
     EXPECT_EQ(yaw_of(node.shown()), -30);
     // The builder copies the file.
-    std::filesystem::copy_file(
-        master.layout.file, options.layout.file, std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::copy_file(master.layout.file, options.layout.file, std::filesystem::copy_options::overwrite_existing);
     follow(node);
     EXPECT_TRUE(node.is_of(said(master, master.layout)));
     EXPECT_EQ(yaw_of(node.shown()), -35);
@@ -124,6 +123,27 @@ TEST(NodeLayoutTest, ItsFileIsTheMastersOrItIsNamed)
     ConfigMessage other = masters;
     other.files[0].second = "0";
     EXPECT_THROW(node.compare(other, true), InputError);
+}
+
+/// A builder's slip: the node's file has no machines any more. It is named, and mended while the node runs.
+TEST(NodeLayoutTest, AFileWithoutMachinesIsNamedToo)
+{
+    const ExhibitOptions master = copy("left"), options = copy("right");
+    const ConfigMessage masters = config_of(master, digests_of(master.layout));
+    NodeLayout node(options);
+    node.compare(masters, false);
+    std::string text = read_text(options.layout.file);
+    for (const std::string& member : {std::string("\"node\": \"left\", "), std::string("\"node\": \"right\", ")})
+        text.erase(text.find(member), member.size());
+    std::ofstream(options.layout.file) << text;
+    follow(node);
+    EXPECT_FALSE(node.is_of(said(master, master.layout)));
+    EXPECT_NE(layout_difference(node.config(), masters), "");
+    node.compare(masters, true);
+    EXPECT_FALSE(node.turned_by(said(master, turned(master.layout, 5))));
+    std::filesystem::copy_file(master.layout.file, options.layout.file, std::filesystem::copy_options::overwrite_existing);
+    follow(node);
+    EXPECT_TRUE(node.is_of(said(master, master.layout)));
 }
 
 TEST(NodeLayoutTest, AnotherLayoutIsLoadedByItsName)
