@@ -339,8 +339,9 @@ bool Window::make_swapchain()
                 mode = better;
     }
     const LimitedWait making("the swapchain of output '" + name_ + "' (vkCreateSwapchainKHR)");
+    const vk::raii::SwapchainKHR old = std::exchange(swapchain_, nullptr); // it lasts until the new one is there
     vk::SwapchainCreateInfoKHR info({}, *surface_, count, format_, vk::ColorSpaceKHR::eSrgbNonlinear, extent, 1, usage,
-        vk::SharingMode::eExclusive, {}, limits.currentTransform, alpha, mode, true, *std::exchange(swapchain_, nullptr));
+        vk::SharingMode::eExclusive, {}, limits.currentTransform, alpha, mode, true, *old);
     const vk::SwapchainPresentBarrierCreateInfoNV in_barrier(true);
     barrier_ = device_->present_barrier && !aside_ && takes_part_in_barriers(*device_, *surface_);
     if (barrier_)
