@@ -18,4 +18,15 @@ std::unique_ptr<FrameRenderer> exhibit_renderer(RenderContext& context, const La
     });
 }
 
+void exchange_world(RenderContext& context, GpuWorld world, const std::function<void()>& make_renderer)
+{
+    std::swap(context.world, world);
+    try {
+        make_renderer();
+    } catch (...) {
+        std::swap(context.world, world); // the old renderer draws the old world, in its place
+        throw;
+    }
+}
+
 } // namespace starbow

@@ -462,9 +462,7 @@ void FrameLoop::apply_file_changes()
     if (!result)
         return;
     try {
-        if (const std::string* why = std::get_if<std::string>(&*result))
-            throw InputError(*why);
-        apply(std::get<LayoutLoader::Loaded>(std::move(*result)));
+        apply(LayoutLoader::loaded_of(*std::move(result)));
     } catch (const InputError& error) {
         const std::string why = one_line(error.what());
         write_log(LogKind::layout_refused, why + "; the exhibit stays as it was");

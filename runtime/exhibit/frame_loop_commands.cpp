@@ -73,13 +73,9 @@ void FrameLoop::show_programme(Programme programme, bool visitors)
         LoadedScene loaded = worlds_.take(programme.scene);
         GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), spectral_level_of(session_)); });
         forget_drawn(); // it draws the old world
-        std::swap(context_.world, world);
-        try {
+        exchange_world(context_, std::move(world), [&] {
             frame_ = exhibit_renderer(context_, session_.layout, quality_of(session_, device_), session_.options.node);
-        } catch (...) {
-            std::swap(context_.world, world); // the old renderer draws the old world, in its place
-            throw;
-        }
+        });
         log_world(context_);
         fresh_ = true; // the first frame of a world is a part of its loading
     }

@@ -123,6 +123,13 @@ LayoutLoader::~LayoutLoader()
     state_->woken.wait_for(lock, std::chrono::seconds(2), [this] { return state_->ended; });
 }
 
+LayoutLoader::Loaded LayoutLoader::loaded_of(Result result)
+{
+    if (const std::string* why = std::get_if<std::string>(&result))
+        throw InputError(*why);
+    return std::get<Loaded>(std::move(result));
+}
+
 bool LayoutLoader::changed() const
 {
     const std::lock_guard lock(state_->mutex);

@@ -32,6 +32,9 @@ public:
     /// A layout, or the reason why there is none.
     using Result = std::variant<Loaded, std::string>;
 
+    /// The layout of a result. Throws InputError with the reason where there is none.
+    static Loaded loaded_of(Result result);
+
     /// True while a change waits for load().
     bool changed() const;
     void load(Shown shown);

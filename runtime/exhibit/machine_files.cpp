@@ -3,7 +3,6 @@
 #include "config/json/reader.h"
 #include "config/model/adjust.h"
 #include "config/model/shipped.h"
-#include "runtime/machines/interface.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/record_files.h"
 #include "runtime/world/open_scene.h"
@@ -108,9 +107,8 @@ std::string shared_name(const std::string& kind, const fs::path& file)
     return file.string();
 }
 
-std::string warning_of_routes(const Machines& machines)
+std::string warning_of_routes(const NetworkInterface& interface)
 {
-    const NetworkInterface interface = interface_of(machines.interface);
     if (!leads_elsewhere(interface))
         return "";
     return "the network of interface " + interface.name + " (" + interface.address
@@ -119,7 +117,7 @@ std::string warning_of_routes(const Machines& machines)
 
 void log_routes(const Machines& machines)
 {
-    if (const std::string warning = warning_of_routes(machines); !warning.empty())
+    if (const std::string warning = warning_of_routes(interface_of(machines.interface)); !warning.empty())
         write_log(LogKind::network_routed, warning);
 }
 

@@ -2,6 +2,7 @@
 #include "config/json/patch.h"
 #include "exhibit.h"
 #include "runtime/machines/bus.h"
+#include "runtime/machines/interface.h"
 
 namespace starbow {
 
@@ -27,10 +28,9 @@ std::vector<Change> changes_to_keep(
 /// The name by which another machine finds a file: a shipped one's, else its path. kind: "scenes", "layouts".
 std::string shared_name(const std::string& kind, const std::filesystem::path& file);
 
-/// A warning where the machines' network leads elsewhere, as it has no login; empty where it does not. Throws InputError
-/// where this machine is not on it.
-std::string warning_of_routes(const Machines& machines);
-/// Logs it.
+/// A warning where the machines' network leads elsewhere, as it has no login; empty where it does not.
+std::string warning_of_routes(const NetworkInterface& interface);
+/// Logs that warning. Throws InputError where this machine is not on the machines' network.
 void log_routes(const Machines& machines);
 
 } // namespace starbow

@@ -15,7 +15,7 @@ public:
 
     /// Another layout, with its files' digests: nodes whose files differ are left out.
     void adopt(const Layout& layout, FileDigests digests);
-    /// Of the layout's files; the nodes compare it with their own.
+    /// The digest of the layout's files, which the nodes compare with their own.
     std::uint64_t layout_digest() const { return layout_digest_; }
 
     /// Sends the next frame's instant, before it the instruments' page if that is a new one; the nodes draw it while the

@@ -215,13 +215,7 @@ void Node::open_world(const std::string& scene)
     try {
         LoadedScene loaded = worlds_.take(shipped_file("scenes", scene));
         GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), spectral_level_of(options_)); });
-        std::swap(context_.world, world);
-        try {
-            make_frame(layout_.shown());
-        } catch (...) {
-            std::swap(context_.world, world); // the old renderer draws the old world, in its place
-            throw;
-        }
+        exchange_world(context_, std::move(world), [&] { make_frame(layout_.shown()); });
     } catch (const InputError& error) {
         unreadable_ = {scene, error.what(), Clock::now()};
         throw;
@@ -243,9 +237,7 @@ void Node::follow_files()
     if (!result)
         return;
     try {
-        if (const std::string* why = std::get_if<std::string>(&*result))
-            throw InputError(*why);
-        apply(std::get<LayoutLoader::Loaded>(std::move(*result)));
+        apply(LayoutLoader::loaded_of(*std::move(result)));
     } catch (const InputError& error) {
         write_log(LogKind::layout_refused, one_line(error.what()) + "; the exhibit stays as it was");
     }

@@ -24,7 +24,7 @@ public:
     /// is minimised or changing. Returns false if there is no image at all.
     bool acquire();
     const std::vector<Target>& targets() const { return targets_; }
-    /// Of the targets, pixels; zero where there is none.
+    /// The targets' sizes, pixels; zero for a target without a view.
     std::vector<glm::ivec2> sizes() const;
     /// Gives an output's window a smaller picture, which is scaled up. Throws InputError, as Window's.
     void draw_smaller(Pipelines& pipelines, std::size_t output, glm::ivec2 size);

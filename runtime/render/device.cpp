@@ -83,6 +83,12 @@ vk::raii::Instance make_instance(Device& device, const Device::Options& options)
     }
 }
 
+bool offers(const vk::raii::PhysicalDevice& physical, std::string_view extension)
+{
+    return std::ranges::any_of(physical.enumerateDeviceExtensionProperties(),
+        [&](const vk::ExtensionProperties& offered) { return std::string_view(offered.extensionName) == extension; });
+}
+
 /// The first missing feature of a device, for a message; empty if the device will do.
 std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
 {
@@ -100,10 +106,7 @@ std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
         return "the feature dynamicRendering";
     if (!features.synchronization2)
         return "the feature synchronization2";
-    auto extensions = physical.enumerateDeviceExtensionProperties();
-    if (windows && std::none_of(extensions.begin(), extensions.end(), [](const vk::ExtensionProperties& extension) {
-            return std::string_view(extension.extensionName) == VK_KHR_SWAPCHAIN_EXTENSION_NAME;
-        }))
+    if (windows && !offers(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
         return "windows (VK_KHR_swapchain)";
     auto families = physical.getQueueFamilyProperties();
     if (std::none_of(
@@ -126,12 +129,6 @@ const char* kind_of(vk::PhysicalDeviceType type)
     default:
         return "of no known kind";
     }
-}
-
-bool offers(const vk::raii::PhysicalDevice& physical, std::string_view extension)
-{
-    return std::ranges::any_of(physical.enumerateDeviceExtensionProperties(),
-        [&](const vk::ExtensionProperties& offered) { return std::string_view(offered.extensionName) == extension; });
 }
 
 /// True if the device can let screens of several machines change together (VK_NV_present_barrier).

@@ -34,7 +34,7 @@ double yaw_of(const Layout& layout) { return std::get<Planar>(layout.outputs[0].
 /// The layout with its first output turned by tenths of a degree.
 Layout turned(const Layout& layout, double tenths) { return adjusted(layout, adjustables(layout)[0], tenths); }
 
-/// What a master with this layout says.
+/// The state of a master with this layout.
 SharedInstant said(const ExhibitOptions& master, const Layout& shown)
 {
     return {.layout = master.layout.file.string(),

@@ -148,7 +148,8 @@ void add_check(CLI::App& app, std::function<int()>& chosen)
         "scene, and say how exact its light is; or a tour or a flight, and count its flashes.");
     CLI::Option* file = command->add_option("FILE", options->file,
         "A layout file, or the name of one in config/layouts: its viewports and its floor plan. Or an exhibit's file: "
-        "everything that it names is read, and its machines and their network are told. Or a scene file or a glTF "
+        "all files that the exhibit names are read, and its machines and their network are listed. Or a scene file or a "
+        "glTF "
         "world (.glb, .gltf): its size, its cost, what is drawn otherwise than it says, and a page with a plan and stills");
     CLI::Option* scene = command->add_option("--scene", options->scene,
         "A scene file, or the name of one in config/scenes: how its light is represented, the worst error of a colour, and "

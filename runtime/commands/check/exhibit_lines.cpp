@@ -2,7 +2,6 @@
 #include "config/model/shipped.h"
 #include "runtime/exhibit/machine_files.h"
 #include "runtime/exhibit/open_exhibit.h"
-#include "runtime/machines/interface.h"
 #include <cstdio>
 
 namespace starbow {
@@ -14,7 +13,7 @@ void print_machines(const Machines& machines, const Layout& layout)
     for (const std::string& node : nodes_of(layout)) {
         std::string outputs;
         for (const Output& output : layout.outputs)
-            if (output.node == node)
+            if (is_shown_by(node, output))
                 outputs += (outputs.empty() ? "" : ", ") + output.name;
         std::printf("machine %s%s: %s\n", node.c_str(), node == machines.master ? ", the master" : "", outputs.c_str());
     }
@@ -25,7 +24,7 @@ void print_machines(const Machines& machines, const Layout& layout)
         if (interface.loopback)
             std::printf("note: interface %s reaches no other machine; it is right where all nodes run on this one\n",
                 interface.name.c_str());
-        if (const std::string warning = warning_of_routes(machines); !warning.empty())
+        if (const std::string warning = warning_of_routes(interface); !warning.empty())
             std::printf("note: %s\n", warning.c_str());
     } catch (const InputError& error) { // the check may run at a desk, before anything is wired
         std::printf("note: %s. This machine can't take part; one of the exhibit's can\n", error.what());
