@@ -1,5 +1,4 @@
 #include "interface.h"
-#include "config/json/error.h"
 #include "config/json/whole_file.h"
 #include <arpa/inet.h>
 #include <charconv>
@@ -54,7 +53,7 @@ NetworkInterface interface_of(const std::string& wanted)
             return {at->ifa_name, text, (at->ifa_flags & IFF_LOOPBACK) != 0, (at->ifa_flags & IFF_MULTICAST) != 0};
         known += (known.empty() ? "" : ", ") + std::string(at->ifa_name) + " (" + text + ")";
     }
-    throw InputError("interface \"" + wanted + "\" is none of this machine; one of these is right: " + known);
+    throw NoInterface("interface \"" + wanted + "\" is none of this machine; one of these is right: " + known);
 }
 
 bool leads_elsewhere(const NetworkInterface& interface, const std::string& routes)

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/json/error.h"
 #include <string>
 
 namespace starbow {
@@ -10,8 +11,13 @@ struct NetworkInterface {
     bool multicast = false;
 };
 
+/// This machine has no interface of the wanted name or network.
+struct NoInterface : InputError {
+    using InputError::InputError;
+};
+
 /// The interface of a name ("enp3s0", "lo"), or the one with an IPv4 address in a network ("192.168.7.0/24"). Throws
-/// InputError, with those that this machine has.
+/// NoInterface, with those that this machine has, and InputError for a text that is no network.
 NetworkInterface interface_of(const std::string& wanted);
 
 /// True where a route through a gateway leads out of the interface's network. routes: the file of the system's routes.

@@ -260,6 +260,10 @@ refused() { # TEXT OPTIONS...
     [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]] || fail "'$text' is not the message: $said"
     ok
 }
+sed 's/"interface": "lo"/"interface": "10.0.0.0\/99"/' "$folder/exhibit.json" >"$folder/no-network.json"
+said=$(timeout 60 "$program" check "$folder/no-network.json" --svg "$folder/none.svg" 2>&1)
+[ $? = 2 ] && [[ $said == *'interface "10.0.0.0/99" is no network; one such as "192.168.7.0/24" is right'* ]] && [ ! -e "$folder/none.svg" ] || fail "check of what is no network: $said"
+ok
 # check reads an exhibit, and says who shows what on which network.
 said=$("$program" check "$folder/exhibit.json" --svg "$folder/plan.svg") || fail "check: $said"
 for line in 'exhibit exhibit: layout walls, world avenue, words en' 'machine left, the master: one, two' 'machine right: four' \

@@ -26,7 +26,7 @@ void print_machines(const Machines& machines, const Layout& layout)
                 interface.name.c_str());
         if (const std::string warning = warning_of_routes(interface); !warning.empty())
             std::printf("note: %s\n", warning.c_str());
-    } catch (const InputError& error) { // the check may run at a desk, before anything is wired
+    } catch (const NoInterface& error) { // the check may run at a desk, before anything is wired
         std::printf("note: %s. This machine can't take part; one of the exhibit's can\n", error.what());
     }
 }
