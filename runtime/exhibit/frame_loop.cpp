@@ -142,7 +142,8 @@ bool FrameLoop::fly_frame()
     begin_commands();
     frame_->draw(*commands_[0], *commands_[1], instant.shot, panel, screens_.targets());
     end_commands();
-    if (const std::size_t made = context_.pipelines.count() - pipelines; made > 0)
+    const std::size_t made = context_.pipelines.count() - pipelines;
+    if (made > 0)
         write_log(LogKind::pipelines_made, std::to_string(made) + " made in flight");
     prepared_ms_ = 1e3 * seconds(Clock::now() - begun);
 
@@ -171,7 +172,7 @@ bool FrameLoop::fly_frame()
         + std::to_string(session_.layout.outputs.size()) + (session_.layout.outputs.size() == 1 ? " output" : " outputs")
         + (session_.options.careful ? ", with care after many ends." : "."));
     if (session_.options.timed)
-        session_.options.timed({controls.report_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now())});
+        session_.options.timed({controls.report_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now()), made > 0});
     ++session_.shown;
     constexpr std::int64_t idle_ns = 2'000'000'000; // else somebody's hand is on a device, and waits for the picture
     if (steady_ns(now) - controls.report_ns > idle_ns)

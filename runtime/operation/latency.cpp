@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace starbow {
 namespace {
@@ -24,21 +25,25 @@ double percentile(std::vector<double> values, double part)
 
 void Latency::add(const FrameTimes& times)
 {
-    const bool first = own_ms_.empty();
-    if (first)
+    const bool first = !std::exchange(any_, true);
+    const FrameTimes before = std::exchange(last_, times);
+    if (times.compiled || before.compiled) {
+        apart_ms_.push_back(ms(times.read_ns, times.shown_ns));
+        return;
+    }
+    if (own_ms_.empty())
         first_ns_ = times.shown_ns;
-    else
-        frame_ms_.push_back(ms(last_.shown_ns, times.shown_ns));
+    if (!first)
+        frame_ms_.push_back(ms(before.shown_ns, times.shown_ns));
     // A device's thread stamps a report and then hands it over. If the thread is held up between the two, the report is
     // older than controls that were read without it.
-    const std::int64_t read_ns = first ? times.read_ns : last_.read_ns;
+    const std::int64_t read_ns = first ? times.read_ns : before.read_ns;
     bound_ms_.push_back(
-        ms(times.report_ns > last_.report_ns ? std::min(read_ns, times.report_ns) : read_ns, times.shown_ns));
+        ms(times.report_ns > before.report_ns ? std::min(read_ns, times.report_ns) : read_ns, times.shown_ns));
     own_ms_.push_back(ms(times.read_ns, times.handed_ns));
     present_ms_.push_back(ms(times.handed_ns, times.shown_ns));
-    if (times.report_ns > last_.report_ns)
+    if (times.report_ns > before.report_ns)
         report_ms_.push_back(ms(times.report_ns, times.shown_ns));
-    last_ = times;
 }
 
 std::string Latency::describe() const
@@ -63,6 +68,9 @@ std::string Latency::describe() const
     if (frame > 0)
         add("\nthe own share is %.2f of a frame at p50, %.2f at p99\n", percentile(own_ms_, 0.5) / frame,
             percentile(own_ms_, 0.99) / frame);
+    if (apart() > 0)
+        add("not in the table: %zu frames with or just after a compilation of shaders, the longest of %.2f ms\n", apart(),
+            percentile(apart_ms_, 1));
     return text;
 }
 

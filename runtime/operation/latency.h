@@ -11,13 +11,15 @@ struct FrameTimes {
     std::int64_t read_ns = 0; ///< the controls are read
     std::int64_t handed_ns = 0; ///< the program's own part is done; the present call begins
     std::int64_t shown_ns = 0; ///< the present call has returned
+    bool compiled = false; ///< the frame made pipelines, which a flight does once
 };
 
 /// The percentile by nearest rank: the smallest value such that at least `part` (above 0, up to 1) of the values do not
 /// exceed it. 0 without values.
 double percentile(std::vector<double> values, double part);
 
-/// The latency from a device to the screen, over the frames of a flight.
+/// The latency from a device to the screen, over the frames of a flight. A frame that made pipelines tells of the compiler
+/// and not of the flight, and the frame after it shows reports that waited for the compiler: both are counted apart.
 class Latency {
 public:
     void add(const FrameTimes& times);
@@ -25,6 +27,8 @@ public:
     std::size_t frames() const { return own_ms_.size(); }
     std::size_t reports() const { return report_ms_.size(); } ///< frames that were the first to show a report
     double seconds() const { return 1e-9 * double(last_.shown_ns - first_ns_); } ///< first to last frame
+
+    std::size_t apart() const { return apart_ms_.size(); } ///< frames in which, or before which, pipelines were made
 
     /// A table for people.
     std::string describe() const;
@@ -39,9 +43,10 @@ public:
     const std::vector<double>& bound_ms() const { return bound_ms_; }
 
 private:
-    FrameTimes last_;
+    FrameTimes last_; ///< of any frame
+    bool any_ = false; ///< a frame was there
     std::int64_t first_ns_ = 0;
-    std::vector<double> report_ms_, frame_ms_, own_ms_, present_ms_, bound_ms_;
+    std::vector<double> report_ms_, frame_ms_, own_ms_, present_ms_, bound_ms_, apart_ms_;
 };
 
 } // namespace starbow

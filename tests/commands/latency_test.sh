@@ -35,8 +35,9 @@ awk -v a="$report" -v o="$own" -v f="$frame" -v b="$bound" 'BEGIN {
         r[1] > 0 && r[1] <= r[2] && r[2] <= r[3] && r[3] <= u[3])
 }' || fail "a row's three numbers are missing or out of order: $(cat "$folder/table")"
 ok
-# The machine may be busy, so that its own frame time is the bound.
-awk -v o="$own" -v f="$frame" 'BEGIN { split(o, s); split(f, t); exit !(s[2] < t[2]) }' || fail "Starbow's own share is longer than a frame: $(cat "$folder/table")"
+# The controls are read after the waiting, not before it: the own share is well below a frame. Had they been read before it, the
+# share would be nearly the frame. A busy machine makes both longer; the medians bear that it stops one frame for long.
+awk -v o="$own" -v f="$frame" 'BEGIN { split(o, s); split(f, t); exit !(s[1] < t[1] / 2) }' || fail "Starbow's own share is no small part of a frame: $(cat "$folder/table")"
 ok
 # An interrupted measurement prints its results so far.
 (

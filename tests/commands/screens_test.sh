@@ -207,6 +207,10 @@ exhibit=$!
 started+=($exhibit)
 until_true 30 xdotool search --name '^Starbow desk' || fail "no window"
 window=$(xdotool search --name '^Starbow desk')
+pictured() { # true if the window has a picture
+    [ "$(import -window "$window" png:- | identify -format '%[fx:maxima > 0.1]' -)" = 1 ]
+}
+until_true 60 pictured || fail "no first picture"
 for i in $(seq 60); do xdotool windowsize "$window" $((100 + i * 37 % 500)) $((60 + i * 23 % 150)); done
 xdotool windowsize "$window" 1 1 windowsize "$window" 300 200
 until_true 15 sh -c "xdotool getwindowgeometry $window | grep -q 300x200" || fail "resized: $(xdotool getwindowgeometry "$window")"
@@ -215,15 +219,15 @@ f11 "with openbox"
 xdotool windowminimize "$window"
 sleep 2
 xdotool windowmap "$window"
-sleep 1
+until_true 15 pictured || fail "no picture after the window was minimised"
 xdotool windowfocus "$window"
 xdotool key Escape
 wait $exhibit || fail "resized: exit $?"
 grep -q validation "$folder/log" && fail "resized: the validation layers report an error"
 ok
-# While the window is minimised nothing is drawn, and no frame's times count again.
+# While the window is minimised nothing is drawn, and no frame's times count again. A picture was seen before it and after it.
 drawn=$(grep -o '"cube pass"' "$folder/trace.json" | wc -l) presented=$(grep -o '"present"' "$folder/trace.json" | wc -l)
-[ "$drawn" -gt 10 ] && [ "$drawn" -le "$presented" ] || fail "the device's times of $drawn frames, and $presented were presented"
+[ "$drawn" -ge 2 ] && [ "$drawn" -le "$presented" ] || fail "the device's times of $drawn frames, and $presented were presented"
 ok
 
 # Where the driver does not wait for the screen, the exhibit paces its frames: 150 at 50 Hz take 3 s. Its period is a hundredth

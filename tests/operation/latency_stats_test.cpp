@@ -46,6 +46,34 @@ TEST(Latency, AReportCountsInTheFrameThatFirstShowsIt)
     // The report came before the last controls were read, and those were handed over after it.
     latency.add({.report_ns = 147 * ms + 1, .read_ns = 164 * ms, .handed_ns = 165 * ms, .shown_ns = 166 * ms});
     EXPECT_NEAR(latency.bound_ms().back(), 19, 1e-5);
+    EXPECT_EQ(latency.describe().find("not in the table"), std::string::npos);
+}
+
+// A frame that compiles shaders for 300 ms, and the one after it with the report that waited for it, stay out of the table;
+// the frame after both counts with its own times.
+TEST(Latency, FramesOfTheCompilerAreCountedApart)
+{
+    constexpr std::int64_t ms = 1'000'000;
+    Latency latency;
+    latency.add({.report_ns = 95 * ms, .read_ns = 100 * ms, .handed_ns = 400 * ms, .shown_ns = 410 * ms, .compiled = true});
+    latency.add({.report_ns = 101 * ms, .read_ns = 416 * ms, .handed_ns = 419 * ms, .shown_ns = 426 * ms});
+    EXPECT_EQ(latency.frames(), 0u);
+    EXPECT_EQ(latency.reports(), 0u);
+    latency.add({.report_ns = 427 * ms, .read_ns = 432 * ms, .handed_ns = 433 * ms, .shown_ns = 442 * ms});
+    latency.add({.report_ns = 427 * ms, .read_ns = 448 * ms, .handed_ns = 450 * ms, .shown_ns = 458 * ms});
+    EXPECT_EQ(latency.apart(), 2u);
+    EXPECT_EQ(latency.frames(), 2u);
+    EXPECT_DOUBLE_EQ(latency.seconds(), 0.016);
+    EXPECT_EQ(latency.report_ms(), (std::vector<double>{15}));
+    EXPECT_EQ(latency.frame_ms(), (std::vector<double>{16, 16}));
+    EXPECT_EQ(latency.own_ms(), (std::vector<double>{1, 2}));
+    EXPECT_EQ(latency.present_ms(), (std::vector<double>{9, 8}));
+    EXPECT_EQ(latency.bound_ms(), (std::vector<double>{26, 26}));
+    EXPECT_NE(
+        latency.describe().find("not in the table: 2 frames with or just after a compilation of shaders, the longest of "
+                                "310.00 ms"),
+        std::string::npos)
+        << latency.describe();
 }
 
 } // namespace latency_stats_test
