@@ -29,7 +29,7 @@ std::int64_t now_ns()
 } // namespace
 
 Master::Master(const ExhibitOptions& options, const Layout& layout)
-    : bus_(options.machines.value().interface, options.machines->domain)
+    : bus_(options.machines.value().interface, options.machines->domain, Bus::Role::master)
     , config_(config_of(options, digests_of(layout)))
     , gate_(others_of(layout, options.node))
     , layout_digest_(digest_of(config_.layout))
@@ -128,7 +128,6 @@ void Master::hear()
         if (gate_.nodes().contains(ready.node))
             samples_[ready.node] = std::move(ready.samples);
     }
-    bus_.state(), bus_.go(), bus_.page(); // its own
 }
 
 void Master::judge(const ConfigMessage& config)

@@ -34,7 +34,7 @@ public:
     explicit Node(const ExhibitOptions& options)
         : options_(options)
         , layout_(options)
-        , bus_(options.machines.value().interface, options.machines->domain)
+        , bus_(options.machines.value().interface, options.machines->domain, Bus::Role::node)
         , scene_(options.programme.scene)
         , context_(scene_, device_of(options), spectral_level_of(options))
         , screens_(context_.device, options.layout, options.node)
@@ -144,7 +144,6 @@ void Node::listen()
     for (const ConfigMessage& config : bus_.configs())
         if (config.node == options_.machines->master)
             layout_.compare(config, was_in_step_);
-    bus_.readies(); // the others'
     if (const std::optional<PageMessage> page = bus_.page())
         try {
             page_ = panel_of(*page), page_number_ = page->number;

@@ -32,6 +32,7 @@ dds_entity_t made(dds_entity_t entity, const char* what)
 }
 
 enum class Keeps { nothing, last };
+enum class Way { out, in, both };
 
 /// Reliable; of each node the last `depth` samples count. keeps: for those that join late.
 std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)> qos(Keeps keeps, int depth)
@@ -54,12 +55,15 @@ struct Bus::Topics {
     struct Topic {
         dds_entity_t writer = 0, reader = 0;
 
-        Topic(dds_entity_t participant, const dds_topic_descriptor_t& type, const char* name, Keeps keeps, int depth)
+        Topic(
+            dds_entity_t participant, const dds_topic_descriptor_t& type, const char* name, Keeps keeps, int depth, Way way)
         {
             const auto rules = qos(keeps, depth);
             const dds_entity_t topic = made(dds_create_topic(participant, &type, name, rules.get(), nullptr), name);
-            writer = made(dds_create_writer(participant, topic, rules.get(), nullptr), name);
-            reader = made(dds_create_reader(participant, topic, rules.get(), nullptr), name);
+            if (way != Way::in)
+                writer = made(dds_create_writer(participant, topic, rules.get(), nullptr), name);
+            if (way != Way::out)
+                reader = made(dds_create_reader(participant, topic, rules.get(), nullptr), name);
         }
 
         /// A message that can't be sent now is followed by the next one.
@@ -68,6 +72,8 @@ struct Bus::Topics {
         /// Takes all samples that have come.
         template <class Sample, class Use> void take(const Use& use) const
         {
+            if (reader == 0)
+                return;
             constexpr int most = 32;
             for (int count = most; count == most;) {
                 void* samples[most] = {};
@@ -86,28 +92,34 @@ struct Bus::Topics {
     Topic state, ready, go, config, page;
     dds_entity_t arrivals;
 
-    Topics(const NetworkInterface& interface, int number)
+    Topics(const NetworkInterface& interface, int number, Role role)
         : domain(made(dds_create_domain(dds_domainid_t(number), settings_of(interface).c_str()), "the domain"))
         , participant(made(dds_create_participant(dds_domainid_t(number), nullptr, nullptr), "the participant"))
-        , state(participant, starbow_machines_State_desc, "starbow_state", Keeps::last, 1)
-        , ready(participant, starbow_machines_Ready_desc, "starbow_ready", Keeps::nothing, 4)
-        , go(participant, starbow_machines_Go_desc, "starbow_go", Keeps::nothing, 1)
-        , config(participant, starbow_machines_Config_desc, "starbow_config", Keeps::last, 1)
-        , page(participant, starbow_machines_Page_desc, "starbow_page", Keeps::last, 1)
+        , state(participant, starbow_machines_State_desc, "starbow_state", Keeps::last, 1, from_master(role))
+        , ready(participant, starbow_machines_Ready_desc, "starbow_ready", Keeps::nothing, 4, to_master(role))
+        , go(participant, starbow_machines_Go_desc, "starbow_go", Keeps::nothing, 1, from_master(role))
+        , config(participant, starbow_machines_Config_desc, "starbow_config", Keeps::last, 1, Way::both)
+        , page(participant, starbow_machines_Page_desc, "starbow_page", Keeps::last, 1, from_master(role))
         , arrivals(made(dds_create_waitset(participant), "the wait"))
     {
         for (const Topic* topic : {&state, &ready, &go, &config, &page}) {
+            if (topic->reader == 0)
+                continue;
             const dds_entity_t condition = made(dds_create_readcondition(topic->reader, DDS_ANY_STATE), "the wait");
             dds_waitset_attach(arrivals, condition, 0);
         }
     }
     ~Topics() { dds_delete(domain); } // and all in it
+
+    static Way from_master(Role role) { return role == Role::master ? Way::out : Way::in; }
+    static Way to_master(Role role) { return role == Role::master ? Way::in : Way::out; }
+
     Topics(const Topics&) = delete;
     Topics& operator=(const Topics&) = delete;
 };
 
-Bus::Bus(const std::string& interface, int domain)
-    : topics_(std::make_unique<Topics>(interface_of(interface), domain))
+Bus::Bus(const std::string& interface, int domain, Role role)
+    : topics_(std::make_unique<Topics>(interface_of(interface), domain, role))
 {
 }
 

@@ -55,10 +55,14 @@ struct PageMessage {
 /// joins late receives the last state and every config.
 class Bus {
 public:
+    /// The master sends states, goes and pages and receives readies; a node the other way round. Both send and receive
+    /// configs. Nobody receives what concerns others: with N machines a frame has N messages and not N squared.
+    enum class Role { master, node };
+
     /// interface: an interface's name ("enp3s0", "lo"), or a network ("192.168.7.0/24") of which this machine has an
     /// address. domain: from 0 to 200; two exhibits on one network have different ones. Throws InputError where this
     /// machine has no such interface, or it can't be opened.
-    Bus(const std::string& interface, int domain);
+    Bus(const std::string& interface, int domain, Role role);
     ~Bus();
 
     void send(const StateMessage& state);
@@ -67,7 +71,8 @@ public:
     void send(const ConfigMessage& config);
     void send(const PageMessage& page);
 
-    /// The messages that have come since the last call. Of states, goes and pages only the last counts.
+    /// The messages that have come since the last call; none of those that the role does not receive. Of states, goes and
+    /// pages only the last counts.
     std::optional<StateMessage> state();
     std::optional<GoMessage> go();
     std::vector<ReadyMessage> readies();

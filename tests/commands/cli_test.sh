@@ -308,6 +308,9 @@ begins_with "$folder/pages/my.json: " check "$folder/my.glb" --page "$folder/nev
 begins_with "--write is for a glTF file without a scene" check "$folder/pages/my.json" --page "$folder/never.html" --write "$folder/never.json"
 begins_with "$folder/wall.json: is a layout; a scene is right here" run --scene "$folder/wall.json"
 begins_with "$folder/my.glb: is a glTF world; a layout is right here" run --layout "$folder/my.glb"
+begins_with '--svg "'"$folder/never.html"'" is for a layout or an exhibit' check "$folder/pages/my.json" --svg "$folder/never.html"
+begins_with '--write "'"$folder/never.json"'" is for a glTF world' check "$folder/wall.json" --write "$folder/never.json"
+begins_with '--page "'"$folder/never.html"'" is for a world' check desk --page "$folder/never.html"
 begins_with "$folder/nowhere.glb: does not exist; a .gltf or .glb file is right" check "$folder/nowhere.glb" --page "$folder/never.html"
 [ ! -e "$folder/never.html" ] && [ ! -e "$folder/never.json" ] && passed=$((passed + 1)) || fail "a refused check of a world has written something"
 

@@ -137,6 +137,21 @@ int check_scene(const std::string& name)
     return 0;
 }
 
+/// Refuses the options that the file's kind has no use for: somebody who gives one expects a file that would not come.
+void refuse_others(const CheckOptions& options, bool world)
+{
+    const auto refuse = [](const char* option, const std::string& value, const char* right) {
+        if (!value.empty())
+            throw InputError(std::string(option) + " \"" + value + "\" is for " + right);
+    };
+    if (world)
+        refuse("--svg", options.svg, "a layout or an exhibit; a world's page has its plan, and --page is right");
+    else {
+        refuse("--write", options.write, "a glTF world; a layout or an exhibit is not changed by its check");
+        refuse("--page", options.page, "a world; a layout's or an exhibit's drawing is an .svg, and --svg is right");
+    }
+}
+
 } // namespace
 
 void add_check(CLI::App& app, std::function<int()>& chosen)
@@ -196,12 +211,14 @@ void add_check(CLI::App& app, std::function<int()>& chosen)
             if (!options->scene.empty())
                 return check_scene(options->scene);
             const std::optional<FileKind> kind = kind_of_file(options->file);
+            const bool world = kind == FileKind::scene || kind == FileKind::gltf;
+            refuse_others(*options, world);
             if (kind == FileKind::exhibit) {
                 CheckOptions of_layout = *options;
                 of_layout.file = print_exhibit(options->file);
                 return check(of_layout);
             }
-            if (kind == FileKind::scene || kind == FileKind::gltf)
+            if (world)
                 return check_world(options->file, options->page, options->write);
             return check(*options);
         };
