@@ -110,12 +110,11 @@ struct Bus::Topics {
         }
     }
     ~Topics() { dds_delete(domain); } // and all in it
+    Topics(const Topics&) = delete;
+    Topics& operator=(const Topics&) = delete;
 
     static Way from_master(Role role) { return role == Role::master ? Way::out : Way::in; }
     static Way to_master(Role role) { return role == Role::master ? Way::in : Way::out; }
-
-    Topics(const Topics&) = delete;
-    Topics& operator=(const Topics&) = delete;
 };
 
 Bus::Bus(const std::string& interface, int domain, Role role)

@@ -25,8 +25,8 @@ double percentile(std::vector<double> values, double part)
 
 void Latency::add(const FrameTimes& times)
 {
-    const bool first = !std::exchange(any_, true);
     const FrameTimes before = std::exchange(last_, times);
+    const bool first = before.shown_ns == 0;
     if (times.compiled || before.compiled) {
         apart_ms_.push_back(ms(times.read_ns, times.shown_ns));
         return;

@@ -26,7 +26,7 @@ public:
 
     std::size_t frames() const { return own_ms_.size(); }
     std::size_t reports() const { return report_ms_.size(); } ///< frames that were the first to show a report
-    double seconds() const { return 1e-9 * double(last_.shown_ns - first_ns_); } ///< first to last frame
+    double seconds() const { return frames() ? 1e-9 * double(last_.shown_ns - first_ns_) : 0; } ///< first to last frame
 
     std::size_t apart() const { return apart_ms_.size(); } ///< frames in which, or before which, pipelines were made
 
@@ -43,8 +43,7 @@ public:
     const std::vector<double>& bound_ms() const { return bound_ms_; }
 
 private:
-    FrameTimes last_; ///< of any frame
-    bool any_ = false; ///< a frame was there
+    FrameTimes last_; ///< of any frame; before the first all are 0
     std::int64_t first_ns_ = 0;
     std::vector<double> report_ms_, frame_ms_, own_ms_, present_ms_, bound_ms_, apart_ms_;
 };

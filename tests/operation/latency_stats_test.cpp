@@ -59,6 +59,7 @@ TEST(Latency, FramesOfTheCompilerAreCountedApart)
     latency.add({.report_ns = 101 * ms, .read_ns = 416 * ms, .handed_ns = 419 * ms, .shown_ns = 426 * ms});
     EXPECT_EQ(latency.frames(), 0u);
     EXPECT_EQ(latency.reports(), 0u);
+    EXPECT_EQ(latency.seconds(), 0);
     latency.add({.report_ns = 427 * ms, .read_ns = 432 * ms, .handed_ns = 433 * ms, .shown_ns = 442 * ms});
     latency.add({.report_ns = 427 * ms, .read_ns = 448 * ms, .handed_ns = 450 * ms, .shown_ns = 458 * ms});
     EXPECT_EQ(latency.apart(), 2u);

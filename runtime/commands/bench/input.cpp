@@ -74,7 +74,7 @@ int bench_input(const std::string& layout, double seconds)
     WindowSystem window_system;
     std::fprintf(stderr, "Move a stick, a throttle or a pad: it is timed from its first report on\n");
     const int status = fly_exhibit(exhibit_options);
-    if (measurement.latency.reports() == 0)
+    if (!measurement.began)
         throw InputError("No stick, throttle or pad has reported anything within " + std::to_string(int(grace_s))
             + " s, and a keyboard does not count; one that is plugged in ('starbow devices' lists them) and moved is right");
     std::printf("\n%s", measurement.latency.describe().c_str());
