@@ -23,6 +23,7 @@ execute_process(COMMAND python3 ${CMAKE_CURRENT_LIST_DIR}/catalog.py ${CMAKE_BIN
   COMMAND_ERROR_IS_FATAL ANY)
 
 install(TARGETS starbow DESTINATION bin COMPONENT starbow)
+install(TARGETS starbow-tools DESTINATION lib/starbow COMPONENT starbow)
 install(DIRECTORY config scenes DESTINATION share/starbow COMPONENT starbow
   PATTERN *.py EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN config/model EXCLUDE PATTERN config/json EXCLUDE
   PATTERN config/import EXCLUDE PATTERN config/udev EXCLUDE PATTERN LICENSE* EXCLUDE PATTERN README.md EXCLUDE)

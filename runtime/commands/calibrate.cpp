@@ -5,8 +5,8 @@
 #include "input/calibration.h"
 #include "input/hid.h"
 #include "interrupt.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/operation/log.h"
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -14,6 +14,7 @@
 #include <poll.h>
 #include <termios.h>
 #include <thread>
+#include <strings.h>
 #include <unistd.h>
 
 namespace starbow {
@@ -148,7 +149,7 @@ Watched choose(Person& person, const Hid& hid, const std::string& wanted)
     for (std::size_t i = 0; i < all.size(); ++i) {
         char ids[16];
         std::snprintf(ids, sizeof ids, "%04x:%04x", unsigned(all[i].info.vendor), unsigned(all[i].info.product));
-        if (wanted.empty() || (kind && CLI::detail::to_lower(wanted) == ids) || wanted == std::to_string(i + 1))
+        if (wanted.empty() || (kind && strcasecmp(wanted.c_str(), ids) == 0) || wanted == std::to_string(i + 1))
             fitting.push_back(all[i]);
     }
     const auto list = [](const std::vector<Hid::Connected>& devices) {
@@ -504,10 +505,10 @@ int calibrate(const CalibrateOptions& options)
 
 } // namespace
 
-void add_calibrate(CLI::App& app, std::function<int()>& chosen)
+void add_calibrate(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<CalibrateOptions>();
-    CLI::App* command = app.add_subcommand(
+    Subcommand* command = app.add_subcommand(
         "calibrate", "Guide you through the calibration of a stick, throttle, pad or pedals, and write its profile.");
     command->add_option("--device", options->device,
         "The device, if several are plugged in: its four and four hexadecimal digits, or its number in the list");

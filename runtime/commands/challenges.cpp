@@ -4,10 +4,9 @@
 #include "config/json/whole_file.h"
 #include "config/model/shipped.h"
 #include "options/language.h"
-#include "options/number.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/hud/challenge_sheet.h"
 #include "runtime/operation/progress.h"
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -74,16 +73,16 @@ int show(const ChallengeOptions& options)
 
 } // namespace
 
-void add_challenges(CLI::App& app, std::function<int()>& chosen)
+void add_challenges(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<ChallengeOptions>();
-    CLI::App* command = app.add_subcommand("challenges",
+    Subcommand* command = app.add_subcommand("challenges",
         "The laboratory's open questions: list them, show one with as many hints as you like, or check a log for answers.");
-    CLI::Option* name = command->add_option("name", options->name, "One question, by its name in the list [all]");
-    CLI::Option* hints = command->add_option("--hints", options->hints, "Show the first so many of its hints, from 0 to 3")
+    Option* name = command->add_option("name", options->name, "One question, by its name in the list [all]");
+    Option* hints = command->add_option("--hints", options->hints, "Show the first so many of its hints, from 0 to 3")
                              ->check(whole_number(0, 3))
                              ->needs(name);
-    CLI::Option* check
+    Option* check
         = command->add_option("--check", options->log, "Look for answers in this log, which starbow run --log has written")
               ->excludes(hints);
     command->add_option("--sheet", options->sheet, "Write all questions into this HTML page, with hints to open")

@@ -4,9 +4,9 @@
 #include "config/json/whole_file.h"
 #include "config/model/shipped.h"
 #include "options/language.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/hud/lab_class.h"
 #include "runtime/operation/progress.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -93,10 +93,10 @@ int gather(const ClassOptions& options)
 
 } // namespace
 
-void add_class(CLI::App& app, std::function<int()>& chosen)
+void add_class(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<ClassOptions>();
-    CLI::App* command = app.add_subcommand("class",
+    Subcommand* command = app.add_subcommand("class",
         "Gather several groups' logs of the laboratory into one page: every group's points beside the theory, and how far "
         "they are from it; and into one CSV file beside the page, with a column for the group.");
     command

@@ -4,8 +4,8 @@
 #include "config/json/whole_file.h"
 #include "config/model/shipped.h"
 #include "input/hid.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/operation/log.h"
-#include <CLI/CLI.hpp>
 #include <cctype>
 #include <chrono>
 #include <cstdio>
@@ -155,12 +155,12 @@ int devices(const DevicesOptions& options)
 
 } // namespace
 
-void add_devices(CLI::App& app, std::function<int()>& chosen)
+void add_devices(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<DevicesOptions>();
-    CLI::App* command
+    Subcommand* command
         = app.add_subcommand("devices", "List sticks, throttles, pads and space mice, with their axes and buttons.");
-    command->add_option("--seconds", options->seconds, "Show them live for so long")->check(CLI::Range(0.0, 1e9));
+    command->add_option("--seconds", options->seconds, "Show them live for so long")->check(number_between(0.0, 1e9));
     command->add_option("--describe", options->describe,
         "Instead: print a report descriptor's declarations as JSON. A file of raw bytes, of hexadecimal text, or JSON with "
         "\"descriptor_hex\"");

@@ -1,8 +1,8 @@
 #include "commands.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/exhibit/desktop.h"
 #include "runtime/exhibit/outputs.h"
 #include "runtime/render/render_context.h"
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 namespace starbow {
@@ -55,9 +55,9 @@ int displays()
 
 } // namespace
 
-void add_displays(CLI::App& app, std::function<int()>& chosen)
+void add_displays(Subcommand& app, std::function<int()>& chosen)
 {
-    CLI::App* command
+    Subcommand* command
         = app.add_subcommand("displays", "List the GPUs, and the monitors with the line that means each in a layout.");
     command->footer("Example:\n  starbow displays");
     command->callback([&chosen] { chosen = displays; });

@@ -8,13 +8,13 @@
 #include "config/model/shipped.h"
 #include "displays/compile/compiled_view.h"
 #include "input/hid.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/exhibit/desktop.h"
 #include "runtime/exhibit/outputs.h"
 #include "runtime/hud/hud.h"
 #include "runtime/render/render_context.h"
 #include "runtime/world/open_scene.h"
 #include "version.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -440,10 +440,10 @@ int doctor(bool as_json)
 
 } // namespace
 
-void add_doctor(CLI::App& app, std::function<int()>& chosen)
+void add_doctor(Subcommand& app, std::function<int()>& chosen)
 {
     auto as_json = std::make_shared<bool>(false);
-    CLI::App* command = app.add_subcommand("doctor",
+    Subcommand* command = app.add_subcommand("doctor",
         "Examine this machine: GPU, monitors, sticks, font, disk, files; and what is wrong. Exit 0: nothing, 1: something.");
     command->add_flag("--json", *as_json, "Print the same as JSON");
     command->footer("Examples:\n  starbow doctor\n  starbow doctor --json > out/doctor.json");

@@ -4,9 +4,8 @@
 #include "config/model/layout_reader.h"
 #include "config/model/shipped.h"
 #include "displays/finish/shade.h"
-#include "runtime/commands/options/number.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/images/capture.h"
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <sstream>
@@ -102,12 +101,12 @@ int import(const ImportOptions& options)
 
 } // namespace
 
-void add_import(CLI::App& app, std::function<int()>& chosen)
+void add_import(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<ImportOptions>();
-    CLI::App* command = app.add_subcommand("import", "Make a layout of another program's configuration.");
-    command->require_subcommand(1);
-    CLI::App* sgct = command->add_subcommand("sgct", "Import SGCT's JSON; prints the new place of each member");
+    Subcommand* command = app.add_subcommand("import", "Make a layout of another program's configuration.");
+    command->require_subcommand();
+    Subcommand* sgct = command->add_subcommand("sgct", "Import SGCT's JSON; prints the new place of each member");
     sgct->add_option("file", options->file, "SGCT's configuration")->required();
     sgct->add_option("--out", options->out, "The layout's file")->required();
     sgct->add_option("--node", options->node, "The machine's number among several, from 0")

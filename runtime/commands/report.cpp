@@ -1,10 +1,10 @@
 #include "commands.h"
 #include "config/json/error.h"
 #include "config/json/whole_file.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/hud/html.h"
 #include "runtime/operation/diary.h"
 #include "runtime/operation/state_folder.h"
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -139,10 +139,10 @@ int report(const ReportOptions& options)
 
 } // namespace
 
-void add_report(CLI::App& app, std::function<int()>& chosen)
+void add_report(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<ReportOptions>();
-    CLI::App* command = app.add_subcommand("report",
+    Subcommand* command = app.add_subcommand("report",
         "Draw a day of the exhibit as a page: how many came, for how long, in which scenes, and when it stuttered.");
     command->add_option("day", options->day, "The day, such as 2026-11-23 [today]");
     command->add_option("--state", options->state, "The exhibit's state folder, such as /var/lib/starbow [this person's]");

@@ -5,8 +5,8 @@
 #include "contact_sheet.h"
 #include "input/keyboard.h"
 #include "interrupt.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/commands/options/language.h"
-#include "runtime/commands/options/number.h"
 #include "runtime/commands/options/pattern.h"
 #include "runtime/commands/options/quality.h"
 #include "runtime/exhibit/exhibit.h"
@@ -22,7 +22,6 @@
 #include "runtime/operation/state_folder.h"
 #include "runtime/operation/trace.h"
 #include "version.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -198,10 +197,10 @@ int run(const RunOptions& given)
 
 } // namespace
 
-void add_run(CLI::App& app, std::function<int()>& chosen)
+void add_run(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<RunOptions>();
-    CLI::App* command = app.add_subcommand(
+    Subcommand* command = app.add_subcommand(
         "run", "Fly: opens the layout's windows. Without a display server it draws the default shots to out/.");
     command
         ->add_option("--exhibit", options->exhibit,
@@ -210,7 +209,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
         ->capture_default_str();
     command->add_option("--layout", options->layout, "Instead: a layout file, or the name of one in config/layouts");
     command->add_option("--scene", options->scene, "Instead: a scene file, or the name of one in config/scenes");
-    CLI::Option* node = command->add_option("--node", options->node,
+    Option* node = command->add_option("--node", options->node,
         "The name of this machine where several show the exhibit together: a node of the layout's outputs");
     command
         ->add_option("--frame-log", options->frame_log,
@@ -224,16 +223,16 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
         "Record every control of the flight in this new file (or in a new file in this folder), for --replay. A minute at "
         "60 "
         "frames a second takes 70 kB at rest, 0.4 MB with a stick in hand, 1.2 MB with a head tracker");
-    CLI::Option* log = command->add_option("--log", options->log,
+    Option* log = command->add_option("--log", options->log,
         "Write what the instruments read into this CSV file, a line each time K is pressed; one that is there is continued");
     command->add_option("--log-every", options->log_every_s, "With --log: write a line by itself every so many seconds")
-        ->check(CLI::Range(0.02, 86400.0))
+        ->check(number_between(0.02, 86400.0))
         ->needs(log);
     command
         ->add_option("--warm-up", options->warm_up,
             "Compile what the visitor's switches can need before the first frame: always, never, or auto, which is on a GPU "
             "where --frames does not end the flight soon")
-        ->check(CLI::IsMember({"auto", "always", "never"}))
+        ->check(one_of({"auto", "always", "never"}))
         ->capture_default_str();
     command->add_option("--trace", options->trace,
         "Write what each frame spends its time on into this JSON file, for ui.perfetto.dev or chrome://tracing; an older "
@@ -241,26 +240,26 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_flag("--presenter", options->presenter,
         "Open the guide's window, too: the visitors' picture small, the tour's cue sheet, and all that a guide can do, by "
         "keys and by the mouse");
-    CLI::Option* verbose = command->add_flag("--verbose", options->verbose, "Log debug messages on standard error");
-    CLI::Option* quality
+    Option* verbose = command->add_flag("--verbose", options->verbose, "Log debug messages on standard error");
+    Option* quality
         = command->add_option("--quality", options->quality, quality_help + std::string(" [the exhibit's]"));
-    CLI::Option* hold
+    Option* hold
         = command
               ->add_option("--frame-budget-ms", options->frame_budget_ms,
                   "Hold the time of a whole frame at this by moving along the ladder of measured qualities; 0: don't")
-              ->check(CLI::Range(0.0, 1000.0))
+              ->check(number_between(0.0, 1000.0))
               ->excludes(quality);
     command
         ->add_option("--ladder", options->ladder,
             "For --frame-budget-ms: a ladder that starbow measure wrote, or the name of one in config/qualities [ladder]")
         ->needs(hold);
-    CLI::Option* tour = command->add_option("--tour", options->tour,
+    Option* tour = command->add_option("--tour", options->tour,
         "Instead: show this tour, a file or the name of one in config/tours; then the visitor flies, and when nobody does "
         "it "
         "begins anew. Space: stand still, go on; R: on to the next step; Backspace: back");
     for (const char* other : {"--scene", "--shot", "--record"})
         tour->excludes(other);
-    CLI::Option* replay = command->add_option("--replay", options->replay,
+    Option* replay = command->add_option("--replay", options->replay,
         "Fly a record again, the same to the bit, in its scene and on its layout (or on --layout's)");
     for (const char* other : {"--exhibit", "--scene", "--shot", "--tour", "--pattern", "--record", "--presenter", "--node"})
         replay->excludes(other);
@@ -269,8 +268,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
           "starbow run --tour first-minute\n  starbow run --exhibit our-dome.json --node left\n  starbow run --trace "
           "out/trace.json --verbose");
     command->callback([options, command, verbose, &chosen] {
-        for (const CLI::Option* option : command->get_options())
-            options->any_given = options->any_given || (option != verbose && option->count() > 0);
+        options->any_given = command->given_besides(verbose);
         chosen = [options] { return run(*options); };
     });
 }

@@ -1,10 +1,9 @@
-#include "runtime/remote/tell.h"
 #include "commands.h"
 #include "config/json/error.h"
 #include "config/model/shipped.h"
-#include "options/number.h"
+#include "options/command_line.h"
 #include "runtime/remote/auth.h"
-#include <CLI/CLI.hpp>
+#include "runtime/remote/tell.h"
 #include <cstdio>
 
 namespace starbow {
@@ -61,9 +60,9 @@ std::string command_list()
 
 } // namespace
 
-void add_tell(CLI::App& app, std::function<int()>& chosen)
+void add_tell(Subcommand& app, std::function<int()>& chosen)
 {
-    CLI::App* command = app.add_subcommand("tell", "Give a running exhibit a command, or print its state.");
+    Subcommand* command = app.add_subcommand("tell", "Give a running exhibit a command, or print its state.");
     command->footer(command_list()
         + "\n\nExamples:\n  starbow tell status\n  starbow tell scene twins\n"
           "  starbow tell --host starbow.local --pin-file docent.pin caption \"Closed at six\"");

@@ -2,8 +2,8 @@
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include "displays/warp/formats.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/images/capture.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -203,7 +203,7 @@ int convert(const WarpOptions& options)
     return 0;
 }
 
-void add_input(CLI::App& command, WarpOptions& options)
+void add_input(Subcommand& command, WarpOptions& options)
 {
     command.add_option("file", options.file, "A warp file")->required();
     command.add_option("--region", options.region, "The region, if an MPCDI file has several");
@@ -219,13 +219,13 @@ void add_input(CLI::App& command, WarpOptions& options)
 
 } // namespace
 
-void add_warp(CLI::App& app, std::function<int()>& chosen)
+void add_warp(Subcommand& app, std::function<int()>& chosen)
 {
-    CLI::App* command = app.add_subcommand("warp", "Inspect calibrations, and convert them to another format.");
-    command->require_subcommand(1);
+    Subcommand* command = app.add_subcommand("warp", "Inspect calibrations, and convert them to another format.");
+    command->require_subcommand();
     auto looking = std::make_shared<WarpOptions>(), changing = std::make_shared<WarpOptions>();
 
-    CLI::App* inspect_command = command->add_subcommand("inspect", "Print the content of a warp file, and draw it");
+    Subcommand* inspect_command = command->add_subcommand("inspect", "Print the content of a warp file, and draw it");
     add_input(*inspect_command, *looking);
     inspect_command->add_option("--out", looking->out, "Draw it to this PNG");
     inspect_command->add_option("--size", looking->size, "Pixels of the PNG, WIDTHxHEIGHT; 1024x640 if not given");
@@ -240,7 +240,7 @@ void add_warp(CLI::App& app, std::function<int()>& chosen)
         "Example:\n  starbow warp inspect dome.data --out dome.png");
     inspect_command->callback([looking, &chosen] { chosen = [looking] { return inspect(*looking); }; });
 
-    CLI::App* convert_command
+    Subcommand* convert_command
         = command->add_subcommand("convert", "Write a warp file as a Bourke mesh (.data), PFM or domeprojection's .csv");
     add_input(*convert_command, *changing);
     convert_command->add_option("out", changing->out, "The new file; the end of its name chooses the format")->required();

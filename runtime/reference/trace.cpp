@@ -85,7 +85,7 @@ struct Tracer::Scene {
     EmbreeScene embree;
 
     struct Query {
-        RTCIntersectContext embree; // first: Embree hands it on
+        RayContext embree; // first: Embree hands it on
         const Scene* scene;
         const SightLine* line;
         double beyond;
@@ -300,14 +300,14 @@ std::optional<Met> Tracer::nearest(const SightLine& line, double beyond) const
     if (scene_->triangles.empty())
         return {};
     Scene::Query query{{}, scene_.get(), &line, beyond, {}};
-    rtcInitIntersectContext(&query.embree);
+    begin_query(query.embree);
     RTCRayHit hit{};
     hit.ray.org_x = float(line.from.x), hit.ray.org_y = float(line.from.y), hit.ray.org_z = float(line.from.z);
     hit.ray.dir_x = float(line.way.x), hit.ray.dir_y = float(line.way.y), hit.ray.dir_z = float(line.way.z);
     hit.ray.tfar = std::numeric_limits<float>::infinity();
     hit.ray.mask = ~0u;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_->embree.scene, &query.embree, &hit);
+    find_first(scene_->embree.scene, query.embree, hit);
     return query.met;
 }
 

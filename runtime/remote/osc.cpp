@@ -14,8 +14,10 @@ namespace {
 constexpr std::string_view bundle_start("#bundle\0", 8), prefix = "/starbow/";
 constexpr std::size_t most_in_bundle = 64;
 
+/// liblo's handle of a message: void* up to release 0.31, a type of its own since.
 struct FreeMessage {
-    void operator()(void* message) const { lo_message_free(message); }
+    using pointer = lo_message;
+    void operator()(lo_message message) const { lo_message_free(message); }
 };
 
 /// One argument as a word of a command: 1 and T are on, 0 and F off, where the command is a switch.
@@ -49,7 +51,7 @@ Command command_of_message(std::span<const unsigned char> bytes)
     std::vector<std::uint32_t> aligned((bytes.size() + 3) / 4 + 1);
     std::memcpy(aligned.data(), bytes.data(), bytes.size());
     int result = 0;
-    const std::unique_ptr<void, FreeMessage> message(lo_message_deserialise(aligned.data(), bytes.size(), &result));
+    const std::unique_ptr<lo_message, FreeMessage> message(lo_message_deserialise(aligned.data(), bytes.size(), &result));
     if (!message)
         throw InputError("a datagram is no OSC message; one such as /starbow/scene avenue is right");
     const std::string path = reinterpret_cast<const char*>(bytes.data()); // deserialise has found its end

@@ -1,5 +1,9 @@
 #pragma once
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 #include <stdexcept>
 #include <string>
 
@@ -41,5 +45,30 @@ public:
     RTCDevice device;
     RTCScene scene = nullptr;
 };
+
+// Embree 4 takes a query's context with its arguments.
+#if RTC_VERSION_MAJOR >= 4
+using RayContext = RTCRayQueryContext;
+inline void begin_query(RayContext& context) { rtcInitRayQueryContext(&context); }
+inline void find_first(RTCScene scene, RayContext& context, RTCRayHit& hit)
+{
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context;
+    rtcIntersect1(scene, &hit, &arguments);
+}
+inline void find_any(RTCScene scene, RayContext& context, RTCRay& ray)
+{
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &context;
+    rtcOccluded1(scene, &ray, &arguments);
+}
+#else
+using RayContext = RTCIntersectContext;
+inline void begin_query(RayContext& context) { rtcInitIntersectContext(&context); }
+inline void find_first(RTCScene scene, RayContext& context, RTCRayHit& hit) { rtcIntersect1(scene, &context, &hit); }
+inline void find_any(RTCScene scene, RayContext& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
+#endif
 
 } // namespace starbow

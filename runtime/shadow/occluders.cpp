@@ -143,12 +143,12 @@ Occluders::Occluders(Occluders&&) noexcept = default;
 
 std::optional<Occluders::Hit> Occluders::first(const glm::dvec3& from, const glm::dvec3& way, double far) const
 {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    RayContext context;
+    begin_query(context);
     RTCRayHit hit{};
     hit.ray = scene_->ray(from, way, far);
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_->embree.scene, &context, &hit);
+    find_first(scene_->embree.scene, context, hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return {};
     const Scene::Triangle& triangle = (hit.hit.geomID == 0 ? scene_->whole : scene_->masked)[hit.hit.primID];
@@ -158,10 +158,10 @@ std::optional<Occluders::Hit> Occluders::first(const glm::dvec3& from, const glm
 
 bool Occluders::hidden(const glm::dvec3& from, const glm::dvec3& way, double far) const
 {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    RayContext context;
+    begin_query(context);
     RTCRay ray = scene_->ray(from, way, far);
-    rtcOccluded1(scene_->embree.scene, &context, &ray);
+    find_any(scene_->embree.scene, context, ray);
     return ray.tfar < 0;
 }
 

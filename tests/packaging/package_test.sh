@@ -31,7 +31,7 @@ has() {
         grep -Eq "^[-d]......r.. root/root $path$" "$folder/$package.list" || fail "$package has no $path that all may read"
     done
 }
-has starbow /usr/bin/starbow /usr/share/starbow/config/layouts/dome2/left.data /usr/share/starbow/scenes/avenue/avenue.glb \
+has starbow /usr/bin/starbow /usr/lib/starbow/starbow-tools /usr/share/starbow/config/layouts/dome2/left.data /usr/share/starbow/scenes/avenue/avenue.glb \
     /usr/share/starbow/config/words/de.json /usr/share/starbow/config/remote/page.html \
     /usr/share/starbow/config/remote/page.js /usr/share/starbow/config/remote/page.css /usr/share/doc/starbow/remote.png /usr/share/doc/starbow/exhibit.md /usr/share/doc/starbow/physics/spectrum.svg \
     /usr/share/applications/starbow.desktop /usr/share/man/man1/starbow.1.gz /usr/share/doc/starbow/changelog.gz \

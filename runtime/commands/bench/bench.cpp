@@ -6,11 +6,11 @@
 #include "input.h"
 #include "layout.h"
 #include "runtime/commands/commands.h"
-#include "runtime/commands/options/number.h"
+#include "runtime/commands/options/command_line.h"
+#include "runtime/commands/tools.h"
 #include "scaling.h"
 #include "stars.h"
 #include "worlds.h"
-#include <CLI/CLI.hpp>
 #include <memory>
 
 namespace starbow {
@@ -52,11 +52,10 @@ int bench(const BenchOptions& options)
 
 } // namespace
 
-void add_bench(CLI::App& app, std::function<int()>& chosen)
+void add_bench(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<BenchOptions>();
-    CLI::App* command
-        = app.add_subcommand("bench", "Times the stages of a frame, and two ratios measured in turn in the same run.");
+    Subcommand* command = app.add_subcommand(bench_tool.name, bench_tool.help);
     command->add_option("--rounds", options->rounds, "How often each stage is timed")
         ->check(whole_number(3, 10000))
         ->capture_default_str();

@@ -12,6 +12,7 @@
 #include "exhibit_lines.h"
 #include "flashes.h"
 #include "runtime/commands/commands.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/images/capture.h"
 #include "runtime/shadow/still_things.h"
 #include "runtime/world/ephemeris.h"
@@ -20,7 +21,6 @@
 #include "runtime/world/stars.h"
 #include "runtime/world/worldline.h"
 #include "world_sheet.h"
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -154,24 +154,24 @@ void refuse_others(const CheckOptions& options, bool world)
 
 } // namespace
 
-void add_check(CLI::App& app, std::function<int()>& chosen)
+void add_check(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<CheckOptions>();
-    CLI::App* command = app.add_subcommand("check",
+    Subcommand* command = app.add_subcommand("check",
         "Read a layout, print what each viewport shows, and draw the floor plan; or an exhibit, with all that it names, its "
         "machines and its layout; or a world of your own, and show it; or a "
         "scene, and say how exact its light is; or a tour or a flight, and count its flashes.");
-    CLI::Option* file = command->add_option("FILE", options->file,
+    Option* file = command->add_option("FILE", options->file,
         "A layout file, or the name of one in config/layouts: its viewports and its floor plan. Or an exhibit's file: "
         "all files that the exhibit names are read, and its machines and their network are listed. Or a scene file or a "
         "glTF "
         "world (.glb, .gltf): its size, its cost, what is drawn otherwise than it says, and a page with a plan and stills");
-    CLI::Option* scene = command->add_option("--scene", options->scene,
+    Option* scene = command->add_option("--scene", options->scene,
         "A scene file, or the name of one in config/scenes: how its light is represented, the worst error of a colour, and "
         "the places "
         "of its globes");
     scene->excludes(file);
-    CLI::Option* flashes = command->add_option("--flashes", options->flashes.film,
+    Option* flashes = command->add_option("--flashes", options->flashes.film,
         "A tour file, the name of one in config/tours, or a record of starbow run --record (.jsonl): the flashes that an "
         "eye "
         "sees, by WCAG 2.3.1; exit status 1 where there are more than three in a second");
@@ -183,7 +183,7 @@ void add_check(CLI::App& app, std::function<int()>& chosen)
     command
         ->add_option("--exposure-mode", options->flashes.mode,
             "With --flashes of a tour: as an eye sees it (eye), or by one curve that shows everything at once (range)")
-        ->check(CLI::IsMember({"eye", "range"}))
+        ->check(one_of({"eye", "range"}))
         ->needs(flashes)
         ->capture_default_str();
     command
@@ -203,8 +203,8 @@ void add_check(CLI::App& app, std::function<int()>& chosen)
                     "check --scene chart\n"
                     "  starbow check --flashes first-minute --layout dome --out out/flashes.png");
     command->callback([options, file, scene, flashes, &chosen] {
-        if (file->empty() && scene->empty() && flashes->empty())
-            throw CLI::RequiredError("FILE, --scene or --flashes");
+        if (file->count() == 0 && scene->count() == 0 && flashes->count() == 0)
+            require_one_of("FILE, --scene or --flashes");
         chosen = [options] {
             if (!options->flashes.film.empty())
                 return check_flashes(options->flashes);

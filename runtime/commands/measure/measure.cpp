@@ -4,13 +4,13 @@
 #include "explain.h"
 #include "extremes.h"
 #include "runtime/commands/commands.h"
-#include "runtime/commands/options/number.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/commands/options/size.h"
+#include "runtime/commands/tools.h"
 #include "runtime/images/capture.h"
 #include "runtime/reference/reference.h"
 #include "settings.h"
 #include "shimmer.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -177,11 +177,10 @@ int measure(const MeasureOptions& options)
 
 } // namespace
 
-void add_measure(CLI::App& app, std::function<int()>& chosen)
+void add_measure(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<MeasureOptions>();
-    CLI::App* command = app.add_subcommand("measure",
-        "Speed for accuracy: each setting's time, memory and error against the reference, as a table and a chart.");
+    Subcommand* command = app.add_subcommand(measure_tool.name, measure_tool.help);
     command->add_option("--scene", options->scene, "A scene file, or the name of one in config/scenes")
         ->capture_default_str();
     command->add_option("--layout", options->layout, "A layout file, or the name of one in config/layouts")
@@ -200,7 +199,7 @@ void add_measure(CLI::App& app, std::function<int()>& chosen)
             "--default", options->standard, "The quality whose settings are varied, and that all times are relative to")
         ->capture_default_str();
     command->add_option("--settings", options->which, "What is tried: all, or only the shipped ones and yours (shipped)")
-        ->check(CLI::IsMember({"all", "shipped"}))
+        ->check(one_of({"all", "shipped"}))
         ->capture_default_str();
     command->add_option("--samples", options->samples, "Rays for each pixel of the reference")
         ->check(whole_number(1, 65536))
@@ -211,7 +210,7 @@ void add_measure(CLI::App& app, std::function<int()>& chosen)
     command
         ->add_option("--budget-ms", options->budget_ms,
             "Also choose: the most accurate setting whose frame takes no longer, as quality.json")
-        ->check(CLI::Range(0.01, 1e6));
+        ->check(number_between(0.01, 1e6));
     command->add_flag("--extremes", options->extremes,
         "Instead: at the ends of what there is (speeds, places, times, sizes, views, light), whether all is finite and "
         "within "

@@ -1,18 +1,18 @@
 #pragma once
+#include "runtime/commands/options/command_line.h"
 #include "runtime/world/spectra.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 namespace starbow {
 
-inline CLI::Option* add_spectra(CLI::App& command, std::string& name)
+inline Option* add_spectra(Subcommand& command, std::string& name)
 {
     std::vector<std::string> names(spectral_level_names.begin(), spectral_level_names.end());
     names.insert(names.begin(), "needed");
     return command
         .add_option("--spectra", name,
             "Coefficients of each spectrum: 3 (colours), 5 (middle), 12 (fine), or as many as the scene needs")
-        ->check(CLI::IsMember(names))
+        ->check(one_of(names))
         ->capture_default_str();
 }
 

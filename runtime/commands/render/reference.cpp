@@ -1,16 +1,28 @@
-#include "reference.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/model/shipped.h"
+#include "runtime/commands/commands.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/commands/options/size.h"
+#include "runtime/commands/tools.h"
 #include "runtime/images/capture.h"
 #include "runtime/operation/progress.h"
 #include "runtime/reference/reference.h"
 #include <cstdio>
+#include <memory>
 
 namespace starbow {
+namespace {
 
-int render_reference(const ReferenceCommand& command)
+struct ReferencePictures {
+    std::string layout, shot, out, size; ///< layout, size: "" for the desk, and as the layout's
+    long samples = 16;
+    bool exr = false;
+};
+
+/// Draws a shot's pictures by rays, without a device, and writes OUT/<output>.png (and .exr). Finished rows are stored in
+/// OUT/<output>.rows until the picture is written. Returns the exit status.
+int render_reference(const ReferencePictures& command)
 {
     const std::filesystem::path shot_file = shipped_file("shots", command.shot);
     const Shot shot = load_shot(shot_file);
@@ -62,6 +74,21 @@ int render_reference(const ReferenceCommand& command)
     for (const Output& output : layout.outputs)
         std::printf("%s/%s.png%s\n", command.out.c_str(), output.name.c_str(), command.exr ? " and .exr" : "");
     return 0;
+}
+
+} // namespace
+
+void add_reference(Subcommand& app, std::function<int()>& chosen)
+{
+    auto options = std::make_shared<ReferencePictures>();
+    Subcommand* command = app.add_subcommand(reference_tool.name, reference_tool.help);
+    command->add_option("--layout", options->layout, "");
+    command->add_option("--shot", options->shot, "");
+    command->add_option("--out", options->out, "");
+    command->add_option("--size", options->size, "");
+    command->add_option("--samples", options->samples, "");
+    command->add_flag("--exr", options->exr, "");
+    command->callback([options, &chosen] { chosen = [options] { return render_reference(*options); }; });
 }
 
 } // namespace starbow

@@ -1,20 +1,19 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/model/shipped.h"
-#include "reference.h"
 #include "replay.h"
 #include "runtime/commands/commands.h"
+#include "runtime/commands/options/command_line.h"
 #include "runtime/commands/options/language.h"
-#include "runtime/commands/options/number.h"
 #include "runtime/commands/options/pattern.h"
 #include "runtime/commands/options/quality.h"
 #include "runtime/commands/options/size.h"
 #include "runtime/commands/options/spectra.h"
+#include "runtime/commands/tools.h"
 #include "runtime/exhibit/still_measurement.h"
 #include "runtime/render/offscreen.h"
 #include "runtime/render/render_context.h"
 #include "tour.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -32,6 +31,19 @@ struct RenderOptions {
     double bloom = 0;
     bool exr = false, hud = false, reference = false, join = false;
 };
+
+std::vector<std::string> reference_arguments(const RenderOptions& options)
+{
+    std::vector<std::string> arguments{
+        reference_tool.name, "--samples=" + std::to_string(options.samples), "--shot=" + options.shot, "--out=" + options.out};
+    if (!options.layout.empty())
+        arguments.push_back("--layout=" + options.layout);
+    if (!options.size.empty())
+        arguments.push_back("--size=" + options.size);
+    if (options.exr)
+        arguments.push_back("--exr");
+    return arguments;
+}
 
 int render(const RenderOptions& options)
 {
@@ -51,7 +63,7 @@ int render(const RenderOptions& options)
     if (options.reference && options.exposure != "shot")
         throw InputError("--exposure " + options.exposure + " is not known to --reference; shot is right there");
     if (options.reference)
-        return render_reference({options.layout, options.shot, options.out, options.size, options.samples, options.exr});
+        become_tools(reference_arguments(options));
     const Words words = words_in(options.language);
     std::filesystem::path shot_file = shipped_file("shots", options.shot);
     Shot shot = load_shot(shot_file);
@@ -120,84 +132,84 @@ int render(const RenderOptions& options)
 
 } // namespace
 
-void add_render(CLI::App& app, std::function<int()>& chosen)
+void add_render(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<RenderOptions>();
-    CLI::App* command = app.add_subcommand(
+    Subcommand* command = app.add_subcommand(
         "render", "Draw one shot off-screen, the same bytes every time; or a flight's record, or a tour's movie.");
     command->add_option("--layout", options->layout,
         "A layout file, or the name of one in config/layouts [desk; for a replay the record's]");
-    CLI::Option* shot = command->add_option("--shot", options->shot, "A shot file, or the name of one in config/shots");
-    CLI::Option* out = command->add_option("--out", options->out,
+    Option* shot = command->add_option("--shot", options->shot, "A shot file, or the name of one in config/shots");
+    Option* out = command->add_option("--out", options->out,
         "The folder for OUTPUT.png (and OUTPUT.exr), or with --replay OUTPUT-FRAME.png; made if it is not there");
     command->add_option("--size", options->size, "Pixels of every output, WIDTHxHEIGHT, instead of the layout's");
-    CLI::Option* exr = command->add_flag(
+    Option* exr = command->add_flag(
         "--exr", options->exr, "Also write an EXR with light, directions, Doppler factor and distance of every pixel");
-    CLI::Option* pattern = command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
+    Option* pattern = command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
     command
         ->add_option(
             "--exposure", options->exposure, "The shot's own exposure (shot), or one metered from the picture (auto)")
-        ->check(CLI::IsMember({"shot", "auto"}))
+        ->check(one_of({"shot", "auto"}))
         ->capture_default_str();
-    CLI::Option* mode = command
+    Option* mode = command
                             ->add_option("--exposure-mode", options->mode,
                                 "As an eye sees it (eye), or by one curve that shows everything at once (range)")
-                            ->check(CLI::IsMember({"eye", "range"}))
+                            ->check(one_of({"eye", "range"}))
                             ->capture_default_str();
-    CLI::Option* bloom = command
+    Option* bloom = command
                              ->add_option("--bloom", options->bloom,
                                  "The share of the light brighter than the screen's white that glows around it, 0 to 1")
-                             ->check(CLI::Range(0.0, 1.0))
+                             ->check(number_between(0.0, 1.0))
                              ->capture_default_str();
-    CLI::Option* spectra = add_spectra(*command, options->spectra);
-    CLI::Option* quality = command->add_option("--quality", options->quality, quality_help + std::string(" [fine]"));
-    CLI::Option* points = command->add_option("--measure", options->points, measure_help);
-    CLI::Option* overlay = command
+    Option* spectra = add_spectra(*command, options->spectra);
+    Option* quality = command->add_option("--quality", options->quality, quality_help + std::string(" [fine]"));
+    Option* points = command->add_option("--measure", options->points, measure_help);
+    Option* overlay = command
                                ->add_option("--overlay", options->overlay,
                                    "With instruments over the picture, and their readings: off, "
                                    "aim, grid, ring (D = 1), distance or emission")
-                               ->check(CLI::IsMember(std::vector<std::string>(overlay_names.begin(), overlay_names.end())))
+                               ->check(one_of(std::vector<std::string>(overlay_names.begin(), overlay_names.end())))
                                ->capture_default_str();
-    CLI::Option* why = command
+    Option* why = command
                            ->add_option("--why", options->why,
                                "With the page that explains one effect: aberration, doppler, headlight, delay, "
                                "dilation or length")
-                           ->check(CLI::IsMember(std::vector<std::string>(why_names.begin(), why_names.end())))
+                           ->check(one_of(std::vector<std::string>(why_names.begin(), why_names.end())))
                            ->capture_default_str();
-    CLI::Option* hud = command->add_flag("--hud", options->hud, "With the head-up display");
+    Option* hud = command->add_flag("--hud", options->hud, "With the head-up display");
     const std::vector<std::string_view> displays = names_of(informations);
     command->add_option("--information", options->information, "The head-up display for a visitor, guide or laboratory")
-        ->check(CLI::IsMember(std::vector<std::string>(displays.begin(), displays.end())))
+        ->check(one_of(std::vector<std::string>(displays.begin(), displays.end())))
         ->needs(hud)
         ->capture_default_str();
     add_language(*command, options->language);
-    CLI::Option* replay = command->add_option(
+    Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
-    for (CLI::Option* other : {shot, exr, pattern, points, overlay, why, mode}) // a record has its own mode
+    for (Option* other : {shot, exr, pattern, points, overlay, why, mode}) // a record has its own mode
         replay->excludes(other);
-    CLI::Option* frames
+    Option* frames
         = command->add_option("--frames", options->frames, "With --replay: the frames from A to B, counted from 0, as A:B")
               ->needs(replay);
-    CLI::Option* every = command->add_option("--every", options->every, "With --replay: each N-th frame")
+    Option* every = command->add_option("--every", options->every, "With --replay: each N-th frame")
                              ->check(whole_number(1, 1000000000))
                              ->needs(replay);
-    CLI::Option* tour = command->add_option("--tour", options->tour,
+    Option* tour = command->add_option("--tour", options->tour,
         "Instead of a shot: a movie of a tour, a file or the name of one in config/tours, as it is shown when nobody flies");
-    CLI::Option* movie
+    Option* movie
         = command->add_option("--movie", options->movie, "With --tour or --replay: the movie's file, such as out/tour.mp4");
-    for (CLI::Option* other : {out, frames, every})
+    for (Option* other : {out, frames, every})
         movie->excludes(other);
     command->add_option("--fps", options->frames_per_s, "With --movie: frames a second")
         ->check(whole_number(1, 240))
         ->capture_default_str()
         ->needs(movie);
-    CLI::Option* part
+    Option* part
         = command
               ->add_option("--part", options->part,
                   "With --movie: draw only the I-th of N parts, as I/N, so that several machines or programs share the "
                   "work; no movie is made")
               ->needs(movie);
-    CLI::Option* join = command
+    Option* join = command
                             ->add_flag("--join", options->join,
                                 "With --movie: make the movie of parts that are all drawn, without a device")
                             ->needs(movie)
@@ -205,12 +217,12 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--others", options->others, "With --join: folders of frames from other machines' disks")
         ->needs(join);
     tour->needs(movie);
-    for (CLI::Option* other : {shot, out, exr, pattern, replay, points, overlay, why, mode})
+    for (Option* other : {shot, out, exr, pattern, replay, points, overlay, why, mode})
         tour->excludes(other);
-    CLI::Option* reference = command->add_flag("--reference", options->reference,
+    Option* reference = command->add_flag("--reference", options->reference,
         "Draw by rays, in double precision and with whole spectra, without a device: slow, the reference for the other "
         "pictures");
-    for (CLI::Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, overlay, why, mode})
+    for (Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, overlay, why, mode})
         reference->excludes(other);
     command->add_option("--samples", options->samples, "With --reference: rays of each pixel")
         ->check(whole_number(1, 4096))

@@ -7,14 +7,14 @@
 #include "log_file.h"
 #include "runtime/commands/commands.h"
 #include "runtime/commands/interrupt.h"
-#include "runtime/commands/options/number.h"
+#include "runtime/commands/options/command_line.h"
+#include "runtime/commands/tools.h"
 #include "runtime/exhibit/exhibit.h"
 #include "runtime/exhibit/outputs.h"
 #include "runtime/operation/progress.h"
 #include "runtime/operation/vitals.h"
 #include "runtime/render/driver_memory.h"
 #include "visitor.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -248,8 +248,11 @@ int soak(const SoakOptions& options)
     if (log.next_visit() < options.visits) {
         const SoakFolder folder;
         Visitors visitors(options, log, folder);
-        ExhibitOptions exhibit{
-            .programme = programme, .layout = load_layout(folder.layout()), .words = words, .profiles = known_profiles()};
+        ExhibitOptions exhibit;
+        exhibit.programme = programme;
+        exhibit.layout = load_layout(folder.layout());
+        exhibit.words = words;
+        exhibit.profiles = known_profiles();
         exhibit.quality = load_quality(shipped_file("qualities", "draft"));
         exhibit.menu_scenes = shipped_names("scenes"), exhibit.menu_tours = shipped_names("tours");
         exhibit.warms_up = false;
@@ -278,12 +281,10 @@ int soak(const SoakOptions& options)
 
 } // namespace
 
-void add_soak(CLI::App& app, std::function<int()>& chosen)
+void add_soak(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<SoakOptions>();
-    CLI::App* command = app.add_subcommand("soak",
-        "Show the exhibit to many visitors made of random numbers, as fast as it goes, and compare the process's memory, "
-        "files, threads and Vulkan objects at the end with those near the start. It ends with 1 where they have grown.");
+    Subcommand* command = app.add_subcommand(soak_tool.name, soak_tool.help);
     command->add_option("--visits", options->visits, "Number of visits")
         ->check(whole_number(1, 100000000))
         ->capture_default_str();
@@ -291,7 +292,7 @@ void add_soak(CLI::App& app, std::function<int()>& chosen)
         ->add_option("--as", options->as,
             "visitors of all kinds; a tour that nobody touches, or a flight with the stick, each of 50 frames a visit; or "
             "reloads of a layout, one a visit")
-        ->check(CLI::IsMember(std::vector<std::string>(use_names.begin(), use_names.end())))
+        ->check(one_of(std::vector<std::string>(use_names.begin(), use_names.end())))
         ->capture_default_str();
     command->add_option("--scene", options->scene, "Name or file of the scene that it begins with; a tour has its own")
         ->capture_default_str();

@@ -94,7 +94,7 @@ void unpack_draco(const Spot& packed, tinygltf::Primitive& written, GuardedGltf&
     std::vector<std::uint32_t> indices;
     indices.reserve(corners);
     for (draco::FaceIndex face(0); face < mesh->num_faces(); ++face)
-        for (const draco::PointIndex point : mesh->face(face)) {
+        for (const draco::PointIndex& point : mesh->face(face)) {
             if (point.value() >= points)
                 packed.fail("names vertex " + std::to_string(point.value()) + " of " + std::to_string(points));
             indices.push_back(point.value());

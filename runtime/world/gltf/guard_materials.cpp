@@ -96,7 +96,7 @@ void guard_alpha(const Spot& material, tinygltf::Material& written)
         written.alphaCutoff = number(material["alphaCutoff"], 0, 1e6);
 }
 
-void guard_material(const Spot& material, tinygltf::Material& written, const Spot& root, GuardedGltf& out)
+void guard_material(const Spot& material, tinygltf::Material& written, const Spot& root)
 {
     if (material.has("name"))
         written.name = text(material["name"]);
@@ -191,7 +191,7 @@ void guard_materials(GltfFile& file, const Spot& root, GuardedGltf& out)
     guard_samplers(root, out);
     guard_textures(root, out);
     guard_list(root, "materials", out.model.materials, [&](const Spot& material, tinygltf::Material& written) {
-        guard_material(material, written, root, out);
+        guard_material(material, written, root);
         out.surfaces.push_back(guard_surface(material, written));
     });
     guard_images(file, root, out);
