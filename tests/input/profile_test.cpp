@@ -1,4 +1,4 @@
-// Profiles and the mapping of a device's values: every shipped profile on its real device, the shapes of axes, wrong files.
+// Profiles and the mapping of a device's values: every shipped profile on its device's fields, the shapes of axes, wrong files.
 #include "config/model/profile.h"
 #include "input/mapping.h"
 #include "tests/support/files.h"
