@@ -12,10 +12,6 @@ function(compressed file name)
 endfunction()
 compressed(${CMAKE_CURRENT_LIST_DIR}/starbow.1 starbow.1)
 compressed(${CMAKE_CURRENT_LIST_DIR}/changelog changelog)
-file(READ ${CMAKE_CURRENT_LIST_DIR}/copyright copyright)
-file(READ ${CMAKE_SOURCE_DIR}/NOTICE notice)
-file(WRITE ${CMAKE_BINARY_DIR}/packaging/copyright "${copyright}${notice}")
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/copyright NOTICE)
 
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
   ${CMAKE_CURRENT_LIST_DIR}/catalog.py ${CMAKE_SOURCE_DIR}/docs/log.md ${CMAKE_SOURCE_DIR}/config/model/log_kinds.h)
@@ -35,7 +31,7 @@ install(FILES packaging/starbow.metainfo.xml DESTINATION share/metainfo COMPONEN
 install(FILES config/udev/70-starbow.rules DESTINATION /lib/udev/rules.d COMPONENT starbow)
 install(FILES ${CMAKE_BINARY_DIR}/packaging/starbow.1.gz DESTINATION share/man/man1 COMPONENT starbow)
 foreach(package starbow starbow-exhibit)
-  install(FILES ${CMAKE_BINARY_DIR}/packaging/copyright ${CMAKE_BINARY_DIR}/packaging/changelog.gz
+  install(FILES packaging/copyright NOTICE ${CMAKE_BINARY_DIR}/packaging/changelog.gz
     DESTINATION share/doc/${package} COMPONENT ${package})
 endforeach()
 
@@ -52,8 +48,10 @@ install(FILES ${EXHIBIT}/hours.conf DESTINATION /etc/starbow RENAME hours COMPON
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME starbow)
-set(CPACK_PACKAGE_VENDOR "Starbow maintainers")
-set(CPACK_PACKAGE_CONTACT "Starbow maintainers <maintainers@starbow.invalid>")
+set(CPACK_PACKAGE_VENDOR "Starbow authors")
+set(CPACK_PACKAGE_CONTACT "Starbow authors")
+# Debian's control file has no field for a licence; the package's copyright file states it.
+set(CPACK_RESOURCE_FILE_LICENSE ${CMAKE_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

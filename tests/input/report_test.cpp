@@ -116,7 +116,8 @@ TEST(ReportTest, DevicesDeclareTheirFields)
                 if (field.report_id == id) {
                     EXPECT_EQ(raw_value(field, payload), bit_by_bit(field, payload));
                 }
-            for (const auto& [name, value] : report.value("values", json::object()).items()) {
+            const json chosen = report.value("values", json::object());
+            for (const auto& [name, value] : chosen.items()) {
                 ++values;
                 EXPECT_EQ(raw_value(named_field(found, id, name), payload), value.get<std::int64_t>())
                     << name << " of " << report["hex"];
