@@ -49,7 +49,8 @@ install(FILES ${EXHIBIT}/hours.conf DESTINATION /etc/starbow RENAME hours COMPON
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME starbow)
 set(CPACK_PACKAGE_VENDOR "Starbow authors")
-set(CPACK_PACKAGE_CONTACT "Starbow authors")
+# Debian wants an address; RFC 2606 keeps .invalid for those that are nobody's.
+set(CPACK_PACKAGE_CONTACT "Starbow authors <authors@starbow.invalid>")
 # Debian's control file has no field for a licence; the package's copyright file states it.
 set(CPACK_RESOURCE_FILE_LICENSE ${CMAKE_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})

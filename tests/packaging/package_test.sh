@@ -52,8 +52,28 @@ devices=$(cd "$(dirname "$0")/../.." && for profile in config/profiles/*.json; d
 done | tr a-z A-Z | sort -u)
 [ -n "$devices" ] && [ "$devices" = "$(dpkg-deb --fsys-tarfile "$folder/out/starbow.deb" | tar -xO ./usr/share/metainfo/starbow.metainfo.xml \
     | sed -n 's/.*<modalias>\(.*\)\*<.*/\1/p' | tr a-z A-Z | sort -u)" ] || fail "starbow.metainfo.xml does not name the devices of config/profiles: $devices"
+for package in starbow starbow-exhibit; do
+    for file in copyright NOTICE; do
+        dpkg-deb --fsys-tarfile "$folder/out/$package.deb" | tar -xO "./usr/share/doc/$package/$file" \
+            | cmp - "$(dirname "$0")/../../$([ $file = NOTICE ] || echo packaging/)$file" || fail "$package has another $file than the source"
+    done
+done
+# NOTICE's last column names each library that the program asks for, and no source file tells all of them.
+libraries=$(dpkg-deb --fsys-tarfile "$folder/out/starbow.deb" | tar -xO ./usr/bin/starbow >"$folder/program" \
+    && readelf -d "$folder/program" | sed -n 's/.*(NEEDED).*\[lib\(.*\)\.so.*/\1/p')
+[ "$(wc -w <<<"$libraries")" -ge 20 ] || fail "readelf: $libraries"
+for library in $libraries; do
+    sed -n '/^3\. /,$ s/.*  //p' "$(dirname "$0")/../../NOTICE" | tr ',' '\n' | tr -d ' ' | grep -Fxq "$library" || fail "NOTICE names no library $library"
+done
 grep -q '^Architecture: all' "$folder/starbow-exhibit.control" || fail "starbow-exhibit is not for all machines"
 ok
+
+# Debian's own checks, where they are installed: no error, no warning.
+if command -v lintian >/dev/null; then
+    lintian --allow-root --no-cfg "$folder"/out/*.deb >"$folder/lintian.log" 2>&1
+    grep '^[EW]: ' "$folder/lintian.log" && fail "lintian: the lines above"
+    ok
+fi
 
 # The journal explains each kind of line.
 dpkg-deb --fsys-tarfile "$folder/out/starbow-exhibit.deb" | tar -xO ./usr/lib/systemd/catalog/starbow.catalog >"$folder/starbow.catalog"
