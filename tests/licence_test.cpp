@@ -1,10 +1,9 @@
-// The licence of every file: REUSE.toml names one for each, LICENSES/ has their texts, and NOTICE and the package's copyright file
-// say the same. NOTICE names every library that the build looks for.
+// The licence of every file: REUSE.toml names one for each, LICENSES/ has their texts, and NOTICE and the package's
+// copyright file say the same. NOTICE names every library that the build looks for.
 #include "tests/support/files.h"
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <gtest/gtest.h>
 #include <map>
 #include <memory>
@@ -12,6 +11,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace licence_test {
@@ -74,7 +74,8 @@ std::vector<std::string> parts(const std::string& text, const std::string& separ
     return all;
 }
 
-/// The tables of REUSE.toml. It uses this much of TOML: tables, keys with a string or an array of strings, comments on own lines.
+/// The tables of REUSE.toml, which uses a part of TOML: tables, keys with a string or an array of strings, whole lines of
+/// comment. Throws where it uses more.
 std::vector<Stanza> stanzas_of_reuse(const std::string& text)
 {
     std::vector<Stanza> all;
@@ -110,7 +111,8 @@ std::vector<Stanza> stanzas_of_reuse(const std::string& text)
     return all;
 }
 
-/// The entries of NOTICE's first section: patterns at the left margin, below them the lines "Licence:" and "Copyright:", and the source.
+/// The entries of NOTICE's first section: patterns at the left margin, below them lines "Licence:" and "Copyright:", and the
+/// source.
 std::vector<Stanza> stanzas_of_notice(const std::string& text)
 {
     std::vector<Stanza> all;
@@ -134,7 +136,8 @@ std::vector<Stanza> stanzas_of_notice(const std::string& text)
     return all;
 }
 
-/// The stanzas of a Debian copyright file (DEP-5) that name files, and the licences that it explains. A * there also stands for /.
+/// The stanzas of a Debian copyright file (DEP-5) that name files, and the licences that it explains. A * there also stands
+/// for /.
 struct DebianCopyright {
     std::vector<Stanza> stanzas;
     std::set<std::string> explained;
@@ -172,8 +175,8 @@ DebianCopyright debian_copyright(const std::string& text)
 /// Debian's names for an SPDX expression's licences.
 std::string debian_licence(const std::string& spdx)
 {
-    static const std::map<std::string, std::string> names{
-        {"LGPL-3.0-or-later", "LGPL-3+"}, {"GPL-3.0-or-later", "GPL-3+"}, {"MIT", "Expat"}, {"BSD-3-Clause", "BSD-3-clause"}};
+    static const std::map<std::string, std::string> names{{"LGPL-3.0-or-later", "LGPL-3+"}, {"GPL-3.0-or-later", "GPL-3+"},
+        {"MIT", "Expat"}, {"BSD-3-Clause", "BSD-3-clause"}};
     std::vector<std::string> all = parts(spdx, " AND ");
     for (std::string& one : all) {
         if (one.starts_with("LicenseRef-"))
@@ -260,8 +263,8 @@ std::string debian_faults(const DebianCopyright& debian, const std::vector<Stanz
         if (!truth)
             continue;
         if (!told || told->licence != debian_licence(truth->licence) || told->copyrights != truth->copyrights)
-            faults += "packaging/copyright gives " + file + " the licence " + (told ? told->licence : "none") + ", copyright "
-                + (told ? joined(told->copyrights, "; ") : "none") + "\n";
+            faults += "packaging/copyright gives " + file + " the licence " + (told ? told->licence : "none")
+                + ", copyright " + (told ? joined(told->copyrights, "; ") : "none") + "\n";
     }
     for (const Stanza& one : debian.stanzas)
         for (const std::string& licence : parts(one.licence, " and "))
@@ -287,7 +290,8 @@ std::set<std::string> libraries_of_notice(const std::string& text)
 /// What a CMake file finds outside the repository, and the libraries that it links by their bare names.
 std::set<std::string> libraries_of_cmake(const std::string& text)
 {
-    static const std::regex package(R"(find_package\((\w+))"), named(R"(find_(?:library|path|program)\(\w+ (?:NAMES )?([\w.-]+))"),
+    static const std::regex package(R"(find_package\((\w+))"),
+        named(R"(find_(?:library|path|program)\(\w+ (?:NAMES )?([\w.-]+))"),
         pkg_config(R"(pkg_check_modules\(\w+ REQUIRED ([\w.-]+))"), link(R"(target_link_libraries\(([^)]*)\))"),
         target(R"((?:add_library|add_executable|TARGET)[( ]([\w-]+))");
     const auto words = [&](const std::regex& call) {
@@ -303,22 +307,21 @@ std::set<std::string> libraries_of_cmake(const std::string& text)
     for (const std::string& call : words(link)) {
         std::istringstream arguments(call);
         for (std::string word; arguments >> word;)
-            if (const std::string name = word.substr(0, word.find("::"));
-                !name.starts_with("$") && !name.starts_with("-") && !name.starts_with("starbow") && !own.contains(name)
-                && name != "PUBLIC" && name != "PRIVATE")
+            if (const std::string name = word.substr(0, word.find("::")); !name.starts_with("$") && !name.starts_with("-")
+                && !name.starts_with("starbow") && !own.contains(name) && name != "PUBLIC" && name != "PRIVATE")
                 all.insert(name);
     }
     return all;
 }
 
-/// The libraries that a source includes with angle brackets: an include's folder, or its file's name. Those of C, POSIX and Linux are
-/// left out, as are generated ones.
+/// The libraries that a source includes with angle brackets: an include's folder, or its file's name. Those of C, POSIX and
+/// Linux are left out, as are generated ones.
 std::set<std::string> libraries_of_source(const std::string& text)
 {
     static const std::regex include("(?:^|\n)[ \t]*#[ \t]*include[ \t]*<([^>]+)>");
-    static const std::set<std::string> of_the_system{"arpa", "dlfcn.h", "execinfo.h", "fcntl.h", "ifaddrs.h", "link.h", "linux",
-        "malloc.h", "net", "netinet", "poll.h", "pthread.h", "pty.h", "spawn.h", "sys", "termios.h", "time.h", "ucontext.h",
-        "unistd.h", "machines.h", "map_sources.h"};
+    static const std::set<std::string> of_the_system{"arpa", "dlfcn.h", "execinfo.h", "fcntl.h", "ifaddrs.h", "link.h",
+        "linux", "malloc.h", "net", "netinet", "poll.h", "pthread.h", "pty.h", "spawn.h", "sys", "termios.h", "time.h",
+        "ucontext.h", "unistd.h", "machines.h", "map_sources.h"};
     std::set<std::string> all;
     for (std::sregex_iterator at(text.begin(), text.end(), include), end; at != end; ++at) {
         const std::string whole = (*at)[1], name = whole.substr(0, whole.find('/'));
@@ -442,27 +445,32 @@ TEST(LicenceTest, PatternsKeepToFolders)
 
 TEST(LicenceTest, PlantedFaultsAreFound)
 {
-    const std::string toml = "version = 1\n# ours\n[[annotations]]\npath = [\n    \"code/**.h\", \"REUSE.toml\"\n]\nprecedence = \"override\"\n"
-                             "SPDX-FileCopyrightText = \"2026 Starbow authors\"\nSPDX-License-Identifier = \"LGPL-3.0-or-later\"\n"
-                             "[[annotations]]\npath = \"data/*\"\nprecedence = \"override\"\n"
-                             "SPDX-FileCopyrightText = [\"1999 A\", \"2000 B\"]\nSPDX-License-Identifier = \"MIT AND CC0-1.0\"\n";
+    const std::string toml
+        = "version = 1\n# ours\n[[annotations]]\npath = [\n    \"code/**.h\", \"REUSE.toml\"\n]\nprecedence = \"override\"\n"
+          "SPDX-FileCopyrightText = \"2026 Starbow authors\"\nSPDX-License-Identifier = \"LGPL-3.0-or-later\"\n"
+          "[[annotations]]\npath = \"data/*\"\nprecedence = \"override\"\n"
+          "SPDX-FileCopyrightText = [\"1999 A\", \"2000 B\"]\nSPDX-License-Identifier = \"MIT AND CC0-1.0\"\n";
     const std::vector<Stanza> good = stanzas_of_reuse(toml);
     const std::set<std::string> texts{"LGPL-3.0-or-later", "MIT", "CC0-1.0"};
     Files files{"REUSE.toml", "LICENSE", "LICENSES/MIT.txt", "code/a/b.h", "data/x.png"};
     EXPECT_EQ(reuse_faults(good, files, texts), "");
     EXPECT_EQ(reuse_faults(good, files, {"LGPL-3.0-or-later", "MIT"}), "CC0-1.0 has no text in LICENSES/\n");
-    EXPECT_EQ(reuse_faults(good, files, {"LGPL-3.0-or-later", "MIT", "CC0-1.0", "ISC"}), "LICENSES/ISC.txt is the licence of no file\n");
+    EXPECT_EQ(reuse_faults(good, files, {"LGPL-3.0-or-later", "MIT", "CC0-1.0", "ISC"}),
+        "LICENSES/ISC.txt is the licence of no file\n");
     files.push_back("code/a/font.ttf");
     EXPECT_EQ(reuse_faults(good, files, texts), "code/a/font.ttf has no licence in REUSE.toml\n");
     files.pop_back();
-    EXPECT_EQ(reuse_faults(good, {"REUSE.toml", "code/a.h"}, {"LGPL-3.0-or-later"}), "REUSE.toml names data/*, which is no file\n");
+    EXPECT_EQ(reuse_faults(good, {"REUSE.toml", "code/a.h"}, {"LGPL-3.0-or-later"}),
+        "REUSE.toml names data/*, which is no file\n");
     EXPECT_THROW(stanzas_of_reuse("version = 1\n[[annotations]]\npath = [\n"), std::runtime_error);
     EXPECT_THROW(stanzas_of_reuse("version = 1\n[[annotations]]\nprecedence = \"closest\"\n"), std::runtime_error);
 
     const auto told = [&](const std::string& entries) {
         return notice_faults(stanzas_of_notice("\n1. Files\n\n" + entries + "\n\n2. Numbers\n"), good, files);
     };
-    EXPECT_EQ(told("data/x.png,\ndata/*\n  Licence: MIT AND CC0-1.0\n  Copyright: 1999 A\n  Copyright: 2000 B\n  From there."), "");
+    EXPECT_EQ(
+        told("data/x.png,\ndata/*\n  Licence: MIT AND CC0-1.0\n  Copyright: 1999 A\n  Copyright: 2000 B\n  From there."),
+        "");
     EXPECT_EQ(told(""), "NOTICE does not name data/x.png, which is not ours alone\n");
     EXPECT_EQ(told("data/*\n  Licence: MIT\n  Copyright: 1999 A\n  Copyright: 2000 B"),
         "NOTICE gives data/x.png the licence MIT, and REUSE.toml MIT AND CC0-1.0\n");
@@ -471,15 +479,19 @@ TEST(LicenceTest, PlantedFaultsAreFound)
     EXPECT_EQ(told("data/*, gone\n  Licence: MIT AND CC0-1.0\n  Copyright: 1999 A\n  Copyright: 2000 B"),
         "NOTICE names gone, which is no file\n");
 
-    const std::string head = "Format: x\n\nFiles: *\nCopyright: 2026 Starbow authors\nLicense: LGPL-3+\n\nLicense: LGPL-3+\n See.\n";
+    const std::string head
+        = "Format: x\n\nFiles: *\nCopyright: 2026 Starbow authors\nLicense: LGPL-3+\n\nLicense: LGPL-3+\n See.\n";
     const Files ours_and_data{"code/a/b.h", "data/x.png"};
-    const std::string rest = "\nFiles: data/*\nCopyright: 1999 A\n 2000 B\nLicense: Expat and CC0-1.0\n\nLicense: Expat\n See.\n";
+    const std::string rest
+        = "\nFiles: data/*\nCopyright: 1999 A\n 2000 B\nLicense: Expat and CC0-1.0\n\nLicense: Expat\n See.\n";
     EXPECT_EQ(debian_faults(debian_copyright(head + rest + "\nLicense: CC0-1.0\n See.\n"), good, ours_and_data), "");
-    EXPECT_EQ(debian_faults(debian_copyright(head + rest), good, ours_and_data), "packaging/copyright does not explain CC0-1.0\n");
+    EXPECT_EQ(
+        debian_faults(debian_copyright(head + rest), good, ours_and_data), "packaging/copyright does not explain CC0-1.0\n");
     EXPECT_EQ(debian_faults(debian_copyright(head), good, ours_and_data),
         "packaging/copyright gives data/x.png the licence LGPL-3+, copyright 2026 Starbow authors\n");
 
-    const std::set<std::string> named = libraries_of_notice("\n3. Libraries\n\n  linked  version  licence  names\n  A B  1.0  MIT  glm, a.h\n");
+    const std::set<std::string> named
+        = libraries_of_notice("\n3. Libraries\n\n  linked  version  licence  names\n  A B  1.0  MIT  glm, a.h\n");
     EXPECT_EQ(missing(libraries_of_cmake("find_package(glm REQUIRED)\nadd_executable(mine x.cpp)\n"
                                          "target_link_libraries(mine PRIVATE glm::glm ${Z} starbow_x)\n"),
                   named),
@@ -487,9 +499,13 @@ TEST(LicenceTest, PlantedFaultsAreFound)
     EXPECT_EQ(missing(libraries_of_cmake("find_library(X NAMES newest REQUIRED)\ntarget_link_libraries(mine quad)\n"
                                          "pkg_check_modules(Y REQUIRED u-1.0)\nfind_path(Z z.h)\n"),
                   named),
-        "NOTICE names no library mine\nNOTICE names no library newest\nNOTICE names no library quad\nNOTICE names no library u-1.0\n"
+        "NOTICE names no library mine\nNOTICE names no library newest\nNOTICE names no library quad\nNOTICE names no "
+        "library u-1.0\n"
         "NOTICE names no library z.h\n");
-    EXPECT_EQ(missing(libraries_of_source("#include <vector>\n#include <sys/stat.h>\n#include <glm/glm.hpp>\n#include <a.h>\n"), named), "");
+    EXPECT_EQ(
+        missing(libraries_of_source("#include <vector>\n#include <sys/stat.h>\n#include <glm/glm.hpp>\n#include <a.h>\n"),
+            named),
+        "");
     EXPECT_EQ(missing(libraries_of_source("#include <header/only.hpp>\n"), named), "NOTICE names no library header\n");
 }
 
