@@ -132,7 +132,7 @@ def completed(device):
         out["descriptor_hex"] = encoded_descriptor(device).hex()
     out["descriptor_bytes"] = len(out["descriptor_hex"]) // 2
     out["reports"] = [{**report, "hex": encoded_input(device, report).hex()} if "values" in report else report
-                      for report in device["reports"]]
+                      for report in device.get("reports", [])]
     return out
 
 
