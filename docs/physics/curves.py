@@ -201,7 +201,7 @@ def glint():
             for line in joined(contours(seen, columns, rows, part * most)):
                 figure.path([(path.x(x), path.y(y)) for x, y in line], colour, width)
         figure.circle(path.x(0), path.y(-height), 4.5, "#fff", 1.2, colour)
-    figure.text(695, 392, "lines: 0.5 and 0.1 of each Sun’s brightest; dots: mirror images", size=13)
+    figure.text(695, 392, "lines: 0.5 and 0.1 of the brightest; dots: mirror", size=13)
     figure.text(263, 392, f"wind 7 m/s: slopes of {degrees(sqrt(WAVES)):.1f}° (rms), no air", size=13)
     figure.write("glint.svg")
 
