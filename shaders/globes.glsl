@@ -1,5 +1,5 @@
 // Globes: the Sun, planets and moons, spheroids whose light each output pixel finds by itself along its own ray. They lie before
-// the cube map's sky. Needs received_light.glsl's constants; docs/physics.md has the formulas and their sources.
+// the cube map's sky. Needs received_light.glsl's constants; docs/physics/solar-system.md has the formulas and their sources.
 #include "panorama.glsl"
 
 layout(constant_id = 26) const int GLOBES = 0; // of the world

@@ -100,7 +100,7 @@ def limb():
 
 # ---------------------------------------------------------------- the sea's glint
 
-WAVES = 0.003 + 0.00512 * 7  # (S10): variance of the slopes at 7 m/s
+WAVES = 0.003 + 0.00512 * 7  # (S11): variance of the slopes at 7 m/s
 
 
 def glint_light(way, sun):
@@ -221,7 +221,7 @@ RANGE_TOP, RANGE_BOTTOM, BEYOND = -0.3959, -8.0, 0.125  # runtime/light/range_cu
 
 
 def range_slopes(weights, whole):
-    """(L12): slopes of at most 1, in the weights' proportion below, with that sum."""
+    """(L13): slopes of at most 1, in the weights' proportion below, with that sum."""
     least, most = 0.0, 1e9
     for _ in range(100):
         factor = (least + most) / 2
@@ -231,7 +231,7 @@ def range_slopes(weights, whole):
 
 
 def range_curve():
-    # A sky of 5772 K all around, a sunlit grey at rest, seen at gamma 4: (R8), (L3) and (L8) as radiances.
+    # A sky of 5772 K all around, a sunlit grey at rest, seen at gamma 4: (R7), (L3) and (L6).
     g = 4.0
     beta = sqrt(15) / 4
     assert abs(gamma(beta) - g) < 1e-12

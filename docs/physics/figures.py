@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Draws the figures of docs/physics.md beside this file: python3 docs/physics/figures.py
+"""Draws aberration.svg, doppler.svg, spectrum.svg, retarded.svg and tiles.svg beside this file:
+python3 docs/physics/figures.py
 
-Every curve is computed here from the formulas of that page, with Python's own library. c = 1.
+Every curve is computed here from the formulas of the pages in this folder, with Python's own library. c = 1.
 """
 from math import acos, asin, atan, atan2, cos, degrees, exp, expm1, hypot, log, radians, sin, sqrt, tan
 from pathlib import Path
@@ -229,7 +230,7 @@ def retarded():
         left = 440 * panel
         ox = left + (300, 180)[panel]
         now = ahead * L  # along its way, from abeam
-        # Section "Retarded position", the earlier root.
+        # (R15), the earlier root.
         root = sqrt((now * u) ** 2 + now ** 2 + L ** 2)
         tau = now * u - root
         then, delay = now + u * tau, -g * tau
@@ -350,7 +351,7 @@ def tiles():
 
 
 def check():
-    """The half-angle form against the cosine form, and the numbers that the page quotes."""
+    """The half-angle form against the cosine form, and the numbers that the pages quote."""
     for beta in (0.1, 0.5, 0.9):
         for theta in range(5, 180, 5):
             t = radians(theta)

@@ -5,7 +5,7 @@
 
 namespace starbow {
 
-/// The spectra of globes as an observer sees them, with light that air dims by wavelength (docs/physics.md, "Globes").
+/// The spectra of globes as an observer sees them, with light that air dims by wavelength (docs/physics/numerics.md).
 class GlobeColours {
 public:
     /// Both must outlive the object.

@@ -75,7 +75,7 @@ TEST(Relative, OfTheSameVelocityIsRest)
 
 TEST(Relative, RotatesByTheWignerAngle)
 {
-    // Angles of perpendicular boosts from physics.md.
+    // Angles of perpendicular boosts from docs/physics/relativity.md.
     for (auto [a, b, angle] : {std::tuple(0.5, 0.5, 8.21321), {0.8, 0.6, 18.92464}, {0.9, 0.9, 42.89620}}) {
         const auto relative = physics::relative(dvec3(u_of_beta(a), 0, 0), dvec3(0, u_of_beta(b), 0));
         EXPECT_NEAR(2 * std::asin(glm::length(dvec3(relative.turn))) / degree, angle, 1e-5);
