@@ -88,7 +88,7 @@ private:
     Observer observer_;
     glm::dvec3 place_;
     const GlobeColours* globe_colours_;
-    double farthest_among_globes_ = 0; ///< an eye's distance from the ship's place, scene units: docs/physics/solar-system.md
+    double farthest_among_globes_ = 0; ///< an eye's distance from the ship, scene units: docs/physics/solar-system.md
     std::unique_ptr<const GlobeSight> globes_;
     std::vector<EyeInRestFrame> views_;
 };

@@ -96,8 +96,8 @@ constexpr const char* measured_size = R"({ "quantity": "size", "at": [0, 0, -46]
 
 } // namespace
 
-/// docs/physics/relativity.md, (R28): from rest at the distance L with proper acceleration a, the size is smallest at e^eta =
-/// 1 + aL, where it is 2 / (2 + aL). It has its first value again at e^eta = 1 + 2aL. Here L = 12 and a = 0.25.
+/// docs/physics/relativity.md, (R28): from rest at the distance L with proper acceleration a, the size is smallest at e^eta
+/// = 1 + aL, where it is 2 / (2 + aL). It has its first value again at e^eta = 1 + 2aL. Here L = 12 and a = 0.25.
 TEST(Tours, TheFirstMinutesColumnFirstShrinks)
 {
     const Tour tour = shipped_tour("first-minute");
@@ -138,7 +138,8 @@ TEST(Tours, TheFirstMinutesColumnFirstShrinks)
     EXPECT_NEAR(double(seen_angle(again, column, 1e-6L) / at_first), 1, 1e-9);
 }
 
-/// The clocks of docs/physics/relativity.md: -5.90909, -2.74403, 0, 2.21961, 3.80547 s relative to the middle one, in flight and stopped.
+/// The clocks of docs/physics/relativity.md: -5.90909, -2.74403, 0, 2.21961, 3.80547 s relative to the middle one, in flight
+/// and stopped.
 TEST(Tours, SimultaneityShowsThePapersReadings)
 {
     const Tour tour = shipped_tour("simultaneity");

@@ -328,7 +328,8 @@ void expect_read(const MeasuringObserver& ship, const Riding& riding, const Show
 } // namespace
 
 // Pictures that are wrong on purpose: a reading is that of the same thing, clock, place and shift that the pixel shows. Of
-// each picture, the event that it shows is found here by the law in docs/physics/relativity.md, for a thing at rest and a moving one.
+// each picture, the event that it shows is found here by the law in docs/physics/relativity.md, for a thing at rest and a
+// moving one.
 TEST(Instruments, AComparisonIsReadAsItIsShown)
 {
     const Riding riding;
