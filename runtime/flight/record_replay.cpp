@@ -1,6 +1,5 @@
 #include "record_replay.h"
 #include <algorithm>
-#include <thread>
 
 namespace starbow {
 
@@ -15,8 +14,8 @@ bool RecordReplay::play(RecordEntry& entry)
     entry = *recorded;
     entry.controls.save = false; // a replay writes no layout
     const auto length = std::chrono::nanoseconds(entry.dt_ns);
-    std::this_thread::sleep_until(due_ += length);
-    due_ = std::max(due_, Clock::now() - length); // a late replay does not hurry, because each frame must be seen
+    time_.sleep_until(due_ += length);
+    due_ = std::max(due_, time_.now() - length); // a late replay does not hurry, because each frame must be seen
     return true;
 }
 

@@ -4,16 +4,25 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <thread>
 
 namespace starbow {
+
+/// The clock by which a replay's frames are due. A test turns one of its own.
+struct ReplayTime {
+    using Clock = std::chrono::steady_clock;
+    std::function<Clock::time_point()> now = Clock::now;
+    std::function<void(Clock::time_point)> sleep_until = [](Clock::time_point due) { std::this_thread::sleep_until(due); };
+};
 
 /// The exhibit's record of its flight, or the replay that takes the place of the visitor's controls, or neither.
 class RecordReplay {
 public:
-    using Clock = std::chrono::steady_clock;
-    RecordReplay(std::unique_ptr<Recorder> recorder, std::unique_ptr<Replay> replay)
+    using Clock = ReplayTime::Clock;
+    RecordReplay(std::unique_ptr<Recorder> recorder, std::unique_ptr<Replay> replay, ReplayTime time = {})
         : recorder_(std::move(recorder))
         , replay_(std::move(replay))
+        , time_(std::move(time))
     {
     }
 
@@ -35,6 +44,7 @@ public:
 private:
     std::unique_ptr<Recorder> recorder_;
     std::unique_ptr<Replay> replay_;
+    ReplayTime time_;
     bool played_ = false; ///< the replay has reached its end
     Clock::time_point due_{}; ///< due time of the last frame
 };

@@ -31,8 +31,15 @@ fs::path named_by_time(const fs::path& folder)
 
 } // namespace
 
-Recorder::Recorder(const fs::path& file, const RecordHeader& header, LogTo log)
+void wait_in_real_time(std::condition_variable& changed, std::unique_lock<std::mutex>& lock, std::chrono::nanoseconds longest,
+    const std::function<bool()>& over)
+{
+    changed.wait_for(lock, longest, over);
+}
+
+Recorder::Recorder(const fs::path& file, const RecordHeader& header, LogTo log, TimedWait wait)
     : log_(std::move(log))
+    , wait_(std::move(wait))
 {
     std::error_code ignored;
     file_ = fs::is_directory(file, ignored) ? named_by_time(file) : file;
@@ -94,7 +101,7 @@ void Recorder::end(const Flight& flight) { add(text_of(RecordCheck{flight.ticks,
 void Recorder::write() noexcept
 try {
     for (std::unique_lock lock(mutex_);;) {
-        changed_.wait_for(lock, std::chrono::seconds(1), [this] { return ended_; });
+        wait_(changed_, lock, std::chrono::seconds(1), [this] { return ended_; });
         const bool last = ended_;
         const std::string text = std::exchange(waiting_, {});
         if (!text.empty()) {

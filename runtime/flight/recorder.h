@@ -1,21 +1,29 @@
 #pragma once
 #include "config/model/log_kinds.h"
 #include "record.h"
+#include <chrono>
 #include <condition_variable>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
 
 namespace starbow {
 
+/// Waits until `over` holds, at most so long, as std::condition_variable::wait_for does. A test brings a clock of its own.
+using TimedWait = std::function<void(std::condition_variable& changed, std::unique_lock<std::mutex>& lock,
+    std::chrono::nanoseconds longest, const std::function<bool()>& over)>;
+void wait_in_real_time(std::condition_variable& changed, std::unique_lock<std::mutex>& lock, std::chrono::nanoseconds longest,
+    const std::function<bool()>& over);
+
 /// Writes a record on a thread of its own, so that no frame waits for a disk. Entries reach the disk within a second. On
 /// a full or missing disk the record ends with a message, and the flight goes on.
 class Recorder {
 public:
     /// file: a new one; or a folder, where the file is named by date and time. log: is called with a line for the log, from
-    /// any thread. Throws InputError where the file can't be made, or exists already.
-    Recorder(const std::filesystem::path& file, const RecordHeader& header, LogTo log);
+    /// any thread. wait: of the writing thread. Throws InputError where the file can't be made, or exists already.
+    Recorder(const std::filesystem::path& file, const RecordHeader& header, LogTo log, TimedWait wait = wait_in_real_time);
     ~Recorder(); ///< waits until everything is on the disk
     Recorder(const Recorder&) = delete;
 
@@ -34,6 +42,7 @@ private:
 
     std::filesystem::path file_;
     LogTo log_;
+    TimedWait wait_;
     int stream_ = -1;
     bool ordinary_ = false; ///< the file is on a disk, not a pipe
     std::int64_t checked_ticks_ = 0;

@@ -40,23 +40,22 @@ void Service::loads(const std::string& status, double limit_s)
         status_ = status;
 }
 
-void Service::shows(const std::string& status)
+void Service::shows(const std::string& status, Clock::time_point now)
 {
     if (!ready_)
         ready_ = manager_.send("READY=1\n");
-    lives(status);
+    lives(status, now);
 }
 
-void Service::waits(const std::string& status)
+void Service::waits(const std::string& status, Clock::time_point now)
 {
-    if (!ready_ && Clock::now() - sent_ > std::chrono::seconds(1))
+    if (!ready_ && now - sent_ > std::chrono::seconds(1))
         manager_.send("EXTEND_TIMEOUT_USEC=10000000\n"); // projectors may take longer to start than their computer
-    lives(status);
+    lives(status, now);
 }
 
-void Service::lives(const std::string& status)
+void Service::lives(const std::string& status, Clock::time_point now)
 {
-    const Clock::time_point now = Clock::now();
     const double interval_s = std::min(0.1 * watchdog_s_.value_or(10), 1.0);
     if (status == status_ && !extended_ && now - sent_ < std::chrono::duration<double>(interval_s))
         return;

@@ -21,13 +21,13 @@ public:
     /// Work of up to limit_s begins or goes on, during which no frame is shown.
     void loads(const std::string& status, double limit_s);
     /// A frame was presented: READY=1 after the first one.
-    void shows(const std::string& status);
+    void shows(const std::string& status, Clock::time_point now = Clock::now());
     /// No screen is there to show a frame on.
-    void waits(const std::string& status);
+    void waits(const std::string& status, Clock::time_point now = Clock::now());
     void stops();
 
 private:
-    void lives(const std::string& status);
+    void lives(const std::string& status, Clock::time_point now);
 
     LocalDatagrams manager_;
     std::optional<double> watchdog_s_;

@@ -41,9 +41,10 @@ std::int64_t Trace::now_ns()
     return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Trace::Trace(const std::filesystem::path& file, std::int64_t largest_bytes)
+Trace::Trace(const std::filesystem::path& file, std::int64_t largest_bytes, std::int64_t (*now)())
     : file_(file.string())
-    , began_ns_(now_ns())
+    , now_(now)
+    , began_ns_(now())
     , written_ns_(began_ns_)
     , largest_bytes_(largest_bytes)
 {
@@ -91,7 +92,7 @@ void Trace::counter(std::string_view name, double value)
         return;
     const std::lock_guard lock(mutex_);
     add("{\"ph\":\"C\",\"name\":" + quoted(name) + ",\"pid\":" + std::to_string(processor)
-        + ",\"ts\":" + us(now_ns() - began_ns_) + ",\"args\":{\"value\":" + nlohmann::json(value).dump() + "}}");
+        + ",\"ts\":" + us(now_() - began_ns_) + ",\"args\":{\"value\":" + nlohmann::json(value).dump() + "}}");
 }
 
 void Trace::instant(std::string_view name)
@@ -99,7 +100,7 @@ void Trace::instant(std::string_view name)
     const std::lock_guard lock(mutex_);
     const int thread = thread_number();
     add("{\"ph\":\"i\",\"s\":\"t\",\"name\":" + quoted(name) + ",\"pid\":" + std::to_string(processor)
-        + ",\"tid\":" + std::to_string(thread) + ",\"ts\":" + us(now_ns() - began_ns_) + "}");
+        + ",\"tid\":" + std::to_string(thread) + ",\"ts\":" + us(now_() - began_ns_) + "}");
 }
 
 int Trace::thread_number(std::string_view name)
@@ -138,7 +139,7 @@ void Trace::add(const std::string& event)
     if (!waiting_.ends_with("[\n"))
         waiting_ += ",\n";
     waiting_ += event;
-    if (waiting_.size() >= most_waiting || now_ns() - written_ns_ >= longest_wait_ns)
+    if (waiting_.size() >= most_waiting || now_() - written_ns_ >= longest_wait_ns)
         if (const std::string why = write_out(); !why.empty())
             give_up(why);
 }
@@ -157,7 +158,7 @@ std::string Trace::write_out()
     }
     bytes_ += std::int64_t(waiting_.size());
     waiting_.clear();
-    written_ns_ = now_ns();
+    written_ns_ = now_();
     return {};
 }
 

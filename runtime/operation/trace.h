@@ -17,8 +17,10 @@ namespace starbow {
 class Trace {
 public:
     /// Replaces the file; makes its folder. Throws InputError where it can't be written. largest_bytes: the trace ends
-    /// before the file grows beyond this, and the log reports it.
-    explicit Trace(const std::filesystem::path& file, std::int64_t largest_bytes = std::int64_t(1) << 30);
+    /// before the file grows beyond this, and the log reports it. now: the clock that says when events are written out, and
+    /// when counters and instants are; a test turns one of its own.
+    explicit Trace(const std::filesystem::path& file, std::int64_t largest_bytes = std::int64_t(1) << 30,
+        std::int64_t (*now)() = now_ns);
     /// Closes the array.
     ~Trace();
     Trace(const Trace&) = delete;
@@ -75,6 +77,7 @@ private:
 
     std::mutex mutex_;
     std::string file_;
+    std::int64_t (*const now_)();
     int stream_ = -1; ///< below 0: the trace has ended
     std::int64_t began_ns_, written_ns_, largest_bytes_, bytes_ = 0;
     std::string waiting_; ///< whole events that are not in the file yet

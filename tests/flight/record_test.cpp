@@ -8,6 +8,8 @@
 #include "runtime/operation/record_files.h"
 #include "tests/support/controls.h"
 #include "tests/support/files.h"
+#include "tests/support/waiting.h"
+#include <atomic>
 #include <bit>
 #include <gtest/gtest.h>
 #include <random>
@@ -18,6 +20,28 @@ using namespace starbow;
 using namespace starbow::testing;
 
 namespace {
+
+/// The clock of a record's writing thread: it stands until the test turns it.
+class TurnedClock {
+public:
+    TimedWait wait()
+    {
+        return [this](std::condition_variable& changed, std::unique_lock<std::mutex>& lock, std::chrono::nanoseconds longest,
+                   const std::function<bool()>& over) {
+            const std::int64_t due_ns = now_ns_ + longest.count();
+            waits_ = true;
+            while (!over() && now_ns_ < due_ns)
+                changed.wait_for(lock, std::chrono::milliseconds(1)); // a turn does not notify
+            waits_ = false;
+        };
+    }
+    bool waits() const { return waits_; } ///< the thread waits for a time to come
+    void turn(std::chrono::nanoseconds by) { now_ns_ += by.count(); }
+
+private:
+    std::atomic<std::int64_t> now_ns_{0};
+    std::atomic<bool> waits_{false};
+};
 
 /// A random double of a range, often -0 or a denormal.
 double some_double(std::mt19937_64& random, double low, double high)
@@ -471,17 +495,20 @@ TEST(Record, NeverReplacesAnotherFile)
     EXPECT_EQ(files, 3);
 }
 
-// A frame is on the disk about a second later, even if the program crashes.
+// A frame is on the disk a second later, even if the program crashes. The test turns the second; the disk may take its time.
 TEST(Record, IsOnTheDiskWithinASecond)
 {
     const std::filesystem::path file = fresh("soon.jsonl");
-    Recorder recorder(file, some_header(), ignore_message);
+    TurnedClock clock;
+    Recorder recorder(file, some_header(), ignore_message, clock.wait());
+    ASSERT_TRUE(until([&] { return clock.waits(); }));
     recorder.keep({.dt_ns = 10}, flight_at(some_header().start));
-    const auto began = std::chrono::steady_clock::now();
-    while (read_text(file).find("\"dt_ns\":10") == std::string::npos) {
-        ASSERT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(5)); // one second on a busy machine
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
+    clock.turn(std::chrono::seconds(1));
+    EXPECT_TRUE(until([&] { return read_text(file).find("\"dt_ns\":10") != std::string::npos; }));
+    ASSERT_TRUE(until([&] { return clock.waits(); }));
+    recorder.keep({.dt_ns = 11}, flight_at(some_header().start));
+    clock.turn(std::chrono::seconds(1));
+    EXPECT_TRUE(until([&] { return read_text(file).find("\"dt_ns\":11") != std::string::npos; }));
 }
 
 TEST(Record, AFullDiskEndsTheRecordWithOneMessage)
@@ -494,11 +521,10 @@ TEST(Record, AFullDiskEndsTheRecordWithOneMessage)
             lines.push_back(line);
         });
         const Flight flight = flight_at(some_header().start);
-        for (int i = 0; i < 1000 && !recorder.failed(); ++i) {
+        EXPECT_TRUE(until([&] {
             recorder.keep({.dt_ns = 10}, flight);
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-        EXPECT_TRUE(recorder.failed());
+            return recorder.failed();
+        }));
         recorder.keep({.dt_ns = 10}, flight);
         recorder.end(flight);
     }
@@ -539,7 +565,7 @@ TEST(Record, FindsItsSceneAndLayoutAgain)
     EXPECT_NE(complaint([&] { reopen(header); }).find("a.jsonl:1: /seconds_per_time_unit: 2 is not"), std::string::npos);
 }
 
-// A replay shows each frame at its own time: three of 30 ms take at least 90 ms. It does not wait for time that a stall
+// A replay shows each frame at its own time, by a clock that the test turns. It does not wait for time that a stall
 // skipped.
 TEST(Record, IsReplayedAtItsOwnPace)
 {
@@ -547,21 +573,23 @@ TEST(Record, IsReplayedAtItsOwnPace)
     for (int i = 0; i < 3; ++i)
         text += text_of(RecordEntry{
             .dt_ns = 30'000'000, .skipped_ns = 3'600'000'000'000, .controls = controls_with(AlignmentKeys{.save = true})});
-    RecordReplay record_replay(nullptr, std::make_unique<Replay>(write_text("pace.jsonl", text)));
+    using namespace std::chrono_literals;
+    ReplayTime::Clock::time_point now(1h);
+    const ReplayTime time{
+        .now = [&] { return now; }, .sleep_until = [&](ReplayTime::Clock::time_point due) { now = std::max(now, due); }};
+    RecordReplay record_replay(nullptr, std::make_unique<Replay>(write_text("pace.jsonl", text)), time);
     EXPECT_TRUE(record_replay.replays());
     RecordEntry entry;
     ASSERT_TRUE(record_replay.play(entry)); // the first comes at once
-    const auto began = std::chrono::steady_clock::now();
+    EXPECT_EQ(now, ReplayTime::Clock::time_point(1h));
     Flight flight = flight_at(some_header().start);
     int frames = 1;
     for (record_replay.keep(entry, flight); record_replay.play(entry); ++frames) {
         EXPECT_FALSE(entry.controls.save); // a replay never saves a layout
         record_replay.keep(entry, flight);
     }
-    const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     EXPECT_EQ(frames, 3);
-    EXPECT_GE(took, 0.029); // two frames, of which the first may follow a frame that is late
-    EXPECT_LT(took, 5);
+    EXPECT_EQ(now - ReplayTime::Clock::time_point(1h), 30ms) << "two frames, of which the first follows a frame that is late";
     EXPECT_EQ(entry.controls.time_ns, 3 * 3'600'030'000'000);
 }
 

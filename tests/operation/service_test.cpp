@@ -5,6 +5,7 @@
 #include "runtime/operation/state_folder.h"
 #include "runtime/operation/waits.h"
 #include "tests/support/files.h"
+#include "tests/support/waiting.h"
 #include <cstddef>
 #include <cstring>
 #include <sys/socket.h>
@@ -72,17 +73,17 @@ TEST(Service, SpeaksFromLoadingToItsEnd)
         EXPECT_EQ(manager.received(), "EXTEND_TIMEOUT_USEC=60000000\nSTATUS=Loads the world.\n");
         service.loads("Loads\nthe world.", 60);
         EXPECT_EQ(manager.received(), "EXTEND_TIMEOUT_USEC=60000000\n");
-        service.shows("Shows.");
+        Service::Clock::time_point now{std::chrono::hours(1)};
+        service.shows("Shows.", now);
         EXPECT_EQ(manager.received(), "READY=1\nWATCHDOG=1\nSTATUS=Shows.\n");
-        service.shows("Shows."); // within a tenth of the watchdog's time
+        service.shows("Shows.", now += std::chrono::milliseconds(39)); // within a tenth of the watchdog's time
         EXPECT_EQ(manager.received(), "");
-        sleep_ms(50);
-        service.shows("Shows.");
+        service.shows("Shows.", now += std::chrono::milliseconds(1));
         EXPECT_EQ(manager.received(), "WATCHDOG=1\n");
         // After READY=1 another clock of the manager's runs: it is widened for loading, and put back.
         service.loads("Opens the GPU anew.", 60);
         EXPECT_EQ(manager.received(), "EXTEND_TIMEOUT_USEC=60000000\nWATCHDOG_USEC=60000000\nSTATUS=Opens the GPU anew.\n");
-        service.shows("Shows.");
+        service.shows("Shows.", now);
         EXPECT_EQ(manager.received(), "WATCHDOG=1\nWATCHDOG_USEC=400000\nSTATUS=Shows.\n");
         service.stops();
         EXPECT_EQ(manager.received(), "STOPPING=1\nSTATUS=The exhibit closes.\n");
@@ -94,11 +95,14 @@ TEST(Service, IsNotReadyWithoutAMonitorAndLives)
     const Manager manager(scratch("waiting").string());
     setenv("WATCHDOG_USEC", "400000", 1);
     Service service;
-    service.waits("Waits for a monitor.");
+    Service::Clock::time_point now{std::chrono::hours(1)};
+    service.waits("Waits for a monitor.", now);
     EXPECT_EQ(manager.received(), "EXTEND_TIMEOUT_USEC=10000000\nWATCHDOG=1\nSTATUS=Waits for a monitor.\n");
-    sleep_ms(50);
-    service.waits("Waits for a monitor.");
-    EXPECT_EQ(manager.received().find("READY"), std::string::npos);
+    service.waits("Waits for a monitor.", now += std::chrono::milliseconds(50));
+    EXPECT_EQ(manager.received(), "WATCHDOG=1\n");
+    // The manager's time for the start is widened again, a while before it is over.
+    service.waits("Waits for a monitor.", now += std::chrono::milliseconds(1001));
+    EXPECT_EQ(manager.received(), "EXTEND_TIMEOUT_USEC=10000000\nWATCHDOG=1\n");
 }
 
 TEST(Service, SaysNothingWithoutAManagerOrWatchdog)
@@ -196,8 +200,7 @@ TEST(LastLanguage, IsKeptForAStartAfterACrashAndIsANameAlone)
     const std::filesystem::path state = scratch("language-state");
     EXPECT_EQ(kept_language(state), "");
     keep_language(state, "de");
-    for (int i = 0; i < 500 && kept_language(state).empty(); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    until([&] { return !kept_language(state).empty(); });
     EXPECT_EQ(kept_language(state), "de");
     keep_language(state, "../../etc/passwd"); // no name: nothing is written
     for (const char* wrong : {"", "de\n", "a/b", "abcdefghijklmnopqrstuvwxyzabcdefghijk"}) {

@@ -1,10 +1,9 @@
 // The text and the language reach the program that speaks, a new text ends the one before, and nothing is left running.
 #include "runtime/operation/speaker.h"
 #include "tests/support/files.h"
-#include <chrono>
+#include "tests/support/waiting.h"
 #include <csignal>
 #include <gtest/gtest.h>
-#include <thread>
 
 namespace speaker_test {
 
@@ -14,12 +13,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A program that writes its arguments and its process number, then "speaks" for ten seconds.
+/// A program that writes its arguments and its process number, then "speaks" for longer than a test lasts.
 fs::path program(const std::string& name)
 {
     const fs::path out = scratch(name + ".out");
     const fs::path file = write_text(name,
-        "#!/bin/sh\nprintf '%s|' \"$@\" >> '" + out.string() + "'\necho $$ >> '" + out.string() + "'\nexec sleep 10\n");
+        "#!/bin/sh\nprintf '%s|' \"$@\" >> '" + out.string() + "'\necho $$ >> '" + out.string() + "'\nexec sleep 100\n");
     fs::permissions(file, fs::perms::owner_all);
     return file;
 }
@@ -27,13 +26,13 @@ fs::path program(const std::string& name)
 std::vector<std::string> lines_after(const fs::path& file, std::size_t count)
 {
     std::vector<std::string> lines;
-    for (int i = 0; i < 500 && lines.size() < count; ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    until([&] {
         lines.clear();
         std::ifstream in(file);
         for (std::string line; std::getline(in, line);)
             lines.push_back(line);
-    }
+        return lines.size() >= count;
+    });
     return lines;
 }
 
