@@ -64,8 +64,9 @@ class WarpRaster {
 public:
     WarpRaster(const WarpMesh& mesh, glm::ivec2 size); ///< the mesh must outlive it
     /// Fills row y (from the top): samples.size() == size.x. Several threads may call it. Where triangles overlap, the
-    /// first in the file counts; a centre on a shared edge belongs to exactly one of its triangles.
-    void row(int y, std::span<WarpSample> samples) const;
+    /// first in the file counts; a centre on a shared edge belongs to exactly one of its triangles. Returns its steps, the
+    /// measure of its time: the triangles that it looked at, and for each of them the centres that it compared.
+    std::size_t row(int y, std::span<WarpSample> samples) const;
 
 private:
     const WarpMesh& mesh_;

@@ -64,7 +64,7 @@ WarpRaster::WarpRaster(const WarpMesh& mesh, glm::ivec2 size)
     first_.pop_back();
 }
 
-void WarpRaster::row(int y, std::span<WarpSample> samples) const
+std::size_t WarpRaster::row(int y, std::span<WarpSample> samples) const
 {
     if (y < 0 || y >= size_.y || samples.size() != std::size_t(size_.x))
         throw std::logic_error("WarpRaster: row " + std::to_string(y) + " of " + std::to_string(size_.y) + ", "
@@ -73,7 +73,9 @@ void WarpRaster::row(int y, std::span<WarpSample> samples) const
     const glm::dvec2 scale(size_);
     const double centre = y + 0.5;
     const std::size_t colours = mesh_.kind == WarpMesh::Kind::colours ? 3 : 1;
+    std::size_t steps = 0;
     for (std::uint32_t k = first_[std::size_t(y / band)]; k < first_[std::size_t(y / band) + 1]; ++k) {
+        ++steps;
         const auto& t = mesh_.triangles[triangles_[k]];
         const WarpVertex* v[3] = {&mesh_.vertices[t[0]], &mesh_.vertices[t[1]], &mesh_.vertices[t[2]]};
         const glm::dvec2 p[3] = {v[0]->at * scale, v[1]->at * scale, v[2]->at * scale};
@@ -93,6 +95,7 @@ void WarpRaster::row(int y, std::span<WarpSample> samples) const
             continue;
         const int from = int(std::max(left - 1.5, 0.0)), to = int(std::min(right + 0.5, size_.x - 1.0));
         const Edge e0(p[1], p[2], centre), e1(p[2], p[0], centre), e2(p[0], p[1], centre);
+        steps += std::size_t(std::max(to - from + 1, 0));
         for (int x = from; x <= to; ++x) {
             WarpSample& sample = samples[std::size_t(x)];
             if (sample.shown)
@@ -110,6 +113,7 @@ void WarpRaster::row(int y, std::span<WarpSample> samples) const
                 sample.sees[i] = a * v[0]->sees[i] + b * v[1]->sees[i] + c * v[2]->sees[i];
         }
     }
+    return steps;
 }
 
 } // namespace starbow
