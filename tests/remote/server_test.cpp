@@ -5,6 +5,7 @@
 #include "runtime/remote/remote.h"
 #include "runtime/remote/tell.h"
 #include "tests/support/files.h"
+#include "tests/support/waiting.h"
 #include <arpa/inet.h>
 #include <atomic>
 #include <gtest/gtest.h>
@@ -166,6 +167,7 @@ public:
                 remote->publish_snapshot();
                 remote->next_condition().metrics = "frames_total " + std::to_string(frame) + "\n";
                 remote->publish_condition();
+                ++shown_;
                 std::this_thread::sleep_for(std::chrono::milliseconds(10));
             }
         });
@@ -174,7 +176,7 @@ public:
     /// Afterwards `taken` may be read.
     void end()
     {
-        std::this_thread::sleep_for(std::chrono::milliseconds(30)); // three frames more
+        frames_more(3);
         ends_ = true;
         if (frames_.joinable())
             frames_.join();
@@ -224,9 +226,14 @@ public:
     }
     void wait_for(int commands) const
     {
-        for (int i = 0; i < 500 && count < commands; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        until([&] { return count >= commands; });
         EXPECT_EQ(count, commands);
+    }
+    /// Waits until the frame thread has begun and ended so many frames from here on.
+    void frames_more(int frames) const
+    {
+        const int last = shown_ + frames + 1; // the frame that runs has begun before
+        EXPECT_TRUE(until([&] { return ends_ || shown_ >= last; }));
     }
     TellOptions tell_options(const std::string& pin = "333333") const
     {
@@ -244,6 +251,7 @@ public:
 
 private:
     std::atomic<bool> ends_{false};
+    std::atomic<int> shown_{0}; ///< frames
     std::thread frames_;
 };
 
@@ -273,12 +281,12 @@ TEST(Server, ACommandIsAppliedAndTheStateIsShown)
 TEST(Server, StatusesComeAtMostTenTimesASecond)
 {
     Running running;
-    const auto page = running.page("111111");
-    page->read_message("status");
+    // The first one is sent after `start`, so that a busy machine only lengthens the time.
     const auto start = std::chrono::steady_clock::now();
-    for (int i = 0; i < 10; ++i)
+    const auto page = running.page("111111");
+    for (int i = 0; i < 11; ++i)
         EXPECT_FALSE(page->read_message("status").is_null());
-    EXPECT_GT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(850));
+    EXPECT_GT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(950));
 }
 
 TEST(Server, StrangersGetNothing)
@@ -376,8 +384,7 @@ TEST(Server, ConnectionsAreBounded)
     page->send_frame(R"({"id":7,"command":["stop"]})"); // who is in is served on
     EXPECT_EQ(page->read_message("answer")["applied"], true);
     wires.clear();
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    EXPECT_EQ(running.status("GET /"), 200);
+    EXPECT_TRUE(until([&] { return running.status("GET /") == 200; })) << "none is let in after they have gone";
 }
 
 TEST(Server, MetricsAreForThisMachineAndEngineers)
@@ -426,10 +433,11 @@ TEST(Server, WhoComesSeesWhatHappenedWhileNobodyWasThere)
 {
     Running running;
     EXPECT_NE(state_of_exhibit(running.tell_options()).find("scene: avenue\n"), std::string::npos);
-    std::this_thread::sleep_for(std::chrono::milliseconds(300)); // until that connection has ended
+    const auto nobody = [&] { return running.http("GET /metrics").find("starbow_remote_pages 0\n") != std::string::npos; };
+    EXPECT_TRUE(until(nobody)) << "that connection does not end";
     running.osc("127.0.0.1", std::string("/starbow/scene\0\0,s\0\0twins\0\0\0", 28));
     running.wait_for(1);
-    std::this_thread::sleep_for(std::chrono::milliseconds(50)); // the frame that shows it
+    running.frames_more(1); // the frame that shows it
     EXPECT_NE(state_of_exhibit(running.tell_options()).find("scene: twins\n"), std::string::npos);
 }
 
