@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Vulkan calls fail on purpose (rig/faults.cpp), and the exhibit must fly on. It bears any load under which a run of 130 frames
-# takes less than a minute: it counts frames and bounds times from below only, but for a median of 60 waits of 7 ms.
+# takes less than a minute: it counts frames and bounds times from below only.
 # Usage: fault_test.sh PROGRAM FOLDER-OF-THE-RIG
 set -u
 program=$1 tools=$2 rig=$(dirname "$0")/../rig
@@ -141,8 +141,10 @@ export STARBOW_SHOWN_LATE_MS=7
 fly '' 60
 [ $status = 0 ] || fail "present wait: exit $status"
 skew=$(sed -n 's/^outputs shown together within \([0-9.]*\) ms.*/\1/p' "$folder/log")
-# A sleep takes at least its time. The bound covers the median of 60 on a busy machine.
-awk "BEGIN { exit !($skew >= 6.5 && $skew < 12) }" || fail "present wait: a skew of $skew ms, not 7"
+# A sleep takes at least its time; the driver's own clock tells how much more it took on this machine.
+apart=$(sed -n 's/^fault: reported \([0-9.]*\) ms apart$/\1/p' "$folder/log")
+awk "BEGIN { exit !($apart >= 6.5 && $skew > $apart - 0.5 && $skew < $apart + 0.5) }" \
+    || fail "present wait: a skew of $skew ms, and the pictures were shown $apart ms apart, at least 7"
 ok
 # Nothing frees a fence of lavapipe while its rasterizer still unlocks it (runtime/render/scene_keeper.h): the cube map in one
 # image and in many with coarser levels, textures, stars, bodies, glow, head-up display, and viewports over each other.

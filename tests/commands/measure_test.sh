@@ -4,6 +4,7 @@
 # measure_test.sh STARBOW
 set -u
 starbow=$1
+. "$(dirname "$0")/../rig/waiting.sh"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 failed=0
@@ -33,7 +34,8 @@ measure() { timeout 300 "$starbow" measure "$@"; }
 small=(--shot starbow --size 240x180 --samples 9 --rounds 5 --out "$work/a")
 rows=$work/a/reference-starbow-desk.rows
 "$starbow" measure "${small[@]}" >/dev/null 2>&1 &
-until [ -s "$rows" ] || ! kill -0 $! 2>/dev/null; do sleep 0.02; done
+made() { [ -s "$rows" ] || ! kill -0 $! 2>/dev/null; }
+until_true 300 made
 kill $! && wait $! 2>/dev/null
 check "finished rows of the reference are kept" test -s "$rows"
 check "a second run measures all settings" measure "${small[@]}" --budget-ms 1000

@@ -2,6 +2,7 @@
 # A tour's movie is made, interrupted, continued, begun anew and refused. Usage: movie_test.sh PROGRAM
 set -u
 program=$1
+. "$(dirname "$0")/../rig/waiting.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 passed=0 failed=0
@@ -24,10 +25,8 @@ count() { ffprobe -v error -count_frames -select_streams v:0 -show_entries strea
 interrupt() {
     "$program" render --tour "$folder/tour.json" --movie "$movie" --fps 15 --size 64x48 --language de >"$folder/said" 2>"$folder/errors" &
     local child=$!
-    for _ in $(seq 400); do
-        if [ "$(ls "$frames" 2>/dev/null | grep -c png)" -ge 3 ]; then break; fi
-        sleep 0.02
-    done
+    begun() { [ "$(ls "$frames" | grep -c png)" -ge 3 ]; }
+    until_true 60 begun || fail "no frames of a movie"
     kill -INT $child
     wait $child
 }

@@ -29,8 +29,8 @@ guide=$(window_of guide) visitors=$(window_of a)
 drawn() { [ "$(import -window "$guide" -format '%[fx:maxima>0.8&&mean>0.03]' info:)" = 1 ]; }
 until_true 60 drawn || fail "the guide's window has no picture"
 ok
-at_guides() { xdotool windowfocus "$guide"; for key in "$@"; do xdotool key "$key"; sleep 0.1; done; }
-at_visitors() { xdotool windowfocus "$visitors"; for key in "$@"; do xdotool key "$key"; sleep 0.1; done; }
+at_guides() { xdotool windowfocus "$guide" key "$@"; }
+at_visitors() { xdotool windowfocus "$visitors" key "$@"; }
 
 # Keys in the guide's window are commands, and W does not steer there.
 at_guides h && is hold on
@@ -41,9 +41,10 @@ at_guides b && is fade off
 at_guides d && is doppler off
 at_guides Up Up && is exposure 1
 ok
-# In the visitors' window they are none.
-at_visitors h h b w
-sleep 1
+# In the visitors' window they are none. H, which hides and shows the display there, has come last.
+at_visitors b w h h
+hidden_and_shown() { [ "$(grep -o '"hud": *true' "$folder/guided.jsonl" | wc -l)" = 2 ]; }
+until_true 60 hidden_and_shown || fail "the visitors' window has no keys"
 is hold off && is fade off
 ok
 # Scenes, tours and their steps, a limit, a caption.
@@ -67,7 +68,7 @@ click() { # OF 1280 x 800 pixels
 }
 click 890 535 && is hold on
 xdotool windowsize "$guide" 900 620
-sleep 1
+"$rig/wait_flown.py" "$folder/guided.jsonl" 0.5 || fail "the flight stands still" # a picture is due every tenth of a second
 click 890 535 && is hold off
 until_true 20 drawn || fail "no picture after a change of the size"
 ok

@@ -2,7 +2,7 @@
 # The exhibit on four monitors without hardware. Each output shows its picture on the monitor that it names, even when monitors
 # are unplugged or moved, windows minimised, or the layout edited. Needs root, as Xorg does.
 # It bears any load under which a frame takes at most a second: it waits for
-# pictures and lines of the log. Only an edited layout must be applied within 3 s.
+# pictures and lines of the log.
 # Usage: screens_test.sh PROGRAM FOLDER-OF-THE-RIG
 set -u
 program=$1 tools=$2 rig=$(dirname "$0")/../rig
@@ -147,8 +147,13 @@ expect "a right edit" $b "$folder/changed/b.png"
 expect "a right edit" $a "$folder/a.png"
 expect "a right edit" 240x180+1040+60 "$folder/d.png"
 expect_dark "a right edit" 320x60+960+0
-echo "an edit was taken up after $took ms"
-[ $took -lt 3000 ] || fail "an edit was taken up after $took ms" # a second is promised; test machines are slow
+# A second is promised, and half of one more for a test's machine. A busy one shows by the time of another program, which reads
+# the same layout and draws it.
+began=${EPOCHREALTIME/./}
+"$program" check "$folder/wall.json" --svg "$folder/plan.svg" >"$folder/check-log" 2>&1 || fail "check: exit $?"
+read_alone=$(((${EPOCHREALTIME/./} - began) / 1000))
+echo "an edit was taken up after $took ms, and is read alone in $read_alone ms"
+[ $took -lt $((1500 + 3 * read_alone)) ] || fail "an edit was taken up after $took ms, and is read alone in $read_alone ms"
 ok
 leave
 grep -q 'outputs handed over together within' "$folder/log" || fail "the skew is not reported"
@@ -217,7 +222,10 @@ until_true 15 sh -c "xdotool getwindowgeometry $window | grep -q 300x200" || fai
 xdotool windowfocus "$window"
 f11 "with openbox"
 xdotool windowminimize "$window"
-sleep 2
+steps() { grep -o '"controls"' "$folder/trace.json" | wc -l; } # of the frame loop, with or without a picture
+least=$(($(steps) + 15))
+stepped() { [ "$(steps)" -ge $least ]; }
+until_true 60 stepped || fail "minimised: the frame loop stands still"
 xdotool windowmap "$window"
 until_true 15 pictured || fail "no picture after the window was minimised"
 xdotool windowfocus "$window"

@@ -8,7 +8,8 @@ program=$(realpath "$1") built=$(realpath "$2") visits=${3:-60} rig=$(dirname "$
 serve Xvfb -noreset -screen 0 640x480x24
 log=${4:-$folder/soak.csv}
 # The device is lost now and then; a stick and a throttle are plugged in, unplugged and plugged in at another port; the wall
-# clock is set back by a day every other second; the disk of the counts, of the layout and of the caches is full for a while.
+# clock is set back by a day every other second; the disk of the counts, of the layout and of the caches is full after each
+# second layout, while both sticks are unplugged once.
 export VK_LAYER_PATH=$built VK_INSTANCE_LAYERS=VK_LAYER_STARBOW_faults
 export STARBOW_FAULTS=submit:500:DEVICE_LOST,submit:2500:DEVICE_LOST
 export XDG_CONFIG_HOME=$folder/own STARBOW_CACHE=$folder/disk/cache folder
@@ -39,10 +40,14 @@ END
 # on_a_full_disk COMMAND...
 cat >"$folder/on_a_full_disk" <<'END'
 mount -t tmpfs -o size=16m none "$folder/disk" || exit 3
-while sleep 8; do
+more() { # COUNT TEXT: waits for so many more lines of the log
+    local least=$(($(grep -c "$2" "$folder/err-log") + $1))
+    while [ "$(grep -c "$2" "$folder/err-log")" -lt $least ]; do sleep 0.2; done
+}
+while more 2 ': applied'; do
     dd if=/dev/zero of="$folder/disk/rest" bs=4096 2>/dev/null
     echo full >>"$folder/filled"
-    sleep 3
+    more 2 'is unplugged'
     rm "$folder/disk/rest"
 done &
 "$@"

@@ -70,7 +70,7 @@ pin=314159
 ok
 until_true 20 grep -q '^starbow_commands_total [1-9]' "$folder/starbow.prom" || fail "the counts are not in the textfile"
 ok
-sleep 1.2 # the record reaches the disk
+until_true 60 grep -q '\["stop"\]' "$folder/visit.jsonl" || fail "the record does not reach the disk"
 applied restart
 wait $exhibit || fail "exit $? (an error of the validation layers, or a crash)"
 grep -q validation "$folder/log" && fail "the validation layers report an error"

@@ -22,7 +22,8 @@
 // STARBOW_COUNT_CALLS=1: at the end the layer prints on stderr how often each function of the lists was called before and
 // after the first presentation.
 // STARBOW_SHOWN_LATE_MS=MS: the layer provides VK_KHR_present_wait. Each swapchain shows its pictures MS later than the
-// swapchain made before it.
+// swapchain made before it. When the device is destroyed, the layer prints the median of the frames' times between the first
+// and the last report of a picture: `fault: reported MS ms apart`.
 // STARBOW_BARRIER=SURFACES: the layer provides VK_NV_present_barrier. SURFACES is `all`, or `none` where no surface can take
 // part. For each swapchain that takes part it prints `fault: in the barrier` on stderr.
 #include <algorithm>
@@ -62,6 +63,8 @@ int presented = 0, losses = 0; // pictures; devices
 std::map<std::string, std::pair<int, int>> calls; // before and after the first presentation
 std::map<VkSwapchainKHR, VkSurfaceKHR> surfaces;
 std::map<VkSwapchainKHR, int> order, frozen, shown;
+using Clock = std::chrono::steady_clock;
+std::map<uint64_t, std::pair<Clock::time_point, Clock::time_point>> reported; // by a frame's number: first and last report
 std::set<VkSwapchainKHR> out_of_date;
 std::set<VkSurfaceKHR> lost;
 std::set<void*> lost_devices;
@@ -363,12 +366,21 @@ VKAPI_ATTR void VKAPI_CALL destroy_device(VkDevice device, const VkAllocationCal
     void* k = key(device);
     next<PFN_vkDestroyDevice>(device, "vkDestroyDevice")(device, allocator);
     const std::lock_guard lock(mutex);
+    std::vector<double> apart_ms;
+    for (const auto& [frame, times] : reported)
+        if (times.second > times.first)
+            apart_ms.push_back(std::chrono::duration<double, std::milli>(times.second - times.first).count());
+    if (!apart_ms.empty()) {
+        std::nth_element(apart_ms.begin(), apart_ms.begin() + apart_ms.size() / 2, apart_ms.end());
+        std::fprintf(stderr, "fault: reported %.2f ms apart\n", apart_ms[apart_ms.size() / 2]);
+    }
+    reported.clear();
     lost_devices.erase(k);
     devices.erase(k);
     handles.erase(k);
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL wait_for_present(VkDevice, VkSwapchainKHR swapchain, uint64_t, uint64_t)
+VKAPI_ATTR VkResult VKAPI_CALL wait_for_present(VkDevice, VkSwapchainKHR swapchain, uint64_t frame, uint64_t)
 {
     int place;
     {
@@ -376,6 +388,9 @@ VKAPI_ATTR VkResult VKAPI_CALL wait_for_present(VkDevice, VkSwapchainKHR swapcha
         place = order[swapchain];
     }
     std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(late_ms() * place));
+    const std::lock_guard lock(mutex);
+    const Clock::time_point now = Clock::now();
+    reported.try_emplace(frame, now, now).first->second.second = now;
     return VK_SUCCESS;
 }
 

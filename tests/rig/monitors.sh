@@ -1,5 +1,6 @@
 # Shell tests source this file: it starts X servers without hardware, and ends every process it started with the test.
 
+. "$(dirname "${BASH_SOURCE[0]}")/waiting.sh"
 folder=$(mktemp -d)
 started=()
 finish() {
@@ -15,16 +16,6 @@ fail() {
     echo "FAILED: $*"
     for log in "$folder"/*log; do [ -s "$log" ] && echo "--- $(basename "$log")" && tail -n 30 "$log"; done
     exit 1
-}
-
-# until_true SECONDS COMMAND...: repeats the command until it succeeds or the time is over.
-until_true() {
-    local end=$((${EPOCHREALTIME/./} + $1 * 1000000))
-    shift
-    until "$@" >/dev/null 2>&1; do
-        [ "${EPOCHREALTIME/./}" -lt "$end" ] || return 1
-        sleep 0.05
-    done
 }
 
 serve() { # COMMAND...: starts an X server that chooses its own number, and sets DISPLAY.
