@@ -78,7 +78,7 @@ TEST(Service, SpeaksFromLoadingToItsEnd)
         EXPECT_EQ(manager.received(), "READY=1\nWATCHDOG=1\nSTATUS=Shows.\n");
         service.shows("Shows.", now += std::chrono::milliseconds(39)); // within a tenth of the watchdog's time
         EXPECT_EQ(manager.received(), "");
-        service.shows("Shows.", now += std::chrono::milliseconds(1));
+        service.shows("Shows.", now += std::chrono::milliseconds(2));
         EXPECT_EQ(manager.received(), "WATCHDOG=1\n");
         // After READY=1 another clock of the manager's runs: it is widened for loading, and put back.
         service.loads("Opens the GPU anew.", 60);

@@ -54,7 +54,7 @@ TEST(FrameTimer, TheWaitForTheScreensIsNoCostAndTheWorldDoesNotWait)
     Parts frame;
     const auto began = Clock::now();
     submit_frame(device(), *frame.commands[0], *frame.commands[1], {}, {}, *frame.done);
-    EXPECT_TRUE(until([&] { return frame.part(2) == 1; })) << "the world waits for the screens";
+    EXPECT_TRUE(testing::until([&] { return frame.part(2) == 1; })) << "the world waits for the screens";
     const auto waits = Clock::now();
     EXPECT_EQ(frame.part(0), 1u);
     EXPECT_EQ(frame.part(1), 0u) << "the picture does not wait for the screens";
