@@ -569,9 +569,9 @@ TEST(Tours, GuidesCanPauseSkipAndGoBack)
     EXPECT_TRUE(still.paused);
     EXPECT_TRUE(later(flying, show, 2, controls_with(Steering{.freeze = true})).paused);
     // The display says what the keys or the stick's buttons do; a movie has neither.
-    EXPECT_EQ(caption_of(flying, show, words(), {}).aside, "Space: stand still · R: on · Backspace: back");
+    EXPECT_EQ(caption_of(flying, show, words(), {}).aside, "Space: pause · R: next · Backspace: back");
     const InputCapabilities stick{.stick = true, .stop_button = 1, .home_button = 2, .undo_button = 3};
-    EXPECT_EQ(caption_of(flying, show, words(), stick).aside, "button 1: stand still · 2: on · 3: back");
+    EXPECT_EQ(caption_of(flying, show, words(), stick).aside, "button 1: pause · 2: next · 3: back");
     EXPECT_EQ(caption_of(still, show, words(), stick).aside, "paused · button 1: go on");
     EXPECT_EQ(caption_of(flying, {tour, {}, 1, false}, words(), {}).aside, "");
     EXPECT_EQ(u_of(still), u_of(flying)) << "a paused tour stands still to the bit";

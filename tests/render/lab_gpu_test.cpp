@@ -87,7 +87,7 @@ const std::map<std::string, Read> readings = {
     {"distance / light-s", [](const StillMeasurement& s) { return s.points[1].aim.distance_s; }},
     {"distance in the ship / light-s", [](const StillMeasurement& s) { return s.points[1].aim.ship_distance_s; }},
     {"light left / s", [](const StillMeasurement& s) { return s.points[1].aim.emitted_s; }},
-    {"long / light-s", [](const StillMeasurement& s) { return s.points[0].pair->apparent_s; }},
+    {"length / light-s", [](const StillMeasurement& s) { return s.points[0].pair->apparent_s; }},
     {"contracted / light-s", [](const StillMeasurement& s) { return s.points[0].pair->contracted_s; }},
     {"light / light without the key", [](const StillMeasurement& s) { return s.points[1].aim.light; }},
 };
