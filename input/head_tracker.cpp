@@ -71,8 +71,9 @@ Head HeadTracker::read(std::chrono::steady_clock::time_point now)
         if (!head) {
             if (!std::exchange(said_wrong_, true))
                 log_(LogKind::tracker_wrong_packets,
-                    "the head tracker on port " + std::to_string(tracking_.port) + " sends packets that are no head ("
-                        + std::to_string(size) + " bytes, not finite, or far away); they are left out");
+                    "the head tracker on port " + std::to_string(tracking_.port)
+                        + " sends packets that hold no pose of a head (" + std::to_string(size)
+                        + " bytes, not finite, or far away); they are left out");
             continue;
         }
         last_ = *head;

@@ -131,9 +131,9 @@ void Hid::Shared::open(const hid_device_info& found)
             refused.push_back(path);
             log(LogKind::device_unreadable,
                 describe(device->info) + " at " + path
-                    + (why == EACCES
-                            ? " may not be read: copy config/udev/70-starbow.rules to /etc/udev/rules.d and plug it in again"
-                            : " can't be opened"));
+                    + (why == EACCES ? " can't be read by this user: copy config/udev/70-starbow.rules to /etc/udev/rules.d "
+                                       "and plug it in again"
+                                     : " can't be opened"));
         }
         return;
     }

@@ -75,8 +75,8 @@ set(CPACK_DEBIAN_STARBOW_PACKAGE_RECOMMENDS "ffmpeg")
 set(CPACK_COMPONENT_STARBOW_DESCRIPTION "flight near the speed of light
 Starbow shows what physics says you would see near the speed of light:
 aberration, the Doppler effect, the headlight effect. It draws on windows,
-planetarium domes and stereo pairs, flies by sticks and keyboard, and has
-tours, a laboratory session and reference pictures by rays.")
+planetarium domes and stereo pairs, is flown with sticks and keyboard, and has
+tours, a laboratory session and ray-traced reference pictures.")
 
 set(CPACK_DEBIAN_STARBOW-EXHIBIT_PACKAGE_NAME starbow-exhibit)
 set(CPACK_DEBIAN_STARBOW-EXHIBIT_FILE_NAME starbow-exhibit.deb)
@@ -90,6 +90,6 @@ set(CPACK_DEBIAN_STARBOW-EXHIBIT_PACKAGE_CONTROL_EXTRA
   "${EXHIBIT}/postinst;${EXHIBIT}/prerm;${EXHIBIT}/postrm;${EXHIBIT}/conffiles")
 set(CPACK_COMPONENT_STARBOW-EXHIBIT_DESCRIPTION "Starbow as an exhibit that starts with the machine
 A bare X server, and Starbow on it, as services of systemd: started with the
-machine, watched, started anew after a hang or a crash. The site's files are
+machine, watched, and restarted after a hang or a crash. The site's files are
 in /etc/starbow, opening hours among them.")
 include(CPack)

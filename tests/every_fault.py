@@ -82,7 +82,7 @@ def wrong(when, fault, status, lines):
         shown = sum(int(line.split()[2]) for line in lines if line.startswith("fault: shown"))
         if shown < frames - 3:
             return f"only {shown} pictures of {frames}"
-        anew = any("it is opened anew" in line for line in said)
+        anew = any("it is opened again" in line for line in said)
         # Some happen whenever a window changes; on two nothing depends.
         usual = ("new", "thread", "SURFACE_LOST", "OUT_OF_DATE", "NATIVE_WINDOW_IN_USE", "vkDeviceWaitIdle", "vkGetPipelineCacheData")
         if when == "flight" and not anew and not any(one in fault for one in usual) and not any(

@@ -129,7 +129,7 @@ Import Importer::run()
         for (const std::string& line : report_.left_out)
             reasons += (reasons.empty() ? ": " : ", and ") + line;
         throw InputError(document_.file, "/nodes/" + std::to_string(node_),
-            "has no window of which something could be made" + one_line(reasons, 600)
+            "has no window that can be imported" + one_line(reasons, 600)
                 + "; one with a PlanarProjection, TextureMappedProjection, ProjectionPlane, FisheyeProjection, "
                   "CylindricalProjection, EquirectangularProjection, CubemapProjection or SphericalMirrorProjection is "
                   "right");
@@ -401,7 +401,7 @@ void Importer::mesh(const Place& at, const Place& viewport, Json& out)
     const auto shown = find_member(viewport, "projection");
     const std::string type = shown ? text(member(*shown, "type")) : "";
     if (type == "SphericalMirrorProjection") {
-        not_mapped(at, "the picture of four meshes is not warped once more");
+        not_mapped(at, "the picture of four meshes is not warped again");
         return;
     }
     Json warp{{"file", name}};
@@ -409,7 +409,7 @@ void Importer::mesh(const Place& at, const Place& viewport, Json& out)
     if (std::filesystem::path(name).extension() == ".pfm") {
         if (type != "TextureMappedProjection") {
             not_mapped(at,
-                "beside this projection SGCT reads a PFM as positions for two eyes beside each other; only a "
+                "with this projection SGCT reads a PFM as positions for two eyes side by side; only a "
                 "TextureMappedProjection's is read");
             return;
         }

@@ -128,7 +128,7 @@ Fault fault_of(const std::string& text, std::size_t at, const std::string& what)
     if (has("parsing object - unexpected") || has("parsing array - unexpected")) {
         const std::size_t before = text.find_last_not_of(" \t\r\n", begin > 0 ? begin - 1 : 0);
         return {before == text.npos ? at : before,
-            "then follows " + seen + "; a comma between them, or a closing " + (has("parsing array") ? "]" : "}")
+            "is followed by " + seen + "; a comma between them, or a closing " + (has("parsing array") ? "]" : "}")
                 + ", is right"};
     }
     if ((has("parsing object key") && seen == "}") || (has("parsing value") && seen == "]"))

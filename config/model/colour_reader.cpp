@@ -54,7 +54,7 @@ std::string fault(const std::vector<glm::dvec3>& before, const glm::dvec3& entry
 {
     for (int channel = 0; channel < 3; ++channel) {
         if (!(entry[channel] >= 0 && entry[channel] <= 1))
-            return "leaves the range of a screen's input; numbers from 0 to 1 is right";
+            return "leaves the range of a screen's input; numbers from 0 to 1 are right";
         if (!before.empty() && entry[channel] < before.back()[channel])
             return "is darker in "
                 + std::string(channel == 0 ? "red"
@@ -83,7 +83,7 @@ std::vector<glm::dvec3> load_cube(const std::filesystem::path& file)
             const auto number = word.size() == 2 ? as_number(word[1]) : std::nullopt;
             if (!number || *number != std::floor(*number) || *number < 2 || *number > double(most_entries))
                 complain_line(
-                    file, count, in_quotes(line) + " is no size; LUT_1D_SIZE and a number from 2 to 65536 is right");
+                    file, count, in_quotes(line) + " is no size; LUT_1D_SIZE and a number from 2 to 65536 are right");
             size = std::size_t(*number);
             continue;
         }
@@ -92,17 +92,18 @@ std::vector<glm::dvec3> load_cube(const std::filesystem::path& file)
             if (as_colour(word, 1) != glm::dvec3(bound))
                 complain_line(file, count,
                     in_quotes(line)
-                        + " is another range than this table may have; DOMAIN_MIN 0 0 0 and DOMAIN_MAX 1 1 1 is right");
+                        + " is a range that this table can't have; DOMAIN_MIN 0 0 0 and DOMAIN_MAX 1 1 1 are right");
             continue;
         }
         const auto colour = as_colour(word, 0);
         if (!colour)
-            complain_line(file, count, in_quotes(line) + " is not known here; three numbers, red, green and blue, is right");
+            complain_line(
+                file, count, in_quotes(line) + " is not known here; three numbers, red, green and blue, are right");
         if (size == 0)
             complain_line(file, count, in_quotes(line) + " stands before the table's size; LUT_1D_SIZE before it is right");
         if (table.size() == size)
             complain_line(
-                file, count, in_quotes(line) + " is one entry too many; " + std::to_string(size) + " entries is right");
+                file, count, in_quotes(line) + " is one entry too many; " + std::to_string(size) + " entries are right");
         if (const std::string problem = fault(table, *colour); !problem.empty())
             complain_line(file, count, in_quotes(line) + " " + problem);
         table.push_back(*colour);

@@ -66,7 +66,7 @@ Comfort read_comfort(const Place& place)
     take(place, "turn_steps_deg", comfort.turn_steps_deg, {5, 45});
     if (const auto p = find_member(place, "vignette")) {
         if (comfort.turn_steps_deg > 0)
-            complain(*p, "is one too many beside turn_steps_deg, which leaves no smooth turn; one of them is right");
+            complain(*p, "conflicts with turn_steps_deg, which leaves no smooth turn; one of them is right");
         reject_unknown_members(*p, {"elevation_deg", "clear_deg", "soft_deg", "darkness"});
         Vignette& vignette = comfort.vignette.emplace();
         take(*p, "elevation_deg", vignette.elevation_deg, {-90, 90});
@@ -127,10 +127,10 @@ Exhibit load_exhibit(const std::filesystem::path& file)
         if (auto p = find_member(top, name))
             *value = name_or_path(*p, folder);
     if (auto scene = find_member(top, "scene"); scene && !exhibit.shot.empty())
-        complain(*scene, "is one too many beside a shot, which has a scene of its own; one of them is right");
+        complain(*scene, "conflicts with the shot, which has a scene of its own; one of them is right");
     for (const char* other : {"scene", "shot"})
         if (auto place = find_member(top, other); place && !exhibit.tour.empty())
-            complain(*place, "is one too many beside a tour, which has a scene of its own; one of them is right");
+            complain(*place, "conflicts with the tour, which has a scene of its own; one of them is right");
     if (auto p = find_member(top, "textfile"))
         exhibit.textfile = (folder / text(*p)).lexically_normal();
     if (auto p = find_member(top, "profiles"))
@@ -141,7 +141,7 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     take(top, "tutorial", exhibit.tutorial);
     take(top, "frame_budget_ms", exhibit.frame_budget_ms, {0, 1000});
     if (auto p = find_member(top, "quality"); p && exhibit.frame_budget_ms > 0)
-        complain(*p, "is one too many beside frame_budget_ms, which chooses it; one of them is right");
+        complain(*p, "conflicts with frame_budget_ms, which chooses the quality; one of them is right");
     if (auto p = find_member(top, "flying"))
         exhibit.flying = read_flying(*p, exhibit.paced);
     if (auto p = find_member(top, "one_button")) {

@@ -22,7 +22,7 @@ GoalCondition read_condition(const Place& place)
     if (!(condition.from < condition.below))
         complain(member(place, "below"), "leaves nothing from " + shown(condition.from) + " on; a greater number is right");
     if (condition.from < -1e12 && condition.below > 1e12)
-        complain(place, "holds always; \"from\" or \"below\", or both, are right");
+        complain(place, "always holds; \"from\" or \"below\", or both, are right");
     return condition;
 }
 

@@ -53,8 +53,7 @@ AxisUse read_axis(const Place& place)
     if (auto p = find_member(place, "range")) {
         const glm::dvec3 range = vec3(*p, {-2147483648.0, 4294967295.0});
         if (!((range.x < range.y && range.y < range.z) || (range.x > range.y && range.y > range.z)))
-            complain(
-                *p, "has its middle not between its ends; raw values at one end, in the middle and at the other are right");
+            complain(*p, "has its middle outside its ends; raw values at one end, in the middle and at the other are right");
         use.range = {range.x, range.y, range.z};
     }
     if (auto p = find_member(place, "detents"))

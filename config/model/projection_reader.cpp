@@ -34,9 +34,10 @@ Sides read_sides(const Place& place, Range across, Range upright)
                 up = member(place, "up");
     const Sides sides{number(left, across), number(right, across), number(down, upright), number(up, upright)};
     if (sides.left_deg >= sides.right_deg)
-        complain(left, "is not less than \"right\", " + shown(sides.right_deg) + "; angles that grow to the right is right");
+        complain(
+            left, "is not less than \"right\", " + shown(sides.right_deg) + "; angles that grow to the right are right");
     if (sides.down_deg >= sides.up_deg)
-        complain(down, "is not less than \"up\", " + shown(sides.up_deg) + "; angles that grow upwards is right");
+        complain(down, "is not less than \"up\", " + shown(sides.up_deg) + "; angles that grow upwards are right");
     if (sides.right_deg - sides.left_deg > 360)
         complain(right, "is more than a whole turn from \"left\"; at most 360 degrees between them is right");
     return sides;
@@ -74,13 +75,13 @@ Wall read_wall(const Place& place)
     const double width = glm::length(right), height = glm::length(up);
     for (const auto& [at, length] : {std::pair(lower_right, width), std::pair(upper_left, height)})
         if (length < 1e-3)
-            complain(at, "is less than a millimetre from \"lower_left_m\"; two corners of the wall is right");
+            complain(at, "is less than a millimetre from \"lower_left_m\"; two different corners of the wall are right");
     // The cosine of the angle at the corner: the sideways displacement of the upper edge per metre of height.
     const double slip = std::abs(glm::dot(right, up)) / (width * height);
     if (slip > 1e-3)
         complain(upper_left,
             "makes no right angle with the other corners (" + shown(std::round(slip * 1e4) / 10)
-                + " mm off per metre); corners of a rectangle, within 1 mm per metre, is right");
+                + " mm off per metre); corners of a rectangle, within 1 mm per metre, are right");
     return wall;
 }
 
@@ -148,7 +149,7 @@ Lens::Colour read_lens_colour(const Place& place, Lens::Form form)
         if (!(factor > 1e-3 && factor < 1e3))
             complain(k,
                 "makes the lens's factor " + shown(std::round(factor * 1e4) / 1e4) + " at radius " + shown(r)
-                    + "; numbers that keep it from 0.001 to 1000 out to radius 1 is right");
+                    + "; numbers that keep it from 0.001 to 1000 out to radius 1 are right");
     }
     return colour;
 }
@@ -233,9 +234,7 @@ void check_eye(const Place& place, const Projection& projection, const glm::dvec
         const double distance = glm::dot(eye_m - wall->lower_left_m, towards_viewer);
         const double least = eyes_apart_m / 2 + 1e-3;
         if (distance < -least)
-            complain(place,
-                "is seen from behind by the eye at " + eye
-                    + "; the wall's corners as the visitor has them before the eyes is right");
+            complain(place, "is seen from behind by the eye at " + eye + "; corners as the visitor sees them are right");
         if (distance < least)
             complain(place,
                 "is a wall that touches the eye at " + eye + "; an eye more than " + shown(least)

@@ -43,9 +43,9 @@ double read_proper_speed(const Place& place)
     if (beta) {
         const double b = number(*beta, {-1e308, 1e308});
         if (b >= 1)
-            complain(*beta, "can't be flown, nothing reaches the speed of light; a beta from 0 to below 1 is right");
+            complain(*beta, "can't be flown: nothing reaches the speed of light; a beta from 0 to below 1 is right");
         if (b < 0)
-            complain(*beta, "is negative; a beta from 0 to below 1, and the way in \"direction\", is right");
+            complain(*beta, "is negative; a beta from 0 to below 1, with the heading in \"direction\", is right");
         return b / std::sqrt((1 - b) * (1 + b));
     }
     return std::sinh(number(*rapidity, {0, std::acosh(most_gamma)}));
@@ -61,7 +61,8 @@ glm::dquat read_orientation(const Place& place)
         up = read_direction(*up_at);
     if (glm::length(glm::cross(look, up)) < 1e-6)
         complain(up_at ? *up_at : *look_at,
-            std::string("is parallel to \"") + (up_at ? "look" : "up") + "\"; a direction aside of it is right");
+            std::string("is parallel to \"") + (up_at ? "look" : "up")
+                + "\"; a direction that is not parallel to it is right");
     return orientation(look, up);
 }
 

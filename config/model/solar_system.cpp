@@ -180,7 +180,7 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
         const Place name = member(at, "body");
         globe.name = text(name);
         if (!names.insert(globe.name).second)
-            complain(name, "is there before; each globe once is right");
+            complain(name, "is there already; each globe once is right");
         const auto size = find_member(sizes, globe.name);
         if (!size)
             complain(name, "has no size in the file of \"bodies\"; one of its names is right");

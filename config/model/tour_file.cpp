@@ -171,8 +171,7 @@ struct Reader {
             if (find_member(place, name))
                 motions.push_back(name);
         if (motions.size() > 1)
-            complain(
-                member(place, motions[1]), "is one too many beside \"" + motions[0] + "\"; one motion in a step is right");
+            complain(member(place, motions[1]), "conflicts with \"" + motions[0] + "\"; one motion in a step is right");
         if (auto p = find_member(place, "cut"))
             step.motion = Cut{read_cut(*p)};
         else if (auto p = find_member(place, "glide"))
@@ -198,7 +197,7 @@ struct Reader {
             if (flies != reaches)
                 complain(*p,
                     flies ? "is asked while the visitor flies; \"reach\", or no \"try\" beside it, is right"
-                          : "wants a place to be reached; a \"try\" beside it is right");
+                          : "asks for a place to be reached; a \"try\" beside it is right");
         }
         return step;
     }

@@ -546,7 +546,7 @@ Words load_words(const std::filesystem::path& file)
         std::sort(there.begin(), there.end());
         if (!std::equal(there.begin(), there.end(), one.placeholders.begin(), one.placeholders.end()))
             complain(
-                at, "has other places to fill than are filled; a text with " + in_braces(one.placeholders) + " is right");
+                at, "has other placeholders than this text needs; a text with " + in_braces(one.placeholders) + " is right");
     }
     return words;
 }

@@ -100,7 +100,7 @@ std::vector<std::string> eye_warnings(const Layout& layout, const std::vector<Co
         all.push_back("the eyes are " + rounded(layout.stereo.separation_m) + " m apart; lengths are in metres");
     if (two_eyes && layout.stereo.hyper_stereo == 1 && !layout.stereo.by_light
         && layout.stereo.method != StereoMethod::shared)
-        all.push_back("two eyes show no depth in worlds whose unit is a light-second, as the shipped ones have it: there "
+        all.push_back("two eyes show no depth in worlds whose unit is a light-second, such as the shipped ones: there "
                       "\"stereo\" needs a \"hyper_stereo\", such as \"by-light\"");
     if (layout.head_tracker) {
         const bool wall = std::any_of(coverages.begin(), coverages.end(), [&](const Coverage& c) {
@@ -160,7 +160,7 @@ std::vector<std::string> lint(const Layout& layout, const std::vector<Coverage>&
                 || std::max(shared_part(a, b), shared_part(b, a)) < 0.02)
                 continue;
             doubt(viewport_name(layout, a.output, a.viewport) + " and " + viewport_name(layout, b.output, b.viewport)
-                + " show the same in part, with neither masks nor \"blend\": two projectors would light it twice");
+                + " overlap, with neither masks nor \"blend\": where they do, two projectors would light it twice");
         }
     if (const double seen = panel_seen(layout, coverages); seen < 0.6)
         doubt("the head-up display, at azimuth " + rounded(layout.hud.azimuth_deg) + "° and elevation "

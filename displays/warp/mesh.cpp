@@ -221,17 +221,17 @@ WarpMesh read_warp(const WarpFile& file, const std::string& region, const FloatM
         refuse(file, "", "has no regions, and " + in_quotes(region) + " is wanted; an MPCDI file, or no region, is right");
     if (form != FloatMapForm() && format != Format::mpcdi && format != Format::pfm)
         refuse(file, "",
-            std::string(form.first_row_on_top ? "has no first row that may be on top or at the bottom"
+            std::string(form.first_row_on_top ? "has no first row to choose"
                     : form.offsets            ? "holds no offsets"
                     : form.v_up               ? "says itself whether v counts up or down"
                                               : "says itself where its samples lie")
-                + "; an MPCDI or PFM file, or nothing said of it, is right");
+                + "; an MPCDI or PFM file, or leaving that out, is right");
     if (aspect && format != Format::bourke)
         refuse(file, "",
             "counts in fractions of the viewport, whose aspect it does not need; a Bourke mesh, or no aspect, is right");
     if (form.offsets && (form.v_up || form.edge_to_edge))
         refuse(file, "",
-            "holds offsets, which are upwards and from edge to edge; places, or nothing said of v and samples, is right");
+            "holds offsets, which are upwards and from edge to edge; places, or no word of v and samples, is right");
     switch (format) {
     case Format::bourke:
         return read_bourke(file, aspect);

@@ -93,7 +93,7 @@ private:
     {
         std::printf("\n");
         std::fflush(stdout);
-        throw InputError("The calibration was broken off; nothing was written");
+        throw InputError("The calibration was stopped early; nothing was written");
     }
     std::string typed_;
 };
@@ -143,7 +143,7 @@ Watched choose(Person& person, const Hid& hid, const std::string& wanted)
     std::vector<Hid::Connected> all = hid.devices();
     if (all.empty())
         throw InputError(
-            "No stick, throttle, pad or space mouse is plugged in that may be read; plug it in, then start again");
+            "No stick, throttle, pad or space mouse that this user can read is plugged in; plug it in, then start again");
     const bool kind = wanted.size() == 9 && wanted[4] == ':';
     std::vector<Hid::Connected> fitting;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -284,7 +284,7 @@ void ask_axis(Person& person, const Watched& device, const Profile& present, con
 {
     const std::string now = does(present, role, axes);
     const std::string question = what + ", hold it there, and press Enter.\n  (Now: " + now
-        + ". Enter without moving leaves it so; 'none' and Enter: no control does it.)";
+        + ". Enter without moving leaves it as it is; 'none' and Enter: no control does it.)";
     for (;;) {
         std::string typed;
         if (role == AxisRole::throttle) {
@@ -399,7 +399,7 @@ std::string warning_of(const AxisMeasure& is, const AxisUse& use)
     if (use.role != AxisRole::none && !one_sided(use.role)
         && (is.rests == AxisMeasure::Rest::low_end || is.rests == AxisMeasure::Rest::high_end))
         return "rests at an end: works to one side alone. Was it let go?";
-    return use.dead_zone > 0.15 ? "restless: worn or dirty?" : "";
+    return use.dead_zone > 0.15 ? "jitters: worn or dirty?" : "";
 }
 
 void show(const Watched& device, const std::vector<SeenAxis>& axes, const Profile& profile)
@@ -494,9 +494,9 @@ int calibrate(const CalibrateOptions& options)
             throw InputError(file.string(), "", "is there already and was kept; --force or another --out is right");
     }
     if (interrupted())
-        throw InputError("The calibration was broken off; nothing was written");
+        throw InputError("The calibration was stopped early; nothing was written");
     save_profile(profile, file);
-    std::printf("\nWritten to %s.\nAn exhibit that is running goes on with what it has and reads this at its next start.\n",
+    std::printf("\nWritten to %s.\nA running exhibit keeps the profile that it has and reads this one at its next start.\n",
         file.c_str());
     if (options.out.empty())
         report_other_profile(device, file);

@@ -79,7 +79,7 @@ void add_challenges(Subcommand& app, std::function<int()>& chosen)
     Subcommand* command = app.add_subcommand("challenges",
         "The laboratory's open questions: list them, show one with as many hints as you like, or check a log for answers.");
     Option* name = command->add_option("name", options->name, "One question, by its name in the list [all]");
-    Option* hints = command->add_option("--hints", options->hints, "Show the first so many of its hints, from 0 to 3")
+    Option* hints = command->add_option("--hints", options->hints, "Show this many of its hints, from 0 to 3")
                              ->check(whole_number(0, 3))
                              ->needs(name);
     Option* check

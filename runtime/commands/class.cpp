@@ -42,7 +42,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b)
 void check_outputs(const std::vector<std::string>& logs, const std::filesystem::path& page, const std::filesystem::path& csv)
 {
     if (page.extension() != ".html")
-        throw InputError("--out " + one_line(page.string()) + " has another end; a name with .html at its end is right");
+        throw InputError("--out " + one_line(page.string()) + " does not end in .html; a name that does is right");
     for (const std::string& log : logs)
         for (const std::filesystem::path& out : {page, csv})
             if (same_file(log, out))
@@ -53,7 +53,7 @@ void check_outputs(const std::vector<std::string>& logs, const std::filesystem::
     begin.resize(there.read(begin));
     if (std::error_code ignored; std::filesystem::exists(csv, ignored) && begin != "group,")
         throw InputError("--out " + one_line(page.string()) + " would replace " + one_line(csv.string())
-            + ", which is no class's file; another name is right");
+            + ", which is not a class's file; another name is right");
 }
 
 int gather(const ClassOptions& options)

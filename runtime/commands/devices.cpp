@@ -146,7 +146,7 @@ int devices(const DevicesOptions& options)
         for (const Hid::Connected& device : all)
             draw_controls(device);
         if (all.empty())
-            std::printf("no stick, throttle, pad or space mouse that may be read is plugged in\n");
+            std::printf("no stick, throttle, pad or space mouse that this user can read is plugged in\n");
         std::fflush(stdout);
         if (std::chrono::steady_clock::now() >= end)
             return 0;
@@ -160,7 +160,7 @@ void add_devices(Subcommand& app, std::function<int()>& chosen)
     auto options = std::make_shared<DevicesOptions>();
     Subcommand* command
         = app.add_subcommand("devices", "List sticks, throttles, pads and space mice, with their axes and buttons.");
-    command->add_option("--seconds", options->seconds, "Show them live for so long")->check(number_between(0.0, 1e9));
+    command->add_option("--seconds", options->seconds, "Show them live for this many seconds")->check(number_between(0.0, 1e9));
     command->add_option("--describe", options->describe,
         "Instead: print a report descriptor's declarations as JSON. A file of raw bytes, of hexadecimal text, or JSON with "
         "\"descriptor_hex\"");

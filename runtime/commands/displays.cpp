@@ -38,8 +38,7 @@ int displays()
     for (const GpuListing& gpu : gpus)
         print(gpu);
     if (gpus.empty())
-        std::printf(
-            "There is no GPU that Vulkan knows: install mesa-vulkan-drivers (software) or the GPU maker's driver.\n");
+        std::printf("Vulkan finds no GPU: install mesa-vulkan-drivers (software) or the GPU maker's driver.\n");
     if (!windows) {
         std::printf("There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no monitor is known.\n");
         return 0;
@@ -58,7 +57,7 @@ int displays()
 void add_displays(Subcommand& app, std::function<int()>& chosen)
 {
     Subcommand* command
-        = app.add_subcommand("displays", "List the GPUs, and the monitors with the line that means each in a layout.");
+        = app.add_subcommand("displays", "List the GPUs, and the monitors with the line that names each in a layout.");
     command->footer("Example:\n  starbow displays");
     command->callback([&chosen] { chosen = displays; });
 }

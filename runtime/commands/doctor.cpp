@@ -154,9 +154,8 @@ void examine_gpus(Report& report, bool windows)
     }
     const std::string maker = card_maker();
     if (gpus.empty()) {
-        report.line("GPU", "Vulkan knows none");
-        report.problem(
-            "There is no GPU that Vulkan knows", "install mesa-vulkan-drivers (software) or the GPU maker's Vulkan driver");
+        report.line("GPU", "Vulkan finds none");
+        report.problem("Vulkan finds no GPU", "install mesa-vulkan-drivers (software) or the GPU maker's Vulkan driver");
     } else if (!chosen) {
         report.problem("No GPU can be used: " + gpus[0].name + " " + gpus[0].refusal,
             environment("STARBOW_GPU").empty()
@@ -169,7 +168,8 @@ void examine_gpus(Report& report, bool windows)
     }
     for (const fs::path& node : entries("/dev/dri", "renderD"))
         if (access(node.c_str(), R_OK | W_OK) != 0)
-            report.problem("This user may not use the GPU's node " + node.string() + " (" + std::strerror(errno) + ")",
+            report.problem(
+                "This user lacks permission for the GPU's node " + node.string() + " (" + std::strerror(errno) + ")",
                 "add the user to the group that owns it (render or video) and log in again");
 }
 
@@ -233,7 +233,7 @@ void examine_sticks(Report& report)
         report.line(std::exchange(label, ""),
             stick_name + (stick.error ? std::string(": ") + std::strerror(stick.error) : ", profile: " + stick.profile));
         if (stick.error == EACCES || stick.error == EPERM)
-            report.problem(stick_name + " may not be read",
+            report.problem(stick_name + " can't be read by this user",
                 rule.empty() ? "copy config/udev/70-starbow.rules to /etc/udev/rules.d and plug it in again"
                              : "plug it in again, and run this as the user who sits at the machine");
         else if (stick.error)
@@ -244,7 +244,8 @@ void examine_sticks(Report& report)
         report.line("sticks", "none is plugged in");
     report.line("",
         std::to_string(nodes.size()) + " hidraw nodes, " + std::to_string(locked.size())
-            + " of them may not be read; the udev rule " + (rule.empty() ? "is not installed" : "is " + rule.string()));
+            + " of them not readable by this user; the udev rule "
+            + (rule.empty() ? "is not installed" : "is " + rule.string()));
     report.facts["sticks"]
         = {{"list", list}, {"hidraw_nodes", nodes.size()}, {"hidraw_nodes_locked", locked}, {"udev_rule", rule.string()}};
 }
@@ -282,9 +283,9 @@ void examine_disk(Report& report)
             folder.string() + ": " + size_text(double(bytes)) + " in " + std::to_string(files) + " files; can"
                 + (writable ? "" : "'t") + " be written");
     if (!writable)
-        report.problem(folder.empty() ? "There is no folder for the cache, so every start computes the layout's maps anew"
+        report.problem(folder.empty() ? "There is no folder for the cache, so every start computes the layout's maps again"
                                       : "The cache folder " + folder.string()
-                    + " can't be written, so every start computes the layout's maps anew",
+                    + " can't be written, so every start computes the layout's maps again",
             "set STARBOW_CACHE to a folder that can be written");
     json& facts = report.facts["disk"] = json::array();
     std::string label = "disk";
@@ -322,7 +323,7 @@ std::size_t examine_kind(Report& report, const fs::path& config, const fs::path&
             try {
                 load(file);
             } catch (const InputError& error) {
-                report.problem(error.what(), "restore the file, or mend it as the sentence says");
+                report.problem(error.what(), "restore the file, or mend it as the message says");
             }
         }
     if (count == 0)
@@ -410,7 +411,7 @@ int doctor(bool as_json)
         } catch (const std::exception& error) {
             report.line(part, "can't be examined");
             report.problem(std::string("The examination of the ") + part + " failed: " + error.what(),
-                "reinstall what Debian's packages in packages.txt bring");
+                "reinstall the Debian packages in packages.txt");
         }
     };
     bool windows = false;
@@ -444,7 +445,8 @@ void add_doctor(Subcommand& app, std::function<int()>& chosen)
 {
     auto as_json = std::make_shared<bool>(false);
     Subcommand* command = app.add_subcommand("doctor",
-        "Examine this machine: GPU, monitors, sticks, font, disk, files; and what is wrong. Exit 0: nothing, 1: something.");
+        "Examine this machine: GPU, monitors, sticks, font, disk, files; and say what is wrong. Exit 0: nothing, 1: "
+        "something.");
     command->add_flag("--json", *as_json, "Print the same as JSON");
     command->footer("Examples:\n  starbow doctor\n  starbow doctor --json > out/doctor.json");
     command->callback([as_json, &chosen] { chosen = [as_json] { return doctor(*as_json); }; });

@@ -126,8 +126,8 @@ RunOptions careful(RunOptions options, int ends)
     options.shot = options.tour = options.replay = "";
     options.careful = true;
     write_log(LogKind::careful_start,
-        "it has ended " + std::to_string(ends) + " times out of order within " + std::to_string(ends_within_s / 60)
-            + " minutes; it starts with care: the scene '" + plain_scene + "' in the quality '" + options.quality + "'");
+        "it has crashed or hung " + std::to_string(ends) + " times within " + std::to_string(ends_within_s / 60)
+            + " minutes; it starts in safe mode: the scene '" + plain_scene + "' in the quality '" + options.quality + "'");
     return options;
 }
 
@@ -201,7 +201,7 @@ void add_run(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<RunOptions>();
     Subcommand* command = app.add_subcommand(
-        "run", "Fly: opens the layout's windows. Without a display server it draws the default shots to out/.");
+        "run", "Fly: open the layout's windows. Without a display server, draw the default shots into out/.");
     command
         ->add_option("--exhibit", options->exhibit,
             "An exhibit file, or the name of one in config/exhibits: its layout, its "
@@ -218,20 +218,20 @@ void add_run(Subcommand& app, std::function<int()>& chosen)
     command->add_option("--shot", options->shot, "Instead: start at this shot, in its scene");
     add_language(*command, options->language);
     command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
-    command->add_option("--frames", options->frames, "Leave after so many frames")->check(whole_number(0, 1000000000));
+    command->add_option("--frames", options->frames, "Leave after this many frames")->check(whole_number(0, 1000000000));
     command->add_option("--record", options->record,
         "Record every control of the flight in this new file (or in a new file in this folder), for --replay. A minute at "
         "60 "
         "frames a second takes 70 kB at rest, 0.4 MB with a stick in hand, 1.2 MB with a head tracker");
     Option* log = command->add_option("--log", options->log,
-        "Write what the instruments read into this CSV file, a line each time K is pressed; one that is there is continued");
-    command->add_option("--log-every", options->log_every_s, "With --log: write a line by itself every so many seconds")
+        "Write what the instruments read into this CSV file, a line each time K is pressed; an existing file is continued");
+    command->add_option("--log-every", options->log_every_s, "With --log: also write a line every this many seconds")
         ->check(number_between(0.02, 86400.0))
         ->needs(log);
     command
         ->add_option("--warm-up", options->warm_up,
-            "Compile what the visitor's switches can need before the first frame: always, never, or auto, which is on a GPU "
-            "where --frames does not end the flight soon")
+            "Before the first frame, compile all that the visitor's switches can need: always, never, or auto, which does "
+            "so on a GPU unless --frames ends the flight soon")
         ->check(one_of({"auto", "always", "never"}))
         ->capture_default_str();
     command->add_option("--trace", options->trace,
@@ -246,7 +246,7 @@ void add_run(Subcommand& app, std::function<int()>& chosen)
     Option* hold
         = command
               ->add_option("--frame-budget-ms", options->frame_budget_ms,
-                  "Hold the time of a whole frame at this by moving along the ladder of measured qualities; 0: don't")
+                  "Hold the time of a whole frame at this by moving along the ladder of measured qualities; 0: off")
               ->check(number_between(0.0, 1000.0))
               ->excludes(quality);
     command
@@ -254,13 +254,12 @@ void add_run(Subcommand& app, std::function<int()>& chosen)
             "For --frame-budget-ms: a ladder that starbow measure wrote, or the name of one in config/qualities [ladder]")
         ->needs(hold);
     Option* tour = command->add_option("--tour", options->tour,
-        "Instead: show this tour, a file or the name of one in config/tours; then the visitor flies, and when nobody does "
-        "it "
-        "begins anew. Space: stand still, go on; R: on to the next step; Backspace: back");
+        "Instead: show this tour, a file or the name of one in config/tours; then the visitor flies, and when nobody does, "
+        "it begins again. Space: pause, go on; R: next step; Backspace: back");
     for (const char* other : {"--scene", "--shot", "--record"})
         tour->excludes(other);
-    Option* replay = command->add_option("--replay", options->replay,
-        "Fly a record again, the same to the bit, in its scene and on its layout (or on --layout's)");
+    Option* replay = command->add_option(
+        "--replay", options->replay, "Fly a record again, bit for bit, in its scene and on its layout (or on --layout's)");
     for (const char* other : {"--exhibit", "--scene", "--shot", "--tour", "--pattern", "--record", "--presenter", "--node"})
         replay->excludes(other);
     command->footer(std::string("Keys:\n") + keyboard_help()

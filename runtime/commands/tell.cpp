@@ -72,7 +72,8 @@ void add_tell(Subcommand& app, std::function<int()>& chosen)
     command->add_option("--port", given.options.port, "the port of \"remote\" in the exhibit's file")
         ->capture_default_str()
         ->check(whole_number(1, 65535));
-    command->add_option("--pin-file", given.pin_file, "a file of PINs; its best role is taken [/etc/starbow/pins]");
+    command->add_option(
+        "--pin-file", given.pin_file, "a file of PINs; that of the role with most rights is used [/etc/starbow/pins]");
     command->add_option(
         "--pin", given.options.pin, "a PIN; other users of this machine can see it in the list of processes");
     command->add_option("--certificate", given.options.certificate, "the exhibit's certificate, where its page is https");

@@ -12,9 +12,10 @@ class Subcommand;
 struct Tool {
     const char *name, *help;
 };
-constexpr Tool bench_tool{"bench", "Times the stages of a frame, and two ratios measured in turn in the same run."};
-constexpr Tool measure_tool{
-    "measure", "Speed for accuracy: each setting's time, memory and error against the reference, as a table and a chart."};
+constexpr Tool bench_tool{"bench", "Time the stages of a frame, and two ratios measured in turn in the same run."};
+constexpr Tool measure_tool{"measure",
+    "Measure the trade-off between speed and accuracy: each setting's time, memory and error against the ray-traced "
+    "reference, as a table and a chart."};
 constexpr Tool soak_tool{"soak",
     "Show the exhibit to many visitors made of random numbers, as fast as it goes, and compare the process's memory, "
     "files, threads and Vulkan objects at the end with those near the start. It ends with 1 where they have grown."};

@@ -164,7 +164,8 @@ int convert(const WarpOptions& options)
     std::transform(
         extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     if (extension != ".data" && extension != ".map" && extension != ".pfm" && extension != ".csv")
-        throw InputError(options.out, "", "names no format that is written; .data, .pfm or .csv at its end is right");
+        throw InputError(
+            options.out, "", "names no format that can be written; a name that ends in .data, .pfm or .csv is right");
     double aspect = 16.0 / 9;
     if (!options.aspect.empty()) {
         const char* end = options.aspect.data() + options.aspect.size();

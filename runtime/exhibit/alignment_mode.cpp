@@ -20,7 +20,7 @@ void AlignmentMode::save(const Layout& layout)
         if (turned.empty())
             return say("Nothing has been changed since the layout was saved");
         patch_file(layout.file, turned);
-        std::string line = "Kept in " + layout.file.filename().string();
+        std::string line = "Saved in " + layout.file.filename().string();
         for (const Change& change : turned)
             line += ": " + change.pointer + " " + change.value.dump();
         say(line);
@@ -53,7 +53,7 @@ bool AlignmentMode::apply(const Controls& controls, Layout& layout)
     }
     if (turned || keys.choose != 0)
         say(all[chosen_].name + ": " + shown(value_of(layout, all[chosen_]))
-            + (turned ? "   (F5 keeps it)" : "   (Page Up, Page Down)"));
+            + (turned ? "   (F5 saves it)" : "   (Page Up, Page Down)"));
     return turned;
 }
 

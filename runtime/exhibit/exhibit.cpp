@@ -67,7 +67,7 @@ public:
             return false;
         }
         if (std::exchange(logged_, loss.why) != loss.why || tries_ == 0) // the reason of many openings in turn is one line
-            write_log(LogKind::gpu_lost, "the GPU " + loss.how + " (" + loss.why + "); it is opened anew");
+            write_log(LogKind::gpu_lost, "the GPU " + loss.how + " (" + loss.why + "); it is opened again");
         wait(tries_ > 0 ? std::min(0.25 * std::exp2(tries_ - 1), 5.0) : losses_ - 1.0);
         return true;
     }
@@ -164,7 +164,7 @@ int fly_exhibit(const ExhibitOptions& options)
             loss = loss_by(error);
         }
         work.emplace("the end of the lost device's closing", loading_limit_s);
-        session.service.loads("Opens the GPU anew.", loading_limit_s);
+        session.service.loads("Opens the GPU again.", loading_limit_s);
         session.complaints |= context && !context->device.complaints.empty();
         context.reset();
         if (coarser)

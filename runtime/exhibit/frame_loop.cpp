@@ -170,7 +170,7 @@ bool FrameLoop::fly_frame()
     fresh_ = false;
     session_.service.shows("Shows " + std::to_string(screens_.shown()) + " of "
         + std::to_string(session_.layout.outputs.size()) + (session_.layout.outputs.size() == 1 ? " output" : " outputs")
-        + (session_.options.careful ? ", with care after many ends." : "."));
+        + (session_.options.careful ? ", in safe mode after repeated crashes." : "."));
     if (session_.options.timed)
         session_.options.timed({controls.report_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now()), made > 0});
     ++session_.shown;

@@ -60,7 +60,7 @@ void FrameLoop::forget_coming()
 {
     coming_.reset();
     session_.coming.clear();
-    remote_.resume("the exhibit began anew meanwhile");
+    remote_.resume("the exhibit began again meanwhile");
 }
 
 /// Shows a programme, in its world, from the start. Throws InputError, for want of memory, too; then the old world is still

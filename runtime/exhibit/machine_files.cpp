@@ -59,15 +59,15 @@ static std::string difference(const ConfigMessage& node, const ConfigMessage& ma
     for (const auto& [name, digest] : nodes) {
         const auto same = find(masters, name);
         if (same != masters.end() && same->second != digest)
-            return of_node + " has another " + one_line(name) + " (" + one_line(digest) + ") than " + of_master + " ("
+            return of_node + " has a different " + one_line(name) + " (" + one_line(digest) + ") from " + of_master + " ("
                 + one_line(same->second) + "); the same file on both is right";
         if (same == masters.end() && !name.starts_with(scenes))
-            return of_node + " has the file " + one_line(name) + ", and " + of_master
-                + " has not; the same exhibit on both is right";
+            return of_node + " has the file " + one_line(name) + ", which " + of_master
+                + " lacks; the same exhibit on both is right";
     }
     for (const auto& [name, digest] : masters)
         if (find(nodes, name) == nodes.end() && !name.starts_with(scenes))
-            return of_node + " has not the file " + one_line(name) + " of " + of_master
+            return of_node + " lacks the file " + one_line(name) + " of " + of_master
                 + "; the same exhibit on both is right";
     return "";
 }
@@ -112,7 +112,7 @@ std::string warning_of_routes(const NetworkInterface& interface)
     if (!leads_elsewhere(interface))
         return "";
     return "the network of interface " + interface.name + " (" + interface.address
-        + ") leads elsewhere, too; a switch of their own for the exhibit's machines, which know no login, is right";
+        + ") leads elsewhere, too; a switch of their own for the exhibit's machines, which have no login, is right";
 }
 
 void log_routes(const Machines& machines)

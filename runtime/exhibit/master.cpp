@@ -160,7 +160,7 @@ void Master::report()
                 node + " was silent for " + std::to_string(Gate::silent_frames) + " frames; the others go on without it");
             break;
         case NodeEvent::Kind::differs:
-            write_log(LogKind::node_differs, node + " has drawn another state than the master's");
+            write_log(LogKind::node_differs, node + " has drawn a state other than the master's");
             break;
         }
     }

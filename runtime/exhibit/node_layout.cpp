@@ -30,7 +30,7 @@ void NodeLayout::compare(const ConfigMessage& master, bool was_in_step)
     try {
         if (const std::vector<Change> changes = changes_to_keep(config_, master, kept_, shown_); !changes.empty()) {
             patch_file(kept_.file, changes);
-            write_log(LogKind::alignment_changed, "Kept in " + kept_.file.filename().string() + ", as in the master's");
+            write_log(LogKind::alignment_changed, "Saved in " + kept_.file.filename().string() + ", as in the master's");
             return; // the loader sees it
         }
     } catch (const InputError& error) {

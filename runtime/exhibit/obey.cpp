@@ -28,7 +28,7 @@ void set_words(Session& session, Words words)
 void step_tour(Session& session, bool& control)
 {
     if (!session.guide || session.guide->over())
-        throw InputError("no tour is shown that has steps; the command tour is right");
+        throw InputError("no tour with steps is shown; the command tour is right");
     control = true;
 }
 

@@ -115,7 +115,7 @@ Presenter::Presenter(const ExhibitOptions& options)
     painter_ = std::make_unique<PresenterPainter>();
     scenes_ = shipped_names("scenes"), tours_ = shipped_names("tours"), shots_ = shipped_names("shots");
     languages_ = languages_here([](const std::string& why) {
-        write_log(LogKind::words_unreadable, why + "; the guide's window does without this language");
+        write_log(LogKind::words_unreadable, why + "; the guide's window leaves this language out");
     });
 }
 

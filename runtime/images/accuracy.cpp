@@ -326,9 +326,8 @@ std::string accuracy_page(const std::vector<MeasuredSetting>& all, const Measure
     }
     return out
         + "</table>\n<p>FLIP: 0 where nobody could tell the pictures apart, 1 at worst. Edges: how far an edge stands from "
-          "where it "
-          "should. Direction: how far a pixel looks from where it should, 99th percentile. D: the same of the Doppler "
-          "factor, relative.</p>\n</body></html>\n";
+          "where it should. Direction: how far a pixel looks from where it should, 99th percentile. D: the same for the "
+          "Doppler factor, relative.</p>\n</body></html>\n";
 }
 
 } // namespace starbow

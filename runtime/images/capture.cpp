@@ -45,8 +45,8 @@ void check_writable(const std::filesystem::path& file)
     if (!fs::is_directory(folder, error))
         throw InputError(file.string(), "", "can't be written: " + folder.string() + " is no folder; a folder is right");
     if (access(folder.c_str(), W_OK | X_OK) != 0)
-        throw InputError(
-            file.string(), "", "can't be written: " + folder.string() + " may not be written to; give another folder");
+        throw InputError(file.string(), "",
+            "can't be written: " + folder.string() + " is not writable by this user; give another folder");
 }
 
 void check_not_read(const std::filesystem::path& file, const std::vector<std::filesystem::path>& read)

@@ -166,7 +166,7 @@ MovieFrames::MovieFrames(
             refuse_sources(folder_, before, made_from);
         if (!before.empty()) {
             say(one_line(folder_.string())
-                + ": what these frames were made from has changed, or how; the movie begins anew");
+                + ": the sources of these frames, or their settings, have changed; the movie begins again");
             remove();
         }
     }

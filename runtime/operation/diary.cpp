@@ -137,7 +137,7 @@ Day Diary::day_of(const std::string& date)
     try {
         return state_.empty() ? Day{date} : load_day(state_, date);
     } catch (const InputError& error) {
-        write_log(LogKind::diary_damaged, one_line(error.what()) + "; the day's counts begin anew");
+        write_log(LogKind::diary_damaged, one_line(error.what()) + "; the day's counts begin again");
         return {date};
     }
 }

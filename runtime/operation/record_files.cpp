@@ -83,7 +83,7 @@ Flown find_flown(const fs::path& record, const RecordHeader& header, const std::
     const double unit = open_scene(flown.scene).seconds_per_time_unit();
     if (unit != header.seconds_per_time_unit)
         throw InputError(file + ":1", "/seconds_per_time_unit",
-            shown(header.seconds_per_time_unit) + " is not the scene's any more, which has " + shown(unit) + " ("
+            shown(header.seconds_per_time_unit) + " no longer matches the scene, which has " + shown(unit) + " ("
                 + one_line(flown.scene.string()) + "); the scene as it was when it was flown is right");
     if (digest_of_scene(flown.scene) != header.scene_digest)
         log(LogKind::record_differs,

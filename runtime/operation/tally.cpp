@@ -135,8 +135,8 @@ std::string exposition_of(const Tally& since_start, const Gauges& now)
         double(since_start.missed_refreshes));
     out.one("worst_skew_seconds", "gauge", "Greatest time between the outputs' pictures of one frame since the start.",
         since_start.worst_skew_s);
-    out.one(
-        "device_losses_total", "counter", "Times that the GPU was lost and opened anew.", double(since_start.device_losses));
+    out.one("device_losses_total", "counter", "Times that the GPU was lost and opened again.",
+        double(since_start.device_losses));
     out.one("unplugged_total", "counter", "Times that a stick or throttle went away.", double(since_start.unplugged));
     out.one("layouts_total", "counter", "Layouts applied in flight.", double(since_start.layouts));
     out.one("commands_total", "counter", "Commands of remotes carried out.", double(since_start.commands));

@@ -224,7 +224,7 @@ std::string words_text()
                 if (key.starts_with(prefix))
                     texts[key] = text;
         } catch (const InputError& error) {
-            write_log(LogKind::words_unreadable, std::string(error.what()) + "; the page does without this language");
+            write_log(LogKind::words_unreadable, std::string(error.what()) + "; the page leaves this language out");
             all.erase(language);
         }
     return dump(all);

@@ -276,7 +276,7 @@ std::string Server::put(const Command& command, Role role, const std::string& wh
     const std::string words = text_of(command);
     if (!exchange_.commands.put({last_number_ + 1, command})) {
         ++refused_commands_;
-        return "the exhibit has many commands to do already; the same one somewhat later is right";
+        return "the exhibit has many commands to do already; the same one a little later is right";
     }
     pending_[++last_number_] = {client, id, words, std::chrono::steady_clock::now()};
     write_log(LogKind::command_taken, std::string(role_names[std::size_t(role)]) + " at " + who + ": " + words);

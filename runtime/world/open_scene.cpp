@@ -175,7 +175,7 @@ SceneFile scene_around(const std::filesystem::path& gltf)
     scene.sky = {.zenith = {0.07, 0.14, 0.30}, .horizon = {0.42, 0.48, 0.55}, .nadir = {0.15, 0.14, 0.12}};
     scene.notes.push_back("it has no scene file: a unit is taken as 1 m, and light flies " + digits(scene.light_speed_m_s)
         + " m/s and crosses the world's " + digits(size) + " m in " + digits(size / scene.light_speed_m_s)
-        + (slowest > 0 && slowest == scene.light_speed_m_s ? " s, for its animations may not be faster than a fifth of it"
+        + (slowest > 0 && slowest == scene.light_speed_m_s ? " s, because its animations must stay below a fifth of that"
                                                            : " s")
         + "; starbow check " + scene.file + " --write " + scene.name + ".json writes both for you to change");
     if (outline.moves)
@@ -202,7 +202,7 @@ std::string scene_text(const SceneFile& scene, const std::filesystem::path& fold
     const std::filesystem::path gltf = std::filesystem::relative(scene.gltf, folder.empty() ? "." : folder, error);
     const glm::dmat3 axes = glm::mat3_cast(scene.start.ship_from_cockpit);
     std::ostringstream out;
-    out << "// Suggested from the bounds of the glTF file; docs/scenes.md tells each member.\n{\n"
+    out << "// Suggested from the bounds of the glTF file; docs/scenes.md explains each member.\n{\n"
         << "    \"gltf\": " << nlohmann::json(error ? scene.gltf.string() : gltf.string()).dump() << ",\n"
         << "    \"unit_m\": " << shown(scene.unit_m) << ", // a unit of the file in metres\n"
         << "    \"light_speed_m_s\": " << shown(scene.light_speed_m_s)

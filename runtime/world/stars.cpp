@@ -86,7 +86,7 @@ std::vector<Star> load_stars(const std::filesystem::path& path)
         if (text.starts_with('#') || text.find_first_not_of(" \t\r") == std::string::npos)
             continue;
         if (stars.size() == most_stars)
-            Line{file, number}.refuse("is one star too many; at most " + std::to_string(most_stars) + " stars is right");
+            Line{file, number}.refuse("is one star too many; at most " + std::to_string(most_stars) + " stars are right");
         stars.push_back(Line{file, number}.star(text));
     }
     if (stars.empty())

@@ -205,9 +205,9 @@ check 'the profile in use afterwards' 'profile: Left stick'
 before=$(cat "$written")
 alone=$'plug thrustmaster-t16000m 0\nstart typed\nuntil The middle.'
 play 2 "$alone"$'\ntype' calibrate --device 044f:b10a
-check 'the end of the input' 'broken off; nothing was written'
+check 'the end of the input' 'stopped early; nothing was written'
 play 2 "$alone"$'\ninterrupt' calibrate --device 1
-check 'Ctrl-C' 'broken off; nothing was written'
+check 'Ctrl-C' 'stopped early; nothing was written'
 play 2 "$alone"$'\nunplug thrustmaster-t16000m\nwait 0.3' calibrate
 check 'a device unplugged meanwhile' 'unplugged; nothing was written'
 play 2 'start typed' calibrate

@@ -50,7 +50,7 @@ survives "acquire:5:OUT_OF_DATE,acquire:6:SURFACE_LOST,present:9:SURFACE_LOST,sw
 # A world of large textures takes many submits before its first frame.
 for call in acquire:20 present:20 submit:60; do
     survives "$call:DEVICE_LOST" 90
-    [ "$(grep -c 'it is opened anew' "$folder/log")" = 1 ] || fail "$call: the new device is not reported exactly once"
+    [ "$(grep -c 'it is opened again' "$folder/log")" = 1 ] || fail "$call: the new device is not reported exactly once"
     # 90 frames take 1.5 s at 60 Hz, at most a hundredth more. The 70 frames after the loss alone would take 1.16 s.
     flown=$(sed -n 's/.*ship \([0-9.]*\) s.*/\1/p' "$folder/log")
     awk "BEGIN { exit !($flown >= 1.35) }" || fail "$call: the flight began anew: $flown s"
@@ -59,12 +59,12 @@ done
 
 # So it does where the device is lost while the world loads.
 survives submit:1:DEVICE_LOST
-[ "$(grep -c 'it is opened anew' "$folder/log")" = 1 ] || fail "lost in loading: the new device is not reported exactly once"
+[ "$(grep -c 'it is opened again' "$folder/log")" = 1 ] || fail "lost in loading: the new device is not reported exactly once"
 ok
 
 # A device without memory is opened anew, too. Before the first picture the program ends with one line and exit 2.
 survives submit:60:OUT_OF_MEMORY 90
-[ "$(grep -c 'OutOfDeviceMemory.*it is opened anew' "$folder/log")" = 1 ] || fail "no memory in flight: no line says so"
+[ "$(grep -c 'OutOfDeviceMemory.*it is opened again' "$folder/log")" = 1 ] || fail "no memory in flight: no line says so"
 ok
 fly submit:1:OUT_OF_MEMORY
 [ $status = 2 ] || fail "no memory at the start: exit $status"
@@ -91,7 +91,7 @@ ok
 # A device that can't be opened at once is tried again, and why is said once.
 fly submit:20:DEVICE_LOST,vkCreateDevice@lost:1:INITIALIZATION_FAILED,vkCreateDevice@lost:2:INITIALIZATION_FAILED,vkCreateInstance@lost:3:OUT_OF_HOST_MEMORY 60
 [ $status = 0 ] || fail "opened in vain: exit $status"
-[ "$(grep -c 'it is opened anew' "$folder/log")" = 3 ] || fail "opened in vain: not one line a reason"
+[ "$(grep -c 'it is opened again' "$folder/log")" = 3 ] || fail "opened in vain: not one line a reason"
 ok
 
 # A window grows, and the device has no memory for its larger picture: a smaller one is drawn, the device stays, and the flight
@@ -112,7 +112,7 @@ stays() {
     kill -INT "$(pgrep -P $exhibit)"
     wait $exhibit || fail "$1: exit $?"
     [ "$(grep -c "$2" "$folder/log")" = 1 ] || fail "$1: more than one line says so"
-    grep -q 'opened anew' "$folder/log" && fail "$1: the device is opened anew"
+    grep -q 'opened again' "$folder/log" && fail "$1: the device is opened anew"
     ok
 }
 # The colours' gamma needs pictures of the window's size.

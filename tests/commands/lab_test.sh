@@ -59,9 +59,9 @@ refused 'no-such.csv' class newton.csv no-such.csv
 refused 'is a folder' class folder.csv
 refused 'given twice' class newton.csv ./newton.csv
 refused 'logs is required' class
-refused '.html at its end' class newton.csv --out class.png
+refused 'does not end in .html' class newton.csv --out class.png
 refused 'would replace newton.csv' class newton.csv einstein.csv --out newton.html
-refused "which is no class's file" class newton.csv einstein.csv --out noether.html
+refused "which is not a class's file" class newton.csv einstein.csv --out noether.html
 refused 'no-such' class newton.csv --language no-such
 # Groups whose files are called alike have their folders' names.
 (cd "$folder" && "$program" class newton.csv sub/newton.csv --out two.html >/dev/null) && grep -q '^sub/newton.csv,' "$folder/two.csv" && grep -q '^newton.csv,' "$folder/two.csv" && ok || fail "class: two files of one name"

@@ -166,7 +166,7 @@ until_true 20 alike turned || fail "the number is not turned again"
 ok
 # A builder edits the master's file: nodes whose file is another one go on, are named, and follow once they have it.
 sed -i 's/"yaw": 31 /"yaw": 30 /' "$folder/left/walls.json"
-until_true 20 says left "node 'middle' has another walls.json" || fail "the master does not say whose file differs"
+until_true 20 says left "node 'middle' has a different walls.json" || fail "the master does not say whose file differs"
 is error 'not in step: middle, right'
 lit 320 || fail "middle does not go on with its last good layout"
 for machine in middle right; do cp "$folder/left/walls.json" "$folder/$machine/walls.json"; done
@@ -253,9 +253,9 @@ sed 's/"yaw": -30/"yaw": -31/' "$folder/walls.json" >"$folder/other/walls.json"
 cp "$folder/exhibit.json" "$folder/other/"
 said=$(timeout 60 "$program" run --exhibit "$folder/other/exhibit.json" --node right --quality fine 2>&1)
 [ $? = 2 ] || fail "a node with another layout is not refused: $said"
-[[ $said == *"node 'right' has another walls.json ("*") than the master 'left' ("*"); the same file on both is right"* ]] || fail "'$said' does not name the file"
+[[ $said == *"node 'right' has a different walls.json ("*") from the master 'left' ("*"); the same file on both is right"* ]] || fail "'$said' does not name the file"
 ok
-until_true 10 says left "node 'right' has another walls.json" || fail "left does not say whom it refuses"
+until_true 10 says left "node 'right' has a different walls.json" || fail "left does not say whom it refuses"
 ok
 refused() { # TEXT OPTIONS...
     local text=$1 said

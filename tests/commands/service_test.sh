@@ -102,8 +102,8 @@ ok
 mkdir -p "$folder/care"
 now=$(date +%s)
 printf '%s\n' $((now - 700)) $((now - 590)) $((now - 50)) $((now - 40)) $((now - 30)) running >"$folder/care/ends"
-scene=train manage care --until 'STATUS=Shows 2 of 2 outputs, with care after many ends.'
-logs care 'warn exhibit: it has ended 5 times out of order within 10 minutes; it starts with care'
+scene=train manage care --until 'STATUS=Shows 2 of 2 outputs, in safe mode after repeated crashes.'
+logs care 'warn exhibit: it has crashed or hung 5 times within 10 minutes; it starts in safe mode'
 says care 'STATUS=Loads the world chart.json.' && says care 'end 0'
 [ -e "$folder/care/ends" ] && fail "care: an end in order does not forget the others"
 ok

@@ -131,7 +131,7 @@ END
     chmod -R go+rX "$folder"
     (cd "$folder" && timeout 30 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/locked" \
         setpriv --reuid=65534 --regid=65534 --clear-groups "$folder/open/starbow" devices) >"$folder/log" 2>&1 </dev/null
-    grep -q 'T.16000M.*may not be read: copy config/udev/70-starbow.rules' "$folder/log" || fail "no permission: devices does not name the rule"
+    grep -q 'T.16000M.*can't be read by this user: copy config/udev/70-starbow.rules' "$folder/log" || fail "no permission: devices does not name the rule"
     ok
     advice='copy config/udev/70-starbow.rules'
     for rules in /etc/udev/rules.d /run/udev/rules.d /usr/lib/udev/rules.d /lib/udev/rules.d; do
@@ -139,8 +139,8 @@ END
     done
     (cd "$folder" && timeout 30 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/locked" \
         setpriv --reuid=65534 --regid=65534 --clear-groups "$folder/open/starbow" doctor) >"$folder/log" 2>&1 </dev/null
-    [ $? = 1 ] && grep -q '1 hidraw nodes, 1 of them may not be read' "$folder/log" \
-        && grep -q "^- .*T.16000M.*/dev/hidraw0 may not be read: $advice" "$folder/log" \
+    [ $? = 1 ] && grep -q '1 hidraw nodes, 1 of them not readable by this user' "$folder/log" \
+        && grep -q "^- .*T.16000M.*/dev/hidraw0 can't be read by this user: $advice" "$folder/log" \
         || fail "no permission: the doctor does not report it: $(cat "$folder/log")"
     ok
 fi

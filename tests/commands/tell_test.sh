@@ -50,7 +50,7 @@ applied pause on && is paused on
 refused 'a tour shows its own effects' doppler on
 applied back
 applied shot gamma100 && is shot gamma100
-refused 'no tour is shown' next
+refused 'no tour with steps is shown' next
 refused 'There is no nowhere.json' scene nowhere
 refused 'is no name of a shipped file' scene ../../etc/passwd
 is scene avenue

@@ -240,12 +240,11 @@ TEST(ExhibitFileTest, WrongExhibitsAreRefusedByReaderAndSchema)
         const std::string text = message_for(std::string(R"({ "exposure": { )") + limits + " } }");
         EXPECT_NE(text.find("/exposure/"), std::string::npos) << text;
     }
-    EXPECT_NE(
-        message_for(R"({ "comfort": { "turn_steps_deg": 15, "vignette": {} } })").find("one too many beside turn_steps"),
+    EXPECT_NE(message_for(R"({ "comfort": { "turn_steps_deg": 15, "vignette": {} } })").find("conflicts with turn_steps"),
         std::string::npos);
-    EXPECT_NE(message_for(R"({ "scene": "avenue", "shot": "gamma100" })").find("one too many"), std::string::npos);
     EXPECT_NE(
-        message_for(R"({ "scene": "avenue", "tour": "rainbow" })").find("one too many beside a tour"), std::string::npos);
+        message_for(R"({ "scene": "avenue", "shot": "gamma100" })").find("conflicts with the shot"), std::string::npos);
+    EXPECT_NE(message_for(R"({ "scene": "avenue", "tour": "rainbow" })").find("conflicts with the tour"), std::string::npos);
 }
 
 TEST(ExhibitFileTest, ATourIsANameOrAPath)

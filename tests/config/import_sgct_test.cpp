@@ -381,7 +381,7 @@ TEST(ImportSgctTest, UnsupportedMembersAreNamed)
         "/nodes/0/windows/0/viewports/0  not mapped: has no projection of a kind that a layout has; the viewport is left "
         "out"));
     const std::string nothing = complaint([&] { imported(config(with(mirror))); });
-    EXPECT_NE(nothing.find("/nodes/0: has no window of which something could be made: "
+    EXPECT_NE(nothing.find("/nodes/0: has no window that can be imported: "
                            "/nodes/0/windows/0/viewports/0/projection/geometry/bottom is no Bourke mesh (.data)"),
         std::string::npos)
         << nothing;

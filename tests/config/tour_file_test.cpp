@@ -223,7 +223,7 @@ TEST(TourFile, WrongToursAreRefusedByReaderAndSchema)
             {with(R"("try": {}, "question": { )" + question + " }"), "/steps/1/question: "},
             {with(
                  R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "quantity": "gamma" }, "reach": { "from": 1, "to": 2 } })"),
-                "wants a place to be reached"},
+                "asks for a place to be reached"},
             {with(
                  R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "quantity": "gamma" }, "choices": [{ "text": { "en": "a" }, "from": 2, "below": 2 }, { "text": { "en": "b" } }] })"),
                 "/choices/0: "}})

@@ -94,9 +94,9 @@ TEST(Words, WrongFilesAreRefused)
         t["hud.shop"] = "x";
     }).find("/hud.shop: \"x\" stands under an unknown name; \"hud.ship\""),
         std::string::npos);
-    EXPECT_NE(message_after([](json& t) {
-        t["tutorial.stop_button"] = "Press it";
-    }).find("/tutorial.stop_button: \"Press it\" has other places to fill than are filled; a text with {button} is right"),
+    EXPECT_NE(message_after([](json& t) { t["tutorial.stop_button"] = "Press it"; })
+                  .find("/tutorial.stop_button: \"Press it\" has other placeholders than this text needs; a text with "
+                        "{button} is right"),
         std::string::npos);
     EXPECT_NE(
         message_after([](json& t) { t["hud.ship"] = "the {ship}"; }).find("a text with no { } is right"), std::string::npos);

@@ -102,7 +102,7 @@ TEST(NodeLayoutTest, ItsFileIsTheMastersOrItIsNamed)
         node.compare(masters, false);
         FAIL() << "before it was ever in step, it is refused";
     } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("node 'right' has another walls.json ("), std::string::npos)
+        EXPECT_NE(std::string(error.what()).find("node 'right' has a different walls.json ("), std::string::npos)
             << error.what();
     }
     // While it shows, it goes on with its last good layout, and no number is turned in a file that is another one.

@@ -274,7 +274,7 @@ TEST(ProfileTest, WrongProfilesAreRefused)
              {R"(, "axes": [{ "usage": 48, "role": "nose-upp" }])", "/axes/0/role: \"nose-upp\""},
              {R"(, "axes": [{ "role": "nose-up" }])", "lacks \"usage\""},
              {R"(, "axes": [{ "usage": 48, "role": "none", "dead_zone": 0.9 }])", "/axes/0/dead_zone: 0.9 is too large"},
-             {R"(, "axes": [{ "usage": 48, "role": "none", "range": [0, 9, 5] }])", "not between its ends"},
+             {R"(, "axes": [{ "usage": 48, "role": "none", "range": [0, 9, 5] }])", "has its middle outside its ends"},
              {R"(, "buttons": [{ "button": 0, "role": "stop" }])", "/buttons/0/button: 0 is too small"},
              {R"(, "mirrored_buttons": [[5]])", "/mirrored_buttons/0"},
              {R"(, "mirrored_buttons": [[5, 0]])", "/mirrored_buttons/0/1: 0 is too small"},

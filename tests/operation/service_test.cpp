@@ -81,8 +81,8 @@ TEST(Service, SpeaksFromLoadingToItsEnd)
         service.shows("Shows.", now += std::chrono::milliseconds(2));
         EXPECT_EQ(manager.received(), "WATCHDOG=1\n");
         // After READY=1 another clock of the manager's runs: it is widened for loading, and put back.
-        service.loads("Opens the GPU anew.", 60);
-        EXPECT_EQ(manager.received(), "EXTEND_TIMEOUT_USEC=60000000\nWATCHDOG_USEC=60000000\nSTATUS=Opens the GPU anew.\n");
+        service.loads("Opens the GPU again.", 60);
+        EXPECT_EQ(manager.received(), "EXTEND_TIMEOUT_USEC=60000000\nWATCHDOG_USEC=60000000\nSTATUS=Opens the GPU again.\n");
         service.shows("Shows.", now);
         EXPECT_EQ(manager.received(), "WATCHDOG=1\nWATCHDOG_USEC=400000\nSTATUS=Shows.\n");
         service.stops();

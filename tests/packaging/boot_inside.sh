@@ -85,9 +85,9 @@ for i in 1 2 3 4 5 6; do
     kill -KILL "$(process)"
     until_true 60 restarted || fail "killed $i times: not started again"
 done
-[[ $(property StatusText) == *'with care'* ]] || fail "six ends: $(property StatusText)"
+[[ $(property StatusText) == *'in safe mode'* ]] || fail "six ends: $(property StatusText)"
 ok "killed six times: $(property StatusText)"
-systemctl restart starbow && until_true 60 shows && [[ $(property StatusText) != *'with care'* ]] || fail "restarted by hand: $(property StatusText)"
+systemctl restart starbow && until_true 60 shows && [[ $(property StatusText) != *'in safe mode'* ]] || fail "restarted by hand: $(property StatusText)"
 ok "restarted by hand: $(property StatusText)"
 
 printf 'Mon 00:00 00:00\n' >/etc/starbow/hours

@@ -151,7 +151,7 @@ TEST_F(WorldBrokenTest, EveryFaultIsNamedByItsPointer)
         {"/nodes/0/translation", "[1,2]", "/nodes/0/translation: is a list of 2; should be a list of 3 numbers"},
         {"/nodes/0/translation", "[1,2,1e31]", "/nodes/0/translation/2: is 1e+31"},
         {"/nodes/0/rotation", "[0,0,0,0]", "/nodes/0/rotation: has the length 0.0; should be a unit"},
-        {"/nodes/0/matrix", "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,2]", "/nodes/0/matrix: has another last row"},
+        {"/nodes/0/matrix", "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,2]", "/nodes/0/matrix: has a last row other"},
         {"/nodes/0", "{\"mesh\":0,\"scale\":[1,1,1],\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}",
             "/nodes/0: has a matrix and also"},
         {"/nodes/0/mesh", "", "/scenes: shows no triangles"},

@@ -38,7 +38,7 @@ struct Measurement {
             return;
         if (!began) {
             began = Clock::now();
-            std::fprintf(stderr, "A device reports; keep it moving for %.0f s (Ctrl-C: no longer)\n", seconds);
+            std::fprintf(stderr, "A device reports; keep it moving for %.0f s (Ctrl-C: stop earlier)\n", seconds);
         }
         latency.add(times);
     }
@@ -73,7 +73,7 @@ int bench_input(const std::string& layout, double seconds)
     exhibit_options.over = [&] { return measurement.over(); };
     catch_interrupts();
     WindowSystem window_system;
-    std::fprintf(stderr, "Move a stick, a throttle or a pad: it is timed from its first report on\n");
+    std::fprintf(stderr, "Move a stick, a throttle or a pad: timing starts with its first report\n");
     const int status = fly_exhibit(exhibit_options);
     if (!measurement.began)
         throw InputError("No stick, throttle or pad has reported anything within " + std::to_string(int(grace_s))

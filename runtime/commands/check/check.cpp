@@ -98,8 +98,8 @@ void print_globes(const SceneFile& scene, const Globes& globes)
     EyeAmongGlobes eye{glm::dvec3(0), 0, turn, scene.unit_m, scene.seconds_per_time_unit()};
     const std::vector<glm::dvec3> places = globe_places_m(globes.system, origin.days);
     std::printf(
-        "globes at %s's date from %s: place (x, y, z) at that time and radius, scene units; as %s sees it: light's way in "
-        "minutes, right ascension and declination (J2000)\n",
+        "globes at %s's date from %s: place (x, y, z) at that time and radius, scene units; as %s sees it: light travel "
+        "time in minutes, right ascension and declination (J2000)\n",
         scene.name.c_str(), scene.globes->origin.c_str(), scene.globes->origin.c_str());
     for (const SeenGlobe& one : globes_seen(globes.system, origin, eye)) {
         const Globe& globe = globes.system.globes[one.globe];
@@ -165,7 +165,8 @@ void add_check(Subcommand& app, std::function<int()>& chosen)
         "A layout file, or the name of one in config/layouts: its viewports and its floor plan. Or an exhibit's file: "
         "all files that the exhibit names are read, and its machines and their network are listed. Or a scene file or a "
         "glTF "
-        "world (.glb, .gltf): its size, its cost, what is drawn otherwise than it says, and a page with a plan and stills");
+        "world (.glb, .gltf): its size, its cost, what is drawn differently from the file, and a page with a plan and "
+        "stills");
     Option* scene = command->add_option("--scene", options->scene,
         "A scene file, or the name of one in config/scenes: how its light is represented, the worst error of a colour, and "
         "the places "
@@ -173,8 +174,7 @@ void add_check(Subcommand& app, std::function<int()>& chosen)
     scene->excludes(file);
     Option* flashes = command->add_option("--flashes", options->flashes.film,
         "A tour file, the name of one in config/tours, or a record of starbow run --record (.jsonl): the flashes that an "
-        "eye "
-        "sees, by WCAG 2.3.1; exit status 1 where there are more than three in a second");
+        "eye sees, by WCAG 2.3.1; exit status 1 where there are more than three in a second");
     flashes->excludes(file)->excludes(scene);
     command
         ->add_option("--layout", options->flashes.layout,
@@ -192,9 +192,7 @@ void add_check(Subcommand& app, std::function<int()>& chosen)
         ->needs(flashes);
     command->add_option("--svg", options->svg, "The drawing; without it LAYOUT-plan.svg in the current folder")
         ->excludes(flashes);
-    command
-        ->add_option("--write", options->write,
-            "With a glTF world: write a scene file with what is suggested for it, for you to change")
+    command->add_option("--write", options->write, "With a glTF world: write a suggested scene file for it, for you to edit")
         ->needs(file);
     command->add_option("--page", options->page, "With a world: the page; without it NAME-world.html in the current folder")
         ->needs(file);

@@ -107,7 +107,7 @@ void draw_chart(FlashPaper& sheet, const Typesetter& typesetter, const FlashStri
     }
     sheet.write(typesetter, "general flashes", {corner.x, corner.y + chart_height + 46}, general);
     sheet.write(typesetter, "red flashes", {corner.x + 190, corner.y + chart_height + 46}, red);
-    sheet.write(typesetter, "- - the most that may be in a second", {corner.x + 330, corner.y + chart_height + 46}, limit);
+    sheet.write(typesetter, "- - the most allowed in a second", {corner.x + 330, corner.y + chart_height + 46}, limit);
 }
 
 void draw_frame(FlashPaper& sheet, const FlashStrip& strip, glm::ivec2 corner, int most_height)

@@ -183,7 +183,7 @@ int measure(const FlashOptions& options, const Film& film, const Draw& draw)
             const bool too_many = general.breaks_limit() || red.breaks_limit();
             breaks = breaks || too_many;
             strip.title += ": most flashes in a second: " + described("general", general) + "; " + described("red", red)
-                + (too_many ? " -- more than may be" : "");
+                + (too_many ? " -- more than allowed" : "");
             std::printf("%s\n", strip.title.c_str());
             strips.push_back(std::move(strip));
         }
@@ -194,7 +194,7 @@ int measure(const FlashOptions& options, const Film& film, const Draw& draw)
     std::printf(
         "%s: at most %d flashes in any second may fill more than %.3f sr of a field of %.0f degrees (WCAG 2.3.1); %s\n%s\n",
         one_line(film.name).c_str(), most_flashes, flash_area_sr, flash_field_deg,
-        breaks ? "there are more" : "it keeps to that", file.c_str());
+        breaks ? "this exceeds that limit" : "this keeps to that limit", file.c_str());
     return breaks || !context.device.complaints.empty() ? 1 : 0;
 }
 

@@ -193,7 +193,7 @@ int check_world(const std::string& name, const std::string& page_name, const std
     std::vector<std::string> notes = context.world.world.notes;
     note_lacking_shadows(context.world.scene, context.world.world, notes);
     if (!notes.empty()) {
-        out << "<h2>To know</h2>\n<ul>\n";
+        out << "<h2>Notes</h2>\n<ul>\n";
         for (const std::string& note : notes)
             out << "<li>" << escaped_html(one_line(note)) << "</li>\n";
         out << "</ul>\n";

@@ -198,13 +198,15 @@ void add_measure(Subcommand& app, std::function<int()>& chosen)
         ->add_option(
             "--default", options->standard, "The quality whose settings are varied, and that all times are relative to")
         ->capture_default_str();
-    command->add_option("--settings", options->which, "What is tried: all, or only the shipped ones and yours (shipped)")
+    command
+        ->add_option(
+            "--settings", options->which, "Which settings are tried: all, or only the shipped ones and yours (shipped)")
         ->check(one_of({"all", "shipped"}))
         ->capture_default_str();
     command->add_option("--samples", options->samples, "Rays for each pixel of the reference")
         ->check(whole_number(1, 65536))
         ->capture_default_str();
-    command->add_option("--rounds", options->rounds, "Frames that are timed of each shot")
+    command->add_option("--rounds", options->rounds, "Timed frames of each shot")
         ->check(whole_number(1, 100000))
         ->capture_default_str();
     command
@@ -212,16 +214,14 @@ void add_measure(Subcommand& app, std::function<int()>& chosen)
             "Also choose: the most accurate setting whose frame takes no longer, as quality.json")
         ->check(number_between(0.01, 1e6));
     command->add_flag("--extremes", options->extremes,
-        "Instead: at the ends of what there is (speeds, places, times, sizes, views, light), whether all is finite and "
-        "within "
-        "its stated error, or refused");
+        "Instead: whether extreme inputs (speeds, places, times, sizes, views, light) give finite results within the stated "
+        "error, or are refused");
     command->add_flag("--explain", options->explain,
         "Instead: every part of a frame that the scene, the layout and the first shot switch on, why, and its cost; and "
-        "what "
-        "is off");
+        "what is off");
     command->add_flag("--shimmer", options->shimmer,
         "Instead: how much the live picture flickers in slow turns and slow acceleration from the first shot, beyond the "
-        "change of the picture by rays");
+        "change of the ray-traced picture");
     command->footer("Examples:\n  starbow measure --scene avenue --layout desk --out out/accuracy\n"
                     "  starbow measure --layout dome --size 1024x1024 --shot starbow --out out/dome --budget-ms 16\n"
                     "  starbow run --quality out/dome/quality.json\n  starbow measure --scene clocks --shot clocks-passing "

@@ -5,7 +5,7 @@
 namespace starbow {
 
 constexpr const char* quality_help
-    = "Speed for accuracy: draft, balanced or fine, or a quality file, such as starbow measure --budget-ms writes";
+    = "Speed or accuracy: draft, balanced or fine, or a quality file, such as starbow measure --budget-ms writes";
 
 /// The quality of --quality; none for an empty name. Throws InputError.
 inline std::optional<Quality> chosen_quality(const std::string& name)

@@ -190,7 +190,7 @@ void add_render(Subcommand& app, std::function<int()>& chosen)
     Option* frames
         = command->add_option("--frames", options->frames, "With --replay: the frames from A to B, counted from 0, as A:B")
               ->needs(replay);
-    Option* every = command->add_option("--every", options->every, "With --replay: each N-th frame")
+    Option* every = command->add_option("--every", options->every, "With --replay: every N-th frame")
                              ->check(whole_number(1, 1000000000))
                              ->needs(replay);
     Option* tour = command->add_option("--tour", options->tour,
@@ -211,7 +211,7 @@ void add_render(Subcommand& app, std::function<int()>& chosen)
               ->needs(movie);
     Option* join = command
                             ->add_flag("--join", options->join,
-                                "With --movie: make the movie of parts that are all drawn, without a device")
+                                "With --movie: make the movie from parts that are all drawn, without a GPU")
                             ->needs(movie)
                             ->excludes(part);
     command->add_option("--others", options->others, "With --join: folders of frames from other machines' disks")
@@ -220,8 +220,7 @@ void add_render(Subcommand& app, std::function<int()>& chosen)
     for (Option* other : {shot, out, exr, pattern, replay, points, overlay, why, mode})
         tour->excludes(other);
     Option* reference = command->add_flag("--reference", options->reference,
-        "Draw by rays, in double precision and with whole spectra, without a device: slow, the reference for the other "
-        "pictures");
+        "Trace rays in double precision and with whole spectra, without a GPU: slow, the reference for the other pictures");
     for (Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, overlay, why, mode})
         reference->excludes(other);
     command->add_option("--samples", options->samples, "With --reference: rays of each pixel")

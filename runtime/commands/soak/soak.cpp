@@ -302,9 +302,8 @@ void add_soak(Subcommand& app, std::function<int()>& chosen)
         ->capture_default_str();
     command
         ->add_option("--repeat", options->repeat,
-            "After so many visits the same visitors come again, and the comparison is of like with like: memory depends on "
-            "the "
-            "worlds that were shown last. 400 visits are compared; 0: all visitors are others")
+            "After this many visits the same visitors come again, and the comparison is of like with like: memory depends "
+            "on the worlds that were shown last. 400 visits are compared; 0: all visitors are others")
         ->check(whole_number(0, 100000000))
         ->capture_default_str();
     command
@@ -319,9 +318,8 @@ void add_soak(Subcommand& app, std::function<int()>& chosen)
         ->capture_default_str();
     command
         ->add_option("--log", options->log,
-            "This CSV file receives a line each twenty visits, and a picture beside it; a soak that was interrupted goes on "
-            "where "
-            "the file ends")
+            "This CSV file receives a line every twenty visits, and a picture beside it; a soak that was interrupted goes "
+            "on where the file ends")
         ->capture_default_str();
     command->footer("Examples:\n  xvfb-run starbow soak\n  starbow soak --visits 30000 --log out/soak.csv\n"
                     "  LP_NUM_THREADS=1 xvfb-run starbow soak --as tour --visits 20000 --log out/tour.csv");

@@ -12,7 +12,7 @@ void guard_transform(const Spot& node, tinygltf::Node& written)
             node.fail("has a matrix and also translation, rotation or scale; should have one or the other");
         auto matrix = numbers(node["matrix"], 16, -too_far, too_far);
         if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
-            node["matrix"].fail("has another last row than 0 0 0 1; glTF requires that one");
+            node["matrix"].fail("has a last row other than 0 0 0 1; glTF requires that row");
         written.matrix = matrix;
         return;
     }
