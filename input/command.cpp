@@ -132,7 +132,7 @@ Command command_of(std::span<const std::string> words)
     }
     case Value::name:
         if (!is_name(value))
-            refuse(*rule, "has the value " + one_line(value, 40) + ", which is no name of a shipped file");
+            refuse(*rule, "has the value " + one_line(value, 40) + ", which is not a name of a shipped file");
         command.text = value;
         break;
     case Value::text:

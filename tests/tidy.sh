@@ -21,7 +21,7 @@ if [ "${1:-}" = -- ]; then
 elif git rev-parse --verify --quiet "$base^{commit}" >/dev/null; then
     mapfile -t files < <(git diff --name-only --diff-filter=d "$base" -- '*.cpp')
 else
-    echo "$base is no commit of this repository; a branch, a tag or a commit is right." >&2
+    echo "$base is not a commit of this repository; a branch, a tag or a commit is right." >&2
     exit 2
 fi
 if [ ${#files[@]} = 0 ]; then

@@ -243,7 +243,7 @@ std::string Importer::packing(const Place& place)
     else if (mode == "test" || mode == "dummy")
         not_mapped(place, "it is a test of SGCT's; packing mono is written");
     else
-        complain(place, "is no stereo mode of SGCT's; none or side_by_side is right, for example");
+        complain(place, "is not a stereo mode of SGCT's; none or side_by_side is right, for example");
     return "mono";
 }
 

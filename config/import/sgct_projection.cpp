@@ -343,7 +343,7 @@ SgctPicture read_mirror_meshes(SgctReport& report, const Place& place, const Sgc
         const std::filesystem::path name = text(at);
         if (name.extension() != ".data") {
             report.leave_out(at,
-                "is no Bourke mesh (.data), for which SGCT has this projection; its files of other kinds bring views of "
+                "is not a Bourke mesh (.data), for which SGCT has this projection; its files of other kinds bring views of "
                 "their own or know no aspect");
             return {};
         }

@@ -138,7 +138,8 @@ Fault fault_of(const std::string& text, std::size_t at, const std::string& what)
     if (has("parsing object separator"))
         return {begin, seen + " follows a name; a colon between the name and its value is right"};
     if (has("invalid literal") || has("parsing value"))
-        return {begin, seen + " is no value; a number, a text in double quotes, true, false, null, [...] or {...} is right"};
+        return {
+            begin, seen + " is not a value; a number, a text in double quotes, true, false, null, [...] or {...} is right"};
     const std::size_t column = what.find(", column "), start = what.find(": ", column);
     return {at, one_line(what.substr(start == what.npos ? 0 : start + 2)) + "; JSON is right"};
 }

@@ -18,9 +18,9 @@ std::string fault_of(mode_t mode)
 {
     return S_ISREG(mode) ? ""
         : S_ISDIR(mode)  ? "is a folder"
-        : S_ISFIFO(mode) ? "is a FIFO and no file"
-        : S_ISSOCK(mode) ? "is a socket and no file"
-                         : "is a device and no file";
+        : S_ISFIFO(mode) ? "is a FIFO, not a file"
+        : S_ISSOCK(mode) ? "is a socket, not a file"
+                         : "is a device, not a file";
 }
 
 /// Writes all parts to an open descriptor; returns 0 or an errno.

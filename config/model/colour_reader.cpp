@@ -83,7 +83,7 @@ std::vector<glm::dvec3> load_cube(const std::filesystem::path& file)
             const auto number = word.size() == 2 ? as_number(word[1]) : std::nullopt;
             if (!number || *number != std::floor(*number) || *number < 2 || *number > double(most_entries))
                 complain_line(
-                    file, count, in_quotes(line) + " is no size; LUT_1D_SIZE and a number from 2 to 65536 are right");
+                    file, count, in_quotes(line) + " is not a size; LUT_1D_SIZE and a number from 2 to 65536 are right");
             size = std::size_t(*number);
             continue;
         }
@@ -123,7 +123,7 @@ std::vector<glm::dvec3> read_table(const Place& place, const std::filesystem::pa
     if (place.json->is_string())
         return load_cube(existing_file(place, folder));
     if (!place.json->is_array())
-        complain(place, "is no table; the name of a .cube file or a list of numbers in [ ] is right");
+        complain(place, "is not a table; the name of a .cube file or a list of numbers in [ ] is right");
     std::vector<glm::dvec3> table;
     for (const Place& at : items(place, 2, most_entries, "entries, numbers or [red, green, blue],")) {
         const glm::dvec3 entry = at.json->is_array() ? vec3(at, {0, 1}) : glm::dvec3(number(at, {0, 1}));

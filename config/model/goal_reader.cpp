@@ -8,7 +8,7 @@ Saying read_goal_text(const Place& place)
 {
     Saying saying = read_saying(place);
     if (!saying.key.empty() && !saying.key.starts_with("goal."))
-        complain(place, "is no text; a key of the words that begins with \"goal.\", or { \"en\": \"...\" } is right");
+        complain(place, "is not a text; a key of the words that begins with \"goal.\", or { \"en\": \"...\" } is right");
     return saying;
 }
 

@@ -255,7 +255,8 @@ HeadTracking read_head_tracker(const Place& place)
         tracking.address = text(*p);
         in_addr unused;
         if (inet_pton(AF_INET, tracking.address.c_str(), &unused) != 1)
-            complain(*p, "is no IPv4 address; \"127.0.0.1\" (a tracker on this computer) or \"0.0.0.0\" (on any) is right");
+            complain(
+                *p, "is not an IPv4 address; \"127.0.0.1\" (a tracker on this computer) or \"0.0.0.0\" (on any) is right");
     }
     take(place, "room_m", tracking.room_m, {0.1, 10});
     return tracking;

@@ -33,7 +33,7 @@ int hex_id(const Place& place)
     int value = 0;
     const auto end = digits.data() + digits.size();
     if (digits.size() != 4 || std::from_chars(digits.data(), end, value, 16).ptr != end)
-        complain(place, "is no USB number; four hexadecimal digits such as \"044f\" are right");
+        complain(place, "is not a USB number; four hexadecimal digits such as \"044f\" are right");
     return value;
 }
 

@@ -34,7 +34,7 @@ Quality read_quality(const Place& top)
     take(top, "max_texels_per_pixel", quality.max_texels_per_pixel, {0.05, 1000});
     take_whole(top, "cube_samples", quality.cube_samples, 1, 8);
     if (quality.cube_samples & (quality.cube_samples - 1))
-        complain(member(top, "cube_samples"), "is no number of samples that devices have; 1, 2, 4 or 8 is right");
+        complain(member(top, "cube_samples"), "is not a number of samples that devices have; 1, 2, 4 or 8 is right");
     take(top, "lod_error_texels", quality.lod_error_texels, {0, 100});
     take(top, "lod_shading_texels", quality.lod_shading_texels, {0, 1000});
     take(top, "image_cost_texels", quality.image_cost_texels, {0, 1e12});

@@ -13,7 +13,7 @@ std::string ip_address(const Place& place)
     const std::string address = text(place);
     in6_addr parsed{};
     if (inet_pton(AF_INET, address.c_str(), &parsed) != 1 && inet_pton(AF_INET6, address.c_str(), &parsed) != 1)
-        complain(place, "is no IP address; one such as \"127.0.0.1\" is right");
+        complain(place, "is not an IP address; one such as \"127.0.0.1\" is right");
     return address;
 }
 
@@ -31,7 +31,7 @@ std::string host_name(const Place& place)
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '.';
     });
     if (!v6 && !plain)
-        complain(place, "is no host's name; one such as \"starbow.local\", without scheme and port, is right");
+        complain(place, "is not a host's name; one such as \"starbow.local\", without scheme and port, is right");
     return name;
 }
 

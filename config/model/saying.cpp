@@ -7,7 +7,7 @@ Saying read_saying(const Place& place)
     if (place.json->is_string())
         return {.key = text(place), .texts = {}};
     if (!place.json->is_object() || place.json->empty())
-        complain(place, "is no text; a key of the words, or { \"en\": \"...\", \"de\": \"...\" } is right");
+        complain(place, "is not a text; a key of the words, or { \"en\": \"...\", \"de\": \"...\" } is right");
     Saying saying;
     for (const auto& [language, value] : place.json->items())
         saying.texts[language] = text(member(place, language));

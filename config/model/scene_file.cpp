@@ -108,7 +108,7 @@ double read_date(const Place& place)
                 std::chrono::year(year), std::chrono::month(unsigned(month)), std::chrono::day(unsigned(day))};
             at.ok())
             return (sys_days(at) - sys_days(2000y / January / 1)).count() - 0.5 + (hour + minute / 60.0) / 24;
-    complain(place, "is no date; one from 1800 to 2049 as \"2026-08-12T17:46Z\" (UTC) is right");
+    complain(place, "is not a date; one from 1800 to 2049 as \"2026-08-12T17:46Z\" (UTC) is right");
 }
 
 GlobeSky read_globes(const Place& place, const std::filesystem::path& folder)
@@ -152,7 +152,7 @@ Light read_light(const Place& place, const std::vector<Body>& bodies)
     const double distance = number(member(place, "distance"), {0, farthest, true});
     const auto body = find_member(place, "body");
     if (body && std::none_of(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == text(*body); }))
-        complain(*body, "is no body of this scene; a \"name\" of one of its \"bodies\" is right");
+        complain(*body, "is not a body of this scene; a \"name\" of one of its \"bodies\" is right");
     const auto cone = find_member(place, "cone");
     return PointLight{position, distance, read_colour(member(place, "radiance")), read_emission(place),
         body ? text(*body) : "", cone ? std::optional(read_cone(*cone)) : std::nullopt};

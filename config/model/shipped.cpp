@@ -64,7 +64,7 @@ std::vector<Profile> known_profiles(const fs::path& exhibits)
 {
     std::error_code error;
     if (!exhibits.empty() && !fs::is_directory(exhibits, error))
-        throw InputError(exhibits.string(), "", "is no folder; a folder with profiles is right");
+        throw InputError(exhibits.string(), "", "is not a folder; a folder with profiles is right");
     std::vector<Profile> all;
     const fs::path of_site = site();
     for (const fs::path& folder :

@@ -22,9 +22,9 @@ OrbitElements read_orbit(const Place& place)
         read_element(place, "L_deg"), read_element(place, "perihelion_longitude_deg"),
         read_element(place, "node_longitude_deg")};
     if (!(orbit.semi_major_au.at_j2000 > 0))
-        complain(member(place, "a_au"), "is no orbit's; a first number above 0 is right");
+        complain(member(place, "a_au"), "is not an orbit's; a first number above 0 is right");
     if (!(orbit.eccentricity.at_j2000 >= 0 && orbit.eccentricity.at_j2000 < 0.9))
-        complain(member(place, "e"), "is no planet's; a first number from 0 to below 0.9 is right");
+        complain(member(place, "e"), "is not a planet's; a first number from 0 to below 0.9 is right");
     return orbit;
 }
 
@@ -207,7 +207,7 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
             const std::string own = text(kind);
             if (std::none_of(
                     system.kinds.begin(), system.kinds.end(), [&](const NamedTable& one) { return one.name == own; }))
-                complain(kind, "is no kind of the file of \"spectra\"; one of its \"kinds\" is right");
+                complain(kind, "is not a kind of the file of \"spectra\"; one of its \"kinds\" is right");
             return own;
         };
         if (globe.scattering != Scattering::sun) {

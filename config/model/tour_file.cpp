@@ -22,7 +22,7 @@ struct Reader {
         const Saying saying = read_saying(place);
         if (!saying.key.empty() && !words.tour(saying.key))
             complain(place,
-                "is no text in " + words.file.filename().string()
+                "is not a text in " + words.file.filename().string()
                     + "; a key there that begins with \"tour.\", or { \"en\": \"...\" } is right");
         return said(saying, words);
     }

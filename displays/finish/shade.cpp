@@ -17,7 +17,7 @@ WarpMesh::Mask read_mask(const std::filesystem::path& file, double gamma)
     const std::string bytes = read_whole(file, std::size_t(512) << 20, "a PNG file");
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     if (!stbi_info_from_memory(data, int(bytes.size()), &mask.size.x, &mask.size.y, &channels))
-        throw InputError(file.string(), "", "is no picture; a PNG file is right");
+        throw InputError(file.string(), "", "is not a picture; a PNG file is right");
     constexpr int most = 16384;
     if (mask.size.x > most || mask.size.y > most)
         throw InputError(

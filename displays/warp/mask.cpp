@@ -68,7 +68,7 @@ WarpMesh::Mask read_mask(const WarpFile& file, const std::string& place, std::si
     const std::string_view png = file.content;
     const std::string right = "; a PNG of 8 or 16 bits is right";
     if (!png.starts_with("\x89PNG\r\n\x1a\n") || png.size() < 33 || png.substr(12, 4) != "IHDR")
-        refuse(file, place, "is no PNG" + right);
+        refuse(file, place, "is not a PNG" + right);
     if (!whole(png))
         refuse(file, place, "ends early or has a chunk that says it is longer than the file" + right);
     const auto* bytes = reinterpret_cast<const stbi_uc*>(png.data());

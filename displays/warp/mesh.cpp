@@ -257,7 +257,7 @@ WarpMesh read_warp(const WarpFile& file, const std::string& region, const FloatM
         break;
     }
     refuse(file, "",
-        "is no warp file that is known; a Bourke mesh (.data), MPCDI (.mpcdi), PFM (.pfm), domeprojection (.csv), "
+        "is not a warp file that is known; a Bourke mesh (.data), MPCDI (.mpcdi), PFM (.pfm), domeprojection (.csv), "
         "SimCAD (.simcad), SCISS (.sgc), Scalable (.ol), SkySkan (.txt), OBJ (.obj) or headset mesh is right");
 }
 

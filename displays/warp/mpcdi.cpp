@@ -110,8 +110,9 @@ Region chosen(const Element& root, const std::string& wanted)
                                                    : ", ")
             + in_quotes(twice ? regions[i].buffer_id + "/" + regions[i].id : regions[i].id);
     refuse(*root.file, "",
-        (wanted.empty() ? std::to_string(regions.size()) + " regions are in it and none is chosen"
-                        : in_quotes(wanted) + (fitting.empty() ? " is no region of it" : " is more than one region of it"))
+        (wanted.empty()
+                ? std::to_string(regions.size()) + " regions are in it and none is chosen"
+                : in_quotes(wanted) + (fitting.empty() ? " is not a region of it" : " is more than one region of it"))
             + "; the region " + names + " is right");
 }
 
@@ -122,7 +123,7 @@ double metres_of(const std::string& unit, const Element& element)
     for (const auto& [name, metres] : units)
         if (same(unit, name))
             return metres;
-    element.refuse(in_quotes(unit) + " is no unit; mm, cm, dm, m, in, ft or yd is right");
+    element.refuse(in_quotes(unit) + " is not a unit; mm, cm, dm, m, in, ft or yd is right");
 }
 
 /// From the file's axes to the cockpit's. The frame has the directions of three axes: yaw points down, pitch to the right,

@@ -14,7 +14,7 @@ std::uint32_t index(const Lines& lines, std::string_view text, std::size_t count
     const bool right = value && std::abs(*value) >= 1 && std::abs(*value) <= most && *value == std::floor(*value);
     if (!right)
         lines.refuse(
-            in_quotes(text) + " is the number of no " + what + "; one from 1 to " + std::to_string(count) + " is right");
+            in_quotes(text) + " is not the number of a " + what + "; one from 1 to " + std::to_string(count) + " is right");
     return std::uint32_t(*value > 0 ? *value - 1 : *value + most);
 }
 
@@ -36,13 +36,13 @@ WarpMesh read_obj(const WarpFile& file)
             continue;
         if (f[0] == "v") {
             if (f.size() < 4 || f.size() > 5)
-                lines.refuse(in_quotes(lines.text()) + " is no vertex; v x y z is right");
+                lines.refuse(in_quotes(lines.text()) + " is not a vertex; v x y z is right");
             positions.push_back(
                 {(lines.number(f[1], position_range) + 1) / 2, (1 - lines.number(f[2], position_range)) / 2});
             deep |= lines.number(f[3], {-1e30, 1e30}) != 0;
         } else if (f[0] == "vt") {
             if (f.size() < 3 || f.size() > 4)
-                lines.refuse(in_quotes(lines.text()) + " is no place in the picture; vt u v is right");
+                lines.refuse(in_quotes(lines.text()) + " is not a place in the picture; vt u v is right");
             places.push_back({lines.number(f[1], picture_range), 1 - lines.number(f[2], picture_range)});
         } else if (f[0] == "f") {
             if (f.size() < 4)

@@ -57,7 +57,7 @@ FloatMap read_float_map(const WarpFile& file, const FloatMapForm& form)
         const std::optional<double> value = parsed(text);
         if (!value || *value != std::floor(*value) || *value < 1 || *value > most_grid)
             refuse(file, "PFM header",
-                in_quotes(text) + " is no size; a whole number from 1 to " + std::to_string(most_grid) + " is right");
+                in_quotes(text) + " is not a size; a whole number from 1 to " + std::to_string(most_grid) + " is right");
         *side = int(*value);
     }
     const std::string_view text = word("the scale");
@@ -65,7 +65,7 @@ FloatMap read_float_map(const WarpFile& file, const FloatMapForm& form)
     if (!scale || *scale == 0)
         refuse(file, "PFM header",
             in_quotes(text)
-                + " is no scale; a number below 0 for little-endian values, above for big-endian ones, is right");
+                + " is not a scale; a number below 0 for little-endian values, above for big-endian ones, is right");
     rest.remove_prefix(rest.starts_with("\r\n") ? 2 : 1);
     const std::size_t count = std::size_t(map.size.x) * std::size_t(map.size.y);
     if (rest.size() / 12 != count || rest.size() % 12 != 0)
@@ -133,7 +133,7 @@ WarpMesh offset_mesh(const FloatMap& map, const WarpFile& file, const std::vecto
         if (!holes[i] && !(std::abs(value.x) < 1 && std::abs(value.y) < 1))
             refuse(file, cell_name(map, i),
                 shown(value.x) + ", " + shown(value.y)
-                    + " is no offset from a regular grid; numbers between -1 and 1, or NaN for a hole, are right");
+                    + " is not an offset from a regular grid; numbers between -1 and 1, or NaN for a hole, are right");
         const glm::dvec2 offset = holes[i] ? glm::dvec2(0) : glm::dvec2(value.x, -value.y);
         vertex.sees[0] = glm::dvec3(vertex.at, 0);
         turned.push_back(vertex.at + glm::dvec2(offset.x, -offset.y));
@@ -194,7 +194,7 @@ WarpMesh place_mesh(const FloatMap& map, const WarpFile& file)
         if (!holes[i] && glm::any(glm::greaterThan(glm::abs(glm::dvec2(value)), glm::dvec2(picture_range.high))))
             refuse(file, cell_name(map, i),
                 shown(value.x) + ", " + shown(value.y)
-                    + " is no place in the picture; numbers from 0 to 1, or NaN for a hole, are right");
+                    + " is not a place in the picture; numbers from 0 to 1, or NaN for a hole, are right");
         const glm::dvec3 place(value.x, map.form.v_up ? 1 - value.y : value.y, 0);
         values.push_back({{}, holes[i] ? 0.0 : 1.0, {holes[i] ? glm::dvec3(0) : place}});
     }

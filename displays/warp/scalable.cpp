@@ -49,12 +49,12 @@ struct Content {
 void read_face(const Lines& lines, const Fields& f, Content& content)
 {
     if (f.size() != 5 || f[4] != "]")
-        lines.refuse(in_quotes(lines.text()) + " is no face; [ i j k ] is right");
+        lines.refuse(in_quotes(lines.text()) + " is not a face; [ i j k ] is right");
     std::array<std::uint32_t, 3> t{};
     for (std::size_t i = 0; i < 3; ++i) {
         const std::optional<double> value = parsed(f[i + 1]);
         if (!value || *value != std::floor(*value) || *value < 0 || *value >= double(content.mesh.vertices.size()))
-            lines.refuse(in_quotes(f[i + 1]) + " is the number of no vertex before it; one below "
+            lines.refuse(in_quotes(f[i + 1]) + " is not the number of a vertex before it; one below "
                 + std::to_string(content.mesh.vertices.size()) + " is right");
         t[i] = std::uint32_t(*value);
     }
@@ -66,7 +66,7 @@ void read_face(const Lines& lines, const Fields& f, Content& content)
 void read_vertex(const Lines& lines, const Fields& f, WarpMesh& mesh)
 {
     if (f.size() != 5)
-        lines.refuse(in_quotes(lines.text()) + " is no vertex; x y intensity s t is right");
+        lines.refuse(in_quotes(lines.text()) + " is not a vertex; x y intensity s t is right");
     mesh.vertices.push_back(
         {{lines.number(f[0], {-1e6, 1e6}), lines.number(f[1], {-1e6, 1e6})}, lines.number(f[2], {0, 255}) / 255,
             {glm::dvec3(lines.number(f[3], picture_range), 1 - lines.number(f[4], picture_range), 0)}});

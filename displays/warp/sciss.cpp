@@ -73,7 +73,7 @@ Head read_head(Reader& in)
 {
     const WarpFile& file = in.file;
     if (!file.content.starts_with("SGC") || file.content.size() < 4)
-        refuse(file, "byte 0", "is no SCISS mesh; one that begins with SGC is right");
+        refuse(file, "byte 0", "is not a SCISS mesh; one that begins with SGC is right");
     in.at = 3;
     const int version = in.byte();
     if (version != 1 && version != 2)
@@ -92,7 +92,8 @@ glm::dquat read_projector(Reader& in, const Head& head, WarpMesh& mesh)
                  qz = in.number("the quaternion's z", unit), qw = in.number("the quaternion's w", unit);
     glm::dquat turn(qw, qx, qy, qz);
     if (std::abs(glm::length(turn) - 1) > 0.01)
-        refuse(in.file, "byte 8", "a quaternion of length " + shown(glm::length(turn)) + " is no turn; length 1 is right");
+        refuse(
+            in.file, "byte 8", "a quaternion of length " + shown(glm::length(turn)) + " is not a turn; length 1 is right");
     turn = glm::normalize(turn);
     const double x = in.number("the position's x", metre_range), y = in.number("the position's y", metre_range),
                  z = in.number("the position's z", metre_range);
@@ -119,7 +120,7 @@ Arrangement read_arrangement(Reader& in, int version)
     if (version == 1) {
         if (first < 2 || second < 2 || first > std::uint32_t(most_grid) || second > std::uint32_t(most_grid))
             refuse(in.file, "byte 52",
-                std::to_string(first) + " columns and " + std::to_string(second) + " rows are no grid; 2 to "
+                std::to_string(first) + " columns and " + std::to_string(second) + " rows are not a grid; 2 to "
                     + std::to_string(most_grid) + " of each is right");
         return {std::size_t(first) * second, true, {int(first), int(second)}};
     }
@@ -168,7 +169,7 @@ std::uint32_t read_triangles(Reader& in, const Arrangement& arrangement, WarpMes
         const std::uint32_t index = indices > 0 ? in.word("an index") : std::uint32_t(i);
         if (index >= count)
             refuse(in.file, place,
-                std::to_string(index) + " is the number of no vertex; one below " + std::to_string(count) + " is right");
+                std::to_string(index) + " is not the number of a vertex; one below " + std::to_string(count) + " is right");
         if (i == 1)
             second_index = index;
         t = {t[1], t[2], index};

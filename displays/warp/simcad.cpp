@@ -16,7 +16,7 @@ std::vector<double> offsets(const WarpFile& file, const pugi::xml_node& definiti
     const std::string_view written = node.attribute("range").value();
     const std::optional<double> range = parsed(written);
     if (!range || !(*range >= 1) || *range > 65536)
-        refuse(file, place + "/@range", in_quotes(written) + " is no number of pixels; one from 1 to 65536 is right");
+        refuse(file, place + "/@range", in_quotes(written) + " is not a number of pixels; one from 1 to 65536 is right");
     const std::string_view text = node.text().get();
     std::vector<double> values;
     for (std::size_t at = text.find_first_not_of(" \t\r\n"); at < text.size(); at = text.find_first_not_of(" \t\r\n", at)) {
@@ -52,7 +52,7 @@ WarpMesh read_simcad(const WarpFile& file)
     const int side = int(std::lround(std::sqrt(double(x.size()))));
     if (side < 2 || std::size_t(side) * std::size_t(side) != x.size())
         refuse(file, "GeometryFile/GeometryDefinition",
-            "has " + std::to_string(x.size()) + " offsets, which is no square; 33 x 33 = 1089 is right");
+            "has " + std::to_string(x.size()) + " offsets, which is not a square; 33 x 33 = 1089 is right");
 
     WarpMesh mesh;
     mesh.format = "SimCAD mesh";

@@ -32,7 +32,7 @@ void want_grid(const WarpMesh& mesh, const std::string& name, const std::string&
             "shows no flat picture, and " + format + " can hold nothing else; a mesh of places in a picture is right");
     if (mesh.grid.x < 2 || mesh.grid.y < 2)
         throw InputError(name, "",
-            "is no grid of vertices, and " + format + " can hold nothing else; sampled on a grid, with a size, is right");
+            "is not a grid of vertices, and " + format + " can hold nothing else; sampled on a grid, with a size, is right");
 }
 
 bool near(double a, double b) { return std::abs(a - b) < 1e-9; }

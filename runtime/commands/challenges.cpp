@@ -26,7 +26,7 @@ const Challenge& challenge_named(const std::string& name)
             return challenge;
         known += (known.empty() ? "" : ", ") + std::string(challenge.name);
     }
-    throw InputError("\"" + one_line(name) + "\" is no challenge; there are: " + known);
+    throw InputError("\"" + one_line(name) + "\" is not a challenge; there are: " + known);
 }
 
 /// Reads a log line by line, with the progress of a long one.

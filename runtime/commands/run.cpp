@@ -104,7 +104,7 @@ ExhibitOptions open(const RunOptions& options)
     }
     if (exhibit_options.visiting && !options.record.empty() && !std::filesystem::is_directory(options.record))
         throw InputError("--record " + options.record
-            + " is no folder; the exhibit records each visit in a file of its own, and a folder is right");
+            + " is not a folder; the exhibit records each visit in a file of its own, and a folder is right");
     return exhibit_options;
 }
 

@@ -34,8 +34,8 @@ std::optional<glm::ivec2> parse_size(const std::string& text, int most)
         if (height.ec == std::errc() && height.ptr == end && size.x >= 2 && size.y >= 2 && size.x <= most && size.y <= most)
             return size;
     }
-    throw InputError(
-        "--size " + text + " is no size; give width x height, each from 2 to " + std::to_string(most) + ", such as 960x540");
+    throw InputError("--size " + text + " is not a size; give width x height, each from 2 to " + std::to_string(most)
+        + ", such as 960x540");
 }
 
 void line(const char* label, const std::string& value) { std::printf("%-10s %s\n", label, one_line(value).c_str()); }
@@ -171,7 +171,8 @@ int convert(const WarpOptions& options)
         const char* end = options.aspect.data() + options.aspect.size();
         const auto [at, error] = std::from_chars(options.aspect.data(), end, aspect);
         if (error != std::errc() || at != end || !(aspect >= 0.01 && aspect <= 100))
-            throw InputError("--aspect " + options.aspect + " is no width over height; a number from 0.01 to 100 is right");
+            throw InputError(
+                "--aspect " + options.aspect + " is not a width over height; a number from 0.01 to 100 is right");
     }
     const std::optional<glm::ivec2> size = parse_size(options.size, 4096);
     WarpMesh mesh = load_warp(options.warp());

@@ -54,7 +54,7 @@ void check_machines(const Machines& machines, const Layout& layout, const std::s
     if (!node.empty() && std::ranges::find(nodes, node) == nodes.end())
         throw InputError("--node " + node + " is none of the layout " + layout.name + "; one of these is right: " + list);
     if (std::ranges::find(nodes, machines.master) == nodes.end())
-        throw InputError("The master of the exhibit's machines, \"" + machines.master + "\", is no node of the layout "
+        throw InputError("The master of the exhibit's machines, \"" + machines.master + "\", is not a node of the layout "
             + layout.name + "; one of these is right: " + list);
 }
 

@@ -21,8 +21,8 @@ std::pair<double, bool> take_number(const std::string& part, std::string_view& t
     double value = 0;
     const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
     if (read.ec != std::errc() || !std::isfinite(value))
-        refuse(
-            part, "is no point; X,Y in pixels or Adeg,Bdeg from straight ahead, such as 400,300 or 12deg,-3.5deg, is right");
+        refuse(part,
+            "is not a point; X,Y in pixels or Adeg,Bdeg from straight ahead, such as 400,300 or 12deg,-3.5deg, is right");
     text.remove_prefix(std::size_t(read.ptr - text.data()));
     const bool degrees = text.starts_with("deg");
     text.remove_prefix(degrees ? 3 : 0);
@@ -39,8 +39,8 @@ Point parse_point(std::string part, glm::ivec2 size)
     text.remove_prefix(1);
     const auto [y, y_degrees] = take_number(part, text);
     if (!text.empty() || x_degrees != y_degrees)
-        refuse(
-            part, "is no point; X,Y in pixels or Adeg,Bdeg from straight ahead, such as 400,300 or 12deg,-3.5deg, is right");
+        refuse(part,
+            "is not a point; X,Y in pixels or Adeg,Bdeg from straight ahead, such as 400,300 or 12deg,-3.5deg, is right");
     if (x_degrees) {
         const double azimuth = x * degree, elevation = y * degree;
         return glm::dvec3(

@@ -95,7 +95,7 @@ void take_turn(const Place& place, const std::string& name, glm::dquat& turn)
         return;
     const glm::dvec4 v = vec4(*p, {-1.001, 1.001});
     if (std::abs(glm::length(v) - 1) > 0.001)
-        complain(*p, "is no turn; a list of four numbers whose squares add up to 1 is right");
+        complain(*p, "is not a turn; a list of four numbers whose squares add up to 1 is right");
     turn = glm::dquat(v[0], v[1], v[2], v[3]);
 }
 
@@ -111,7 +111,7 @@ std::uint64_t read_digest(const Place& place)
 {
     const std::string digits = text(place);
     if (digits.size() != 16 || digits.find_first_not_of("0123456789abcdef") != digits.npos)
-        complain(place, "is no digest; a text of 16 hexadecimal digits is right");
+        complain(place, "is not a digest; a text of 16 hexadecimal digits is right");
     return std::stoull(digits, nullptr, 16);
 }
 
@@ -225,7 +225,7 @@ Command read_command(const Place& place)
     try {
         return command_of(words);
     } catch (const InputError& error) {
-        complain(place, std::string("is no command (") + error.what() + ")");
+        complain(place, std::string("is not a command (") + error.what() + ")");
     }
 }
 

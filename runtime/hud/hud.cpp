@@ -230,7 +230,7 @@ std::string font_fault(std::string_view bytes)
         return value;
     };
     if (bytes.size() < 12 || word(0) != 0x00010000)
-        return "is no TrueType font";
+        return "is not a TrueType font";
     const std::size_t tables = word(4) >> 16;
     std::set<std::string_view> needed{"cmap", "glyf", "head", "hhea", "hmtx", "loca", "maxp"};
     for (std::size_t i = 0; i < tables; ++i) {
@@ -259,7 +259,8 @@ Typesetter::Typesetter(const std::filesystem::path& file)
     const std::string fault = font_fault(font_->file);
     const auto* bytes = reinterpret_cast<const unsigned char*>(font_->file.data());
     if (!fault.empty() || !stbtt_InitFont(&font_->info, bytes, 0))
-        throw InputError(one_line(file.string()), "", (fault.empty() ? "is no font" : fault) + "; " + right + " is right");
+        throw InputError(
+            one_line(file.string()), "", (fault.empty() ? "is not a font" : fault) + "; " + right + " is right");
 }
 
 Typesetter::~Typesetter() = default;

@@ -97,15 +97,15 @@ double read_cell(std::string_view cell, const Column& column, const std::string&
     switch (column.kind) {
     case Kind::time:
         if (!is_time(cell))
-            wrong("is no time; one such as 2026-11-25T08:30:00.000Z is right");
+            wrong("is not a time; one such as 2026-11-25T08:30:00.000Z is right");
         return none;
     case Kind::overlay:
         if (std::find(overlay_names.begin(), overlay_names.end(), cell) == overlay_names.end())
-            wrong("is no overlay; off, aim, grid, ring, distance or emission is right");
+            wrong("is not an overlay; off, aim, grid, ring, distance or emission is right");
         return none;
     case Kind::flag:
         if (cell != "0" && cell != "1")
-            wrong("is no switch; 0 or 1 is right");
+            wrong("is not a switch; 0 or 1 is right");
         return cell == "1";
     case Kind::number:
         break;
@@ -117,7 +117,7 @@ double read_cell(std::string_view cell, const Column& column, const std::string&
     double value = 0;
     const auto read = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (read.ec != std::errc() || read.ptr != cell.data() + cell.size() || !std::isfinite(value))
-        wrong(std::string("is no number") + right);
+        wrong(std::string("is not a number") + right);
     const auto [low, high, low_open] = column.range;
     if (value < low || value > high || (low_open && value == low))
         wrong("is out of range; a number "

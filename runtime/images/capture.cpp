@@ -38,12 +38,12 @@ void check_writable(const std::filesystem::path& file)
     namespace fs = std::filesystem;
     std::error_code error;
     if (fs::exists(file, error) && !fs::is_regular_file(file, error))
-        throw InputError(file.string(), "", "is there and is no file; a name that is free or a file's is right");
+        throw InputError(file.string(), "", "is there and is not a file; a name that is free or a file's is right");
     fs::path folder = fs::absolute(file, error).parent_path();
     while (!fs::exists(folder, error) && folder.has_relative_path())
         folder = folder.parent_path();
     if (!fs::is_directory(folder, error))
-        throw InputError(file.string(), "", "can't be written: " + folder.string() + " is no folder; a folder is right");
+        throw InputError(file.string(), "", "can't be written: " + folder.string() + " is not a folder; a folder is right");
     if (access(folder.c_str(), W_OK | X_OK) != 0)
         throw InputError(file.string(), "",
             "can't be written: " + folder.string() + " is not writable by this user; give another folder");

@@ -29,7 +29,7 @@ std::optional<Network> network_of(const std::string& text)
     in_addr address{};
     if (error != std::errc() || stop != end || bits < 1 || bits > 32
         || inet_pton(AF_INET, text.substr(0, slash).c_str(), &address) != 1)
-        throw InputError("interface \"" + text + "\" is no network; one such as \"192.168.7.0/24\" is right");
+        throw InputError("interface \"" + text + "\" is not a network; one such as \"192.168.7.0/24\" is right");
     return Network{ntohl(address.s_addr), std::uint32_t(~std::uint64_t(0) << (32 - bits))};
 }
 

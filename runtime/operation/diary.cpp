@@ -65,7 +65,7 @@ std::filesystem::path day_file(const std::filesystem::path& state, const std::st
 Day load_day(const std::filesystem::path& state, const std::string& date)
 {
     if (!is_date(date))
-        throw InputError(one_line(date, 40) + " is no day; a date such as 2026-11-23 is right");
+        throw InputError(one_line(date, 40) + " is not a day; a date such as 2026-11-23 is right");
     Day day{date};
     const std::filesystem::path file = day_file(state, date);
     std::error_code error;
@@ -74,10 +74,10 @@ Day load_day(const std::filesystem::path& state, const std::string& date)
     const Document document = read_document(file);
     const Place top = root(document);
     if (!top.json->is_object() || !find_member(top, "starbow_day"))
-        complain(top, "is no day's counts; a file that starbow run has written is right");
+        complain(top, "is not a day's counts; a file that starbow run has written is right");
     const Place hours = member(top, "hours");
     if (!hours.json->is_object())
-        complain(hours, "is no list of hours; an object with members such as \"09\" is right");
+        complain(hours, "is not a list of hours; an object with members such as \"09\" is right");
     for (int hour = 0; hour < 24; ++hour)
         if (const auto at = hours.json->find(std::string(hour < 10 ? "0" : "") + std::to_string(hour));
             at != hours.json->end())

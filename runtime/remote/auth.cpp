@@ -88,7 +88,7 @@ Pins read_pins(const std::filesystem::path& file)
         // The line itself is not shown: messages go into the log, and it may hold a PIN.
         if (known == role_names.end() || !is_pin(pin) || !more.empty())
             throw InputError(file.string(), std::to_string(number),
-                "the line is no role (look, docent or engineer) with a PIN of six digits; \"docent\" and six digits is "
+                "the line is not a role (look, docent or engineer) with a PIN of six digits; \"docent\" and six digits is "
                 "right");
         std::string& place = pins[std::size_t(known - role_names.begin())];
         if (!place.empty() || std::ranges::find(pins, pin) != pins.end())

@@ -25,7 +25,7 @@ json object_of(std::string_view text)
             + std::to_string(most_message_bytes) + " are right");
     json message = json::parse(text.begin(), text.end(), nullptr, false);
     if (!message.is_object())
-        throw InputError("a message is no JSON object; {\"id\": 1, \"command\": [\"stop\"]} is right");
+        throw InputError("a message is not a JSON object; {\"id\": 1, \"command\": [\"stop\"]} is right");
     return message;
 }
 
@@ -71,11 +71,11 @@ Request request_of(std::string_view text)
         return request;
     }
     if (!command->is_array() || command->size() > 2)
-        throw InputError("a message's command is no list of one or two texts; [\"stop\"] is right");
+        throw InputError("a message's command is not a list of one or two texts; [\"stop\"] is right");
     std::vector<std::string> words;
     for (const json& word : *command) {
         if (!word.is_string())
-            throw InputError("a message's command is no list of one or two texts; [\"stop\"] is right");
+            throw InputError("a message's command is not a list of one or two texts; [\"stop\"] is right");
         words.push_back(word.get<std::string>());
     }
     request.command = command_of(words);

@@ -53,7 +53,7 @@ Command command_of_message(std::span<const unsigned char> bytes)
     int result = 0;
     const std::unique_ptr<lo_message, FreeMessage> message(lo_message_deserialise(aligned.data(), bytes.size(), &result));
     if (!message)
-        throw InputError("a datagram is no OSC message; one such as /starbow/scene avenue is right");
+        throw InputError("a datagram is not an OSC message; one such as /starbow/scene avenue is right");
     const std::string path = reinterpret_cast<const char*>(bytes.data()); // deserialise has found its end
     if (!path.starts_with(prefix))
         throw InputError("the OSC address " + one_line(path, 60) + " is not known; one such as /starbow/stop is right");

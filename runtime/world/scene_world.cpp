@@ -39,7 +39,7 @@ World load_world(const SceneFile& scene)
         const std::string& origin = scene.globes->origin;
         if (std::none_of(globes.begin(), globes.end(), [&](const Globe& globe) { return globe.name == origin; }))
             throw InputError(scene.file, "/globes/origin",
-                '"' + origin + "\" is no globe of " + one_line(scene.globes->file.string())
+                '"' + origin + "\" is not a globe of " + one_line(scene.globes->file.string())
                     + "; a \"body\" of that file is right");
     }
     if (!scene.stars || !scene.stars->milky_way)

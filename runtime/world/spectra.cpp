@@ -122,7 +122,7 @@ NeededLevel needed_level(const World& world, const SceneFile& scene)
     }
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         if (light.light.lamps[i][0].kind > 0)
-            needed.why = "light " + std::to_string(i) + " is no sunlight";
+            needed.why = "light " + std::to_string(i) + " is not sunlight";
     if (passing)
         needed.why = "light " + std::to_string(*passing) + " shines on what does not move with it";
     return needed;

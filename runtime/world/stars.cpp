@@ -49,7 +49,7 @@ struct Line {
         int value = 0;
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
         if (error != std::errc() || end != word.data() + word.size() || value < column.low || value > column.high)
-            refuse(quoted(word) + " is no " + column.what + "; a whole number from " + std::to_string(column.low) + " to "
+            refuse(quoted(word) + " is not a " + column.what + "; a whole number from " + std::to_string(column.low) + " to "
                 + std::to_string(column.high) + " is right");
         return value;
     }
@@ -64,7 +64,7 @@ struct Line {
         }
         if (words.size() != 5)
             refuse(quoted(text)
-                + " is no star; five columns (right ascension, declination, magnitude, B-V, parallax) are right");
+                + " is not a star; five columns (right ascension, declination, magnitude, B-V, parallax) are right");
         const double ra = value(words[0], columns[0]), dec = value(words[1], columns[1]);
         const double magnitude = value(words[2], columns[2]);
         const double b_v = words[3] == "-" ? sun_b_v : 0.01 * value(words[3], columns[3]);

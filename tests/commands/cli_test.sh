@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Wrong input at the command line ends with exit 2, one line, and no file written. Usage: cli_test.sh PROGRAM
+# Wrong input at the command line ends with exit 2, one line,, not a file written. Usage: cli_test.sh PROGRAM
 set -u
 program=$1
 folder=$(mktemp -d)
@@ -90,7 +90,7 @@ mkdir -p "$folder/half/desk.exr"
 said=$("$program" render --shot start --size 8x8 --exr --out "$folder/half" 2>&1 >/dev/null)
 if [ $? != 2 ] || [ -e "$folder/half/desk.png" ]; then fail "a folder in the EXR's place: $said"; else passed=$((passed + 1)); fi
 said=$("$program" bench --json "$folder" 2>&1 >/dev/null)
-if [ $? != 2 ] || [[ $said != *"no file"* ]]; then fail "bench into a folder: $said"; else passed=$((passed + 1)); fi
+if [ $? != 2 ] || [[ $said != *"not a file"* ]]; then fail "bench into a folder: $said"; else passed=$((passed + 1)); fi
 refused 'a?b?[31m' render --shot $'a\nb\e[31m'
 
 # `check` writes a layout's floor plan to the named file, and none for a wrong layout.
@@ -106,7 +106,7 @@ done
 warps=$(cd "$(dirname "$0")/.." && pwd)/warp
 refused 'no-such.data' warp inspect "$folder/no-such.data"
 echo 'Dear Sir' > "$folder/letter"
-refused 'no warp file that is known' warp inspect "$folder/letter"
+refused 'not a warp file that is known' warp inspect "$folder/letter"
 head -c 300 "$warps/channel1_warp_u2.sgc" > "$folder/short.sgc"
 refused 'byte 56' warp inspect "$folder/short.sgc"
 refused '--size' warp inspect "$warps/channel1_warp_u2.sgc" --size 1x1
@@ -255,14 +255,14 @@ begins_with() { # TEXT ARGUMENTS...
     said=$("$program" "$@" 2>&1 >/dev/null)
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == "starbow: $text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not begin with '$text': $said"; fi
 }
-begins_with 'fly is no command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench, measure, report, soak, tell, challenges and class are' fly
-begins_with 'look is no command; inspect and convert are' warp look
-begins_with "--ouput is no option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
-begins_with "--sizes is no option of 'starbow warp inspect'; " warp inspect x --sizes 3
+begins_with 'fly is not a command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench, measure, report, soak, tell, challenges and class are' fly
+begins_with 'look is not a command; inspect and convert are' warp look
+begins_with "--ouput is not an option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
+begins_with "--sizes is not an option of 'starbow warp inspect'; " warp inspect x --sizes 3
 begins_with "out is one argument too many for 'starbow run'" run out
-begins_with '--frames: x is no whole number; one from 0 to 1000000000 is right' run --frames x
-begins_with '--frames: -1 is no whole number that fits; one from 0 to 1000000000 is right' run --frames -1
-begins_with '--node: one is no whole number; ' import sgct x --out y --node one
+begins_with '--frames: x is not a whole number; one from 0 to 1000000000 is right' run --frames x
+begins_with '--frames: -1 is not a whole number that fits; one from 0 to 1000000000 is right' run --frames -1
+begins_with '--node: one is not a whole number; ' import sgct x --out y --node one
 begins_with '--out is required' render --shot start
 refused 'no first row' warp inspect "$warps/standard_16x9.data" --first-row-on-top
 
@@ -270,8 +270,8 @@ begins_with 'no exhibit answers at 127.0.0.1:1' tell --pin 123456 --port 1 stop
 begins_with 'no exhibit answers at 127.0.0.1:1' tell --pin 123456 --port 1 status
 begins_with 'the command jump is not known; one of these is right: fade, stop' tell --pin 123456 jump
 begins_with 'the command stop has 1 values; stop alone is right' tell --pin 123456 stop now
-begins_with 'the command scene has the value ../secret, which is no name of a shipped file' tell --pin 123456 scene ../secret
-begins_with '--port: 0 is no whole number that fits; one from 1 to 65535 is right' tell --port 0 stop
+begins_with 'the command scene has the value ../secret, which is not a name of a shipped file' tell --pin 123456 scene ../secret
+begins_with '--port: 0 is not a whole number that fits; one from 1 to 65535 is right' tell --port 0 stop
 printf 'docent 123456\n' > "$folder/pins" && chmod 644 "$folder/pins"
 begins_with "$folder/pins: has the rights 644, which opens it to more people" tell --pin-file "$folder/pins" stop
 
@@ -396,7 +396,7 @@ says 'declares no input' devices --describe "$folder/hello.bin"
 
 # Measurements.
 refused 'has one number' render --shot start --measure 400
-refused 'is no point' render --shot start --measure '1deg,2'
+refused 'is not a point' render --shot start --measure '1deg,2'
 refused 'lies outside the picture' render --shot start --measure '100,100;800,5'
 refused 'overlay' render --shot start --overlay none
 said=$("$program" render --shot clocks-passing --size 200x150 --out "$folder/lab" --measure '-14.7deg,0deg; 16.8deg,0deg' --overlay ring --why delay)
@@ -414,7 +414,7 @@ says 'there are:' run --exhibit "$folder/exhibit.json"
 exhibit '{ "scene": "sub/no-such.json" }'
 says 'no-such.json' run --exhibit "$folder/exhibit.json"
 exhibit '{ "profiles": "no-such" }'
-says 'is no folder' run --exhibit "$folder/exhibit.json"
+says 'is not a folder' run --exhibit "$folder/exhibit.json"
 
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]

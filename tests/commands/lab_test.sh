@@ -53,7 +53,7 @@ refused 'empty.csv is empty; a log' class newton.csv empty.csv
 refused 'weather.csv:1: column 1: "date" is not' class newton.csv weather.csv
 refused 'names.csv:1: has the names of a log and no line' class newton.csv names.csv
 refused 'cells; a line as starbow run --log writes it' class cut.csv newton.csv
-refused 'switch.csv:3: doppler_on: "maybe" is no switch; 0 or 1 is right' class switch.csv
+refused 'switch.csv:3: doppler_on: "maybe" is not a switch; 0 or 1 is right' class switch.csv
 refused 'noise.csv:1: column 1: ' class noise.csv
 refused 'no-such.csv' class newton.csv no-such.csv
 refused 'is a folder' class folder.csv

@@ -266,7 +266,7 @@ refused() { # TEXT OPTIONS...
 }
 sed 's/"interface": "lo"/"interface": "10.0.0.0\/99"/' "$folder/exhibit.json" >"$folder/no-network.json"
 said=$(timeout 60 "$program" check "$folder/no-network.json" --svg "$folder/none.svg" 2>&1)
-[ $? = 2 ] && [[ $said == *'interface "10.0.0.0/99" is no network; one such as "192.168.7.0/24" is right'* ]] && [ ! -e "$folder/none.svg" ] || fail "check of what is no network: $said"
+[ $? = 2 ] && [[ $said == *'interface "10.0.0.0/99" is not a network; one such as "192.168.7.0/24" is right'* ]] && [ ! -e "$folder/none.svg" ] || fail "check of what is not a network: $said"
 ok
 # check reads an exhibit, and says who shows what on which network.
 said=$("$program" check "$folder/exhibit.json" --svg "$folder/plan.svg") || fail "check: $said"
@@ -280,9 +280,9 @@ refused '"machines" in its file is right' --exhibit desk --node left
 sed 's/"interface": "lo"/"interface": "none0"/' "$folder/exhibit.json" >"$folder/none.json"
 refused 'interface "none0" is none of this machine; one of these is right: lo (127.0.0.1)' --exhibit "$folder/none.json" --node right
 sed 's/"master": "left"/"master": "up"/' "$folder/exhibit.json" >"$folder/up.json"
-refused 'is no node of the layout walls; one of these is right: left, middle, right' --exhibit "$folder/up.json" --node right
+refused 'is not a node of the layout walls; one of these is right: left, middle, right' --exhibit "$folder/up.json" --node right
 said=$(timeout 60 "$program" check "$folder/up.json" 2>&1)
-[ $? = 2 ] && [[ $said == *'is no node of the layout walls'* ]] || fail "check of a wrong master: $said"
+[ $? = 2 ] && [[ $said == *'is not a node of the layout walls'* ]] || fail "check of a wrong master: $said"
 "$program" check "$folder/none.json" --svg "$folder/plan.svg" | grep -q 'note: interface "none0" is none of this machine' || fail "check at a desk"
 ok
 kill -INT ${at[left]}

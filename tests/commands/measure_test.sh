@@ -68,7 +68,7 @@ check "a shot of another scene is refused" refused "is in the scene clocks; one 
 check "a missing --out is refused" refused "--out is required here" measure
 check "an unknown quality is refused" refused "draft" measure --default none --out "$work/d"
 echo '{ "cube_samples": 3 }' >"$work/wrong.json"
-check "a quality with a wrong value is refused" refused "/cube_samples: 3 is no number of samples" "$starbow" render --shot start --quality "$work/wrong.json" --out "$work/d"
+check "a quality with a wrong value is refused" refused "/cube_samples: 3 is not a number of samples" "$starbow" render --shot start --quality "$work/wrong.json" --out "$work/d"
 check "a refused command writes nothing" test ! -e "$work/d"
 
 check "the extremes are measured" measure --extremes --out "$work/e"

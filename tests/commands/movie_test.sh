@@ -116,7 +116,7 @@ refused 'holds no frames of a movie' film mixed --join --others "$folder"
 refused 'there is nothing to join' film nowhere --join
 ok [ ! -e "$folder/nowhere.mp4.frames" ]
 refused 'holds no frames of a movie' film nowhere --join --others "$folder/third.mp4.frames" "$folder"
-for part in 0/2 3/2 2 1/ a/b 1/2x; do refused "--part $part is no part" film mixed --part $part; done
+for part in 0/2 3/2 2 1/ a/b 1/2x; do refused "--part $part is not a part" film mixed --part $part; done
 refused '--join' film mixed --part 1/2 --join
 mkdir "$folder/empty"
 refused "ffmpeg, which makes movies of pictures, can't be started (No such file or directory)" env PATH="$folder/empty" "$program" render --tour "$folder/tour.json" --movie "$folder/none.mp4"
@@ -124,7 +124,7 @@ ok [ ! -e "$folder/none.mp4.frames" ]
 refused 'one that ends in .mp4 is right' "$program" render --tour first-minute --movie "$folder/none.avi"
 refused 'there are: first-minute, rainbow, simultaneity' "$program" render --tour none --movie "$folder/none.mp4"
 refused 'there are: de, en' "$program" render --tour rainbow --movie "$folder/none.mp4" --language xx
-refused 'is no folder' "$program" render --tour rainbow --movie "$folder/tour.json/none.mp4"
+refused 'is not a folder' "$program" render --tour rainbow --movie "$folder/tour.json/none.mp4"
 refused '--fps' "$program" render --tour rainbow --movie "$folder/none.mp4" --fps 0
 refused '--movie' "$program" render --tour rainbow
 refused '--shot' "$program" render --tour rainbow --movie "$folder/none.mp4" --shot start

@@ -40,21 +40,21 @@ for warp in "fifo.json" "vast.data"; do
     sed 's/{ "type": "planar" } }/{ "type": "planar" }, "warp": { "file": "'$warp'" } }/' "$folder/small.json" >"$folder/warp-$warp.json"
 done
 for kind in exhibit layout scene shot tour replay; do
-    none 'is a FIFO and no file' run --$kind "$fifo"
+    none 'is a FIFO, not a file' run --$kind "$fifo"
 done
-none 'is a device and no file' run --layout /dev/zero
+none 'is a device, not a file' run --layout /dev/zero
 none 'names no file' run --layout "$folder/warp-fifo.json.json"
 none 'is larger than 512 MiB' run --layout "$folder/warp-vast.data.json"
 none 'is larger than 1 GiB' run --layout "$folder/warp-vast.data.json" --record "$folder/vast.jsonl"
 none 'is larger than 512 MiB' warp inspect "$folder/vast.data"
-none 'is a FIFO and no file' warp inspect "$fifo"
-none 'is a FIFO and no file' check "$fifo"
-none 'is a FIFO and no file' import sgct "$fifo" --out "$folder/imported.json"
-none 'is a FIFO and no file' devices --describe "$fifo"
+none 'is a FIFO, not a file' warp inspect "$fifo"
+none 'is a FIFO, not a file' check "$fifo"
+none 'is a FIFO, not a file' import sgct "$fifo" --out "$folder/imported.json"
+none 'is a FIFO, not a file' devices --describe "$fifo"
 for output in log record trace; do
-    none 'is a FIFO and no file' run --layout "$folder/small.json" --$output "$fifo"
+    none 'is a FIFO, not a file' run --layout "$folder/small.json" --$output "$fifo"
 done
-none 'is no folder' render --shot start --size 64x64 --out "$fifo"
+none 'is not a folder' render --shot start --size 64x64 --out "$fifo"
 
 # A full pipe that nobody reads, and closed streams, hold no frame.
 mkfifo "$folder/pipe"

@@ -52,7 +52,7 @@ applied back
 applied shot gamma100 && is shot gamma100
 refused 'no tour with steps is shown' next
 refused 'There is no nowhere.json' scene nowhere
-refused 'is no name of a shipped file' scene ../../etc/passwd
+refused 'is not a name of a shipped file' scene ../../etc/passwd
 is scene avenue
 ok
 applied pattern grid && is pattern grid

@@ -139,7 +139,7 @@ CHECK
 ok
 printf 'date,weather\n' >"$folder/other.csv"
 said=$(timeout 20 "$program" run --log "$folder/other.csv" 2>&1 >/dev/null)
-[ $? = 2 ] && [[ $said == *"other.csv: 1: begins otherwise"* ]] || fail "a file that is no log: $said"
+[ $? = 2 ] && [[ $said == *"other.csv: 1: begins otherwise"* ]] || fail "a file that is not a log: $said"
 ok
 
 # A tour flies by itself. Two keys skip to its third step, which speeds up from rest for 14 s to a gamma of 4 and ends while

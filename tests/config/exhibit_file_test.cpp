@@ -283,14 +283,14 @@ TEST(ExhibitFileTest, AWrongRemoteIsRefused)
     for (const auto& [text, pointer, says] :
         {std::tuple{R"({})", "/remote", "lacks \"port\""}, {R"({"port": 0})", "/remote/port", "from 1 to 65535 is right"},
             {R"({"port": 80.5})", "/remote/port", "whole number"}, {R"({"port": 80, "pin": 1})", "/remote/pin", "\"pins\""},
-            {R"({"port": 80, "address": "localhost"})", "/remote/address", "is no IP address"},
-            {R"({"port": 80, "hosts": ["http://starbow.local"]})", "/remote/hosts/0", "is no host's name"},
-            {R"({"port": 80, "hosts": ["starbow.local:80"]})", "/remote/hosts/0", "is no host's name"},
-            {R"({"port": 80, "hosts": ["2001:db8::1"]})", "/remote/hosts/0", "is no host's name"},
+            {R"({"port": 80, "address": "localhost"})", "/remote/address", "is not an IP address"},
+            {R"({"port": 80, "hosts": ["http://starbow.local"]})", "/remote/hosts/0", "is not a host's name"},
+            {R"({"port": 80, "hosts": ["starbow.local:80"]})", "/remote/hosts/0", "is not a host's name"},
+            {R"({"port": 80, "hosts": ["2001:db8::1"]})", "/remote/hosts/0", "is not a host's name"},
             {R"({"port": 80, "certificate": "c.pem"})", "/remote", "only one of certificate and key"},
             {R"({"port": 80, "osc": {"port": 1}})", "/remote/osc", "lacks \"from\""},
             {R"({"port": 80, "osc": {"port": 1, "from": []}})", "/remote/osc/from", "1 to 64"},
-            {R"({"port": 80, "osc": {"port": 1, "from": ["*"]}})", "/remote/osc/from/0", "is no IP address"},
+            {R"({"port": 80, "osc": {"port": 1, "from": ["*"]}})", "/remote/osc/from/0", "is not an IP address"},
             {R"({"port": 80, "osc": {"port": 1, "from": ["::1"], "role": "look"}})", "/remote/osc/role", "\"docent\""}}) {
         const std::string message = message_for(std::string(R"({ "remote": )") + text + " }");
         EXPECT_NE(message.find(std::string(pointer) + ":"), message.npos) << message;

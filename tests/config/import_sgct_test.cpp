@@ -382,7 +382,7 @@ TEST(ImportSgctTest, UnsupportedMembersAreNamed)
         "out"));
     const std::string nothing = complaint([&] { imported(config(with(mirror))); });
     EXPECT_NE(nothing.find("/nodes/0: has no window that can be imported: "
-                           "/nodes/0/windows/0/viewports/0/projection/geometry/bottom is no Bourke mesh (.data)"),
+                           "/nodes/0/windows/0/viewports/0/projection/geometry/bottom is not a Bourke mesh (.data)"),
         std::string::npos)
         << nothing;
     EXPECT_NE(complaint([&] { imported(R"({ "version": 2, "nodes": [{}] })"); }).find("/version: 2 is too large"),

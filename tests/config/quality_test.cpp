@@ -93,7 +93,7 @@ TEST(QualityTest, WrongQualitiesAreRefusedByReaderAndSchema)
              {R"({ "texels_per_pixel": 0.01 })", "/texels_per_pixel: 0.01 is too small"},
              {R"({ "max_texels_per_pixel": 1e4 })", "/max_texels_per_pixel: 10000"},
              {R"({ "cube_samples": 3 })",
-                 "/cube_samples: 3 is no number of samples that devices have; 1, 2, 4 or 8 is right"},
+                 "/cube_samples: 3 is not a number of samples that devices have; 1, 2, 4 or 8 is right"},
              {R"({ "cube_samples": 16 })", "/cube_samples: 16"}, {R"({ "lod_error_texels": -1 })", "/lod_error_texels: -1"},
              {R"({ "pixel_rays": 1.5 })", "/pixel_rays: 1.5"}, {R"({ "clip_levels": 43 })", "/clip_levels: 43"},
              {R"({ "mips": 1 })", "/mips: 1"}, {R"({ "frames_per_cube": 0 })", "/frames_per_cube: 0"},

@@ -32,16 +32,16 @@ TEST(ReaderTest, InvalidJsonIsReportedWithARemedy)
         {"{a: 1}", "1", "a stands where a name should"},
         {"{'a': 1}", "1", "' stands where a name should"},
         {"{\"a\" 1}", "1", "1 follows a name; a colon"},
-        {"{\"a\":\ntru}", "2", "tru is no value"},
-        {"{\"a\": +1}", "1", "+1 is no value"},
-        {"{\"a\": .5}", "1", ".5 is no value"},
-        {"{\"a\": 0x1F}", "1", "0x1F is no value"},
+        {"{\"a\":\ntru}", "2", "tru is not a value"},
+        {"{\"a\": +1}", "1", "+1 is not a value"},
+        {"{\"a\": .5}", "1", ".5 is not a value"},
+        {"{\"a\": 0x1F}", "1", "0x1F is not a value"},
         {"{\"a\": 1", "1", "ends too early"},
         {"{\"a\": \"b\n}", "1", "a text has no end"},
         {"{\"a\": \"\\q\"}", "1", "can't be read"},
         {"{\"a\": 1}}", "1", "} comes after the end"},
         {"{\"a\": [1, 2}", "1", "follows }; a comma between them, or a closing ]"},
-        {"{\"a\": NaN}", "1", "NaN is no value"},
+        {"{\"a\": NaN}", "1", "NaN is not a value"},
     };
     for (const auto& [text, line, problem] : cases)
         try {
@@ -70,7 +70,7 @@ TEST(ReaderTest, UnreadableFilesAreReported)
     EXPECT_NE(complaint([] { read_document("/proc/self/mem"); }).find("can't be read"), std::string::npos);
     const auto through_file = write_text("plain", "x") / "below.json";
     EXPECT_NE(complaint([&] { read_document(through_file); }).find("can't be opened"), std::string::npos);
-    EXPECT_EQ(complaint([] { read_document("/dev/zero"); }), "/dev/zero: is a device and no file; a JSON file is right");
+    EXPECT_EQ(complaint([] { read_document("/dev/zero"); }), "/dev/zero: is a device, not a file; a JSON file is right");
     EXPECT_EQ(complaint([] { read_document("two\nlines"); }), "two?lines: does not exist; a JSON file is right");
 }
 

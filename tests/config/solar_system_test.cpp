@@ -55,7 +55,7 @@ TEST(SolarSystemTest, WrongFilesAreRefused)
             {beside_sun(R"("body": "Mars", "scattering": "shiny", "kinds": [null, null, null, "soil"])"),
                 "/globes/1/scattering", "\"shiny\"", "dusty"},
             {beside_sun(R"("body": "Mars", "scattering": "dusty", "kinds": [null, null, null, "rust"])"),
-                "/globes/1/kinds/3", "\"rust\"", "is no kind"},
+                "/globes/1/kinds/3", "\"rust\"", "is not a kind"},
             {beside_sun(
                  R"("body": "Earth", "scattering": "cloudy", "map": "e.png", "kinds": ["soil", null, null, "water"], "air": { "scale_height_km": 8, "clouds": "c.jpg", "water": "w.png", "lamps": "l.png", "brightest_lamps": 0 })"),
                 "/globes/1/air", "{", "needs the kind \"cloud\""},
@@ -116,7 +116,7 @@ TEST(SolarSystemTest, AScenesDateIsReadAndWrongOnesAreRefused)
     std::vector<Wrong> wrong;
     for (const char* date : {"2026-02-30T00:00Z", "2026-08-12 17:46Z", "1700-01-01T00:00Z", "2026-08-12T24:00Z", "tomorrow",
              "2026-08-12T17:46Zx"})
-        wrong.push_back({scene(date), "/globes/date", '"' + std::string(date) + '"', "is no date"});
+        wrong.push_back({scene(date), "/globes/date", '"' + std::string(date) + '"', "is not a date"});
     wrong.push_back(
         {scene("2026-08-12T17:46Z",
              R"(, "bodies": [{ "name": "b", "nodes": ["n"], "at": { "time": 0, "position": [0, 0, 0] }, "velocity": { "direction": [1, 0, 0], "beta": 0.1 } }])"),

@@ -53,9 +53,9 @@ TEST(WholeFile, OnlyRegularFilesAreRead)
         EXPECT_TRUE(said.starts_with(name + ": ") && said.ends_with("; a poem is right")) << said;
         return said.substr(std::min(said.size(), name.size() + 2), said.size() - std::min(said.size(), name.size() + 19));
     };
-    EXPECT_EQ(fault(fifo("reading")), "is a FIFO and no file");
-    EXPECT_EQ(fault(socket_at("s")), "is a socket and no file");
-    EXPECT_EQ(fault("/dev/zero"), "is a device and no file");
+    EXPECT_EQ(fault(fifo("reading")), "is a FIFO, not a file");
+    EXPECT_EQ(fault(socket_at("s")), "is a socket, not a file");
+    EXPECT_EQ(fault("/dev/zero"), "is a device, not a file");
     EXPECT_EQ(fault(scratch("")), "is a folder");
     EXPECT_EQ(fault(scratch("none")), "does not exist");
     EXPECT_EQ(fault(write_text("long", std::string(101, 'x'))), "is larger than 100 bytes");
@@ -125,7 +125,7 @@ TEST(WholeFile, WritingWaitsForNobody)
         return complaint([&] { ::close(open_to_write(file, O_APPEND, "a log")); });
     };
     const auto pipe = fifo("writing");
-    EXPECT_EQ(refusal(pipe), pipe.string() + ": is a FIFO and no file; a log is right");
+    EXPECT_EQ(refusal(pipe), pipe.string() + ": is a FIFO, not a file; a log is right");
     EXPECT_EQ(refusal(scratch("")), scratch("").string() + ": is a folder; a log is right");
     const int null = open_to_write("/dev/null", O_APPEND, "a log");
     EXPECT_NE(::fcntl(null, F_GETFL) & O_NONBLOCK, 0);

@@ -92,12 +92,12 @@ TEST(WarpDamageTest, FaultsInSimcadAreNamed)
     expect_refused("a.simcad",
         {{"<GeometryFile><GeometryDefinition>", "byte 33", "is not XML"}, {"<GeometryFile/>", at, "is missing"},
             {with(with(simcad, "<Y-Flat", "<Z-Flat"), "</Y-Flat", "</Z-Flat"), at + "/Y-FlatParameters", "is missing"},
-            {with(simcad, "range=\"100\"", ""), at + "/X-FlatParameters/@range", "\"\" is no number of pixels"},
+            {with(simcad, "range=\"100\"", ""), at + "/X-FlatParameters/@range", "\"\" is not a number of pixels"},
             {with(simcad, "range=\"100\"", "range=\"0\""), at + "/X-FlatParameters/@range", "\"0\""},
             {with(simcad, "0 5 0 5", "0 five 0 5"), at + "/X-FlatParameters, value 2", "\"five\" is not a number"},
             {with(simcad, "0 5 0 5", "0 99999 0 5"), at + "/X-FlatParameters, value 2", "too far"},
             {with(simcad, "0 5 0 5", "0 5 0"), at, "3 offsets in X and 4 in Y"},
-            {with(with(simcad, "0 5 0 5", "0 5 0"), "0 0 -5 0", "0 0 -5"), at, "3 offsets, which is no square"}});
+            {with(with(simcad, "0 5 0 5", "0 5 0"), "0 0 -5 0", "0 0 -5"), at, "3 offsets, which is not a square"}});
     // An external entity must not be read.
     const std::string xxe
         = "<!DOCTYPE a [<!ENTITY e SYSTEM \"file:///etc/passwd\">]>" + with(simcad, "0 5 0 5", "0 &e; 0 5");
@@ -110,20 +110,22 @@ TEST(WarpDamageTest, FaultsInScissAreNamed)
     const std::size_t indices = 60 + 24 * 1089;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     expect_refused("a.sgc",
-        {{"SGB", "byte 0", "no SCISS mesh"}, {"SGC", "byte 0", "no SCISS mesh"}, {"SGC\x03", "byte 3", "3 is a version"},
-            {with_word(good, 4, 7), "byte 4", "7 is a type"},
+        {{"SGB", "byte 0", "not a SCISS mesh"}, {"SGC", "byte 0", "not a SCISS mesh"},
+            {"SGC\x03", "byte 3", "3 is a version"}, {with_word(good, 4, 7), "byte 4", "7 is a type"},
             {with_float(good, 8, nan), "byte 8", "quaternion's x is out of range"},
             {with_float(good, 20, 0.5f), "byte 8", "a quaternion of length"},
             {with_float(good, 24, nan), "byte 24", "position's x"},
             {with_float(good, 36, 95), "byte 36", "too far from a flat picture's axis"},
             {with_float(good, 40, 80), "byte 36", "turned about"},
-            {with_word(good, 52, 1), "byte 52", "1 columns and 33 rows are no grid"},
-            {with_word(good, 56, 0x7fffffff), "byte 52", "no grid"}, {with_word(two, 52, 6), "byte 52", "6 is a primitive"},
+            {with_word(good, 52, 1), "byte 52", "1 columns and 33 rows are not a grid"},
+            {with_word(good, 56, 0x7fffffff), "byte 52", "not a grid"},
+            {with_word(two, 52, 6), "byte 52", "6 is a primitive"},
             {with_word(two, 56, 0xffffffff), "byte 56", "4294967295 vertices need more than the 34460 bytes that follow"},
             {with_float(good, 64, nan), "byte 64", "a vertex's y is out of range"},
             {with_float(good, 60 + 24 * 5 + 12, 50), "byte 192", "a vertex's u is out of range"},
             {with_word(good, indices, 0x40000000), "byte " + std::to_string(indices), "1073741824 indices need more"},
-            {with_word(good, indices + 8, 1089), "byte " + std::to_string(indices + 8), "1089 is the number of no vertex"},
+            {with_word(good, indices + 8, 1089), "byte " + std::to_string(indices + 8),
+                "1089 is not the number of a vertex"},
             {good.substr(0, 50), "byte 48", "is missing, the file ends early"},
             {good.substr(0, indices), "byte " + std::to_string(indices), "the number of indices is missing"},
             {good.substr(0, good.size() - 2), "byte " + std::to_string(indices), "2080 indices need more"}});
@@ -142,10 +144,10 @@ TEST(WarpDamageTest, FaultsInScalableAreNamed)
             {with(scalable, "PERSPECTIVE_TOP 16\r\n", ""), "", "PERSPECTIVE_TOP is missing"},
             {with(scalable, "PERSPECTIVE_TOP 16", "PERSPECTIVE_TOP -16"), "PERSPECTIVE_LEFT", "turned about"},
             {with(scalable, "200 100 51 1 1", "200 100 300 1 1"), "line 16", "\"300\" is too large"},
-            {with(scalable, "200 100 51 1 1", "200 100 51 1"), "line 16", "is no vertex; x y intensity s t is right"},
-            {with(scalable, "[ 0 1 2 ]", "[ 0 1 4 ]"), "line 18", "\"4\" is the number of no vertex"},
-            {with(scalable, "[ 0 1 2 ]", "[ 0 1 -1 ]"), "line 18", "\"-1\" is the number of no vertex"},
-            {with(scalable, "[ 0 1 2 ]", "[ 0 1 ]"), "line 18", "is no face"},
+            {with(scalable, "200 100 51 1 1", "200 100 51 1"), "line 16", "is not a vertex; x y intensity s t is right"},
+            {with(scalable, "[ 0 1 2 ]", "[ 0 1 4 ]"), "line 18", "\"4\" is not the number of a vertex"},
+            {with(scalable, "[ 0 1 2 ]", "[ 0 1 -1 ]"), "line 18", "\"-1\" is not the number of a vertex"},
+            {with(scalable, "[ 0 1 2 ]", "[ 0 1 ]"), "line 18", "is not a face"},
             {with(scalable, "MAPPING", "ORTHO_LEFT 1\r\nMAPPING"), "ORTHO_RIGHT", "spans nothing"}});
 }
 
@@ -165,12 +167,12 @@ TEST(WarpDamageTest, FaultsInSkyskanAreNamed)
 TEST(WarpDamageTest, FaultsInObjAreNamed)
 {
     expect_refused("a.obj",
-        {{"v 1 2\n", "line 1", "is no vertex; v x y z is right"}, {"v 1 2 z\n", "line 1", "\"z\" is not a number"},
+        {{"v 1 2\n", "line 1", "is not a vertex; v x y z is right"}, {"v 1 2 z\n", "line 1", "\"z\" is not a number"},
             {with(obj, "f 1/1/1", "f 5/1/1"), "line 10",
-                "\"5\" is the number of no vertex before it; one from 1 to 4 is right"},
-            {with(obj, "f 1/1/1", "f 1/5/1"), "line 10", "\"5\" is the number of no vt before it"},
+                "\"5\" is not the number of a vertex before it; one from 1 to 4 is right"},
+            {with(obj, "f 1/1/1", "f 1/5/1"), "line 10", "\"5\" is not the number of a vt before it"},
             {with(obj, "f 1/1/1", "f 0/1/1"), "line 10", "\"0\""}, {with(obj, "f 1/1/1", "f 1.5/1/1"), "line 10", "\"1.5\""},
-            {with(obj, "f 1/1/1", "f -9999999999/1/1"), "line 10", "number of no vertex"},
+            {with(obj, "f 1/1/1", "f -9999999999/1/1"), "line 10", "not the number of a vertex"},
             {with(obj, "f 1/1/1 2/2/2 3/3/3", "f 1/1 2/2"), "line 10", "fewer than three corners"},
             {"# nothing\n", "", "holds no mesh"}});
 }
@@ -193,15 +195,16 @@ TEST(WarpDamageTest, FaultsInPfmAreNamed)
     for (std::size_t i = 0; i < 36; ++i)
         outside[i] = 3 + 0.1f * float(i % 3);
     expect_refused("a.pfm",
-        {{with(good, "PF", "Pf"), "byte 0", "three channels"}, {with(good, "4 3", "4 0"), "PFM header", "\"0\" is no size"},
-            {with(good, "4 3", "4.5 3"), "PFM header", "\"4.5\" is no size"},
+        {{with(good, "PF", "Pf"), "byte 0", "three channels"},
+            {with(good, "4 3", "4 0"), "PFM header", "\"0\" is not a size"},
+            {with(good, "4 3", "4.5 3"), "PFM header", "\"4.5\" is not a size"},
             {with(good, "4 3", "4 4"), "byte 12", "has 144 bytes of values for 4 x 4 pixels; 192 are right"},
             {with(good, "4 3", "16000 16000"), "byte 20", "3072000000 are right"},
-            {with(good, "-1.0", "0"), "PFM header", "\"0\" is no scale"},
-            {with(good, "-1.0", "nan"), "PFM header", "\"nan\" is no scale"},
+            {with(good, "-1.0", "0"), "PFM header", "\"0\" is not a scale"},
+            {with(good, "-1.0", "nan"), "PFM header", "\"nan\" is not a scale"},
             {good.substr(0, good.size() - 1), "byte 12", "143 bytes"}, {good + "x", "byte 12", "145 bytes"},
             {"PF\n4 3", "PFM header", "missing"},
-            {pfm(4, 3, far), "column 1, row 2 from the top", "is no place in the picture"},
+            {pfm(4, 3, far), "column 1, row 2 from the top", "is not a place in the picture"},
             {pfm(4, 3, outside), "", "12 of 12 places outside the picture; places from 0 to 1 are right"},
             {pfm(4, 3, holes), "", "shows nothing"}});
 }
@@ -241,8 +244,9 @@ TEST(WarpDamageTest, FaultsInMpcdiAreNamed)
             {good("fileset region=\"r\"", "fileset region=\"q\""), top + "/files", "no fileset for the region \"r\""},
             {good("r.pfm", "none.pfm"), "none.pfm", "is not in the archive"},
             {good("r.pfm", "../r.pfm"), "../r.pfm", "is not in the archive"},
-            {good("r.pfm", "mask.png"), "mask.png: PFM header", "missing"}, {masked("no picture"), "mask.png", "is no PNG"},
-            {masked(interlaced), "mask.png", "interlaced"}, {masked(bomb), "mask.png", "has damaged data, or more than its"},
+            {good("r.pfm", "mask.png"), "mask.png: PFM header", "missing"},
+            {masked("no picture"), "mask.png", "is not a PNG"}, {masked(interlaced), "mask.png", "interlaced"},
+            {masked(bomb), "mask.png", "has damaged data, or more than its"},
             {masked(png(4, 4, 3, std::vector<unsigned char>(48, 9)).substr(0, 60)), "mask.png", "ends early"}});
     expect_refused("a.data", {{bourke, "", "has no regions, and \"r\" is wanted"}}, "r");
 
@@ -260,7 +264,8 @@ TEST(WarpDamageTest, FaultsInMpcdiAreNamed)
         {{points("<rollz>-1</rollz>", "<rollz>0</rollz>"), in + "/coordinateFrame", "roll axis of length 0"},
             {points("<rollx>0</rollx><rolly>0</rolly><rollz>-1</rollz>", "<rollx>1</rollx><rolly>0</rolly><rollz>0</rollz>"),
                 in + "/coordinateFrame", "not at right angles"},
-            {points(">m<", ">furlong<"), top + "/files/fileset/geometryWarpFile/geometricUnit", "\"furlong\" is no unit"}});
+            {points(">m<", ">furlong<"), top + "/files/fileset/geometryWarpFile/geometricUnit",
+                "\"furlong\" is not a unit"}});
 }
 
 TEST(WarpDamageTest, ArchivesThatUnpackToMuchAreRefused)
@@ -286,7 +291,7 @@ TEST(WarpDamageTest, UnreadableFilesAreNamed)
     EXPECT_NE(complaint([] { load_warp({write_text("empty.data", ""), {}, {}, {}}); }).find("is empty"), std::string::npos);
     EXPECT_NE(complaint([] {
         load_warp({write_text("letter", "Dear Sir"), {}, {}, {}});
-    }).find("is no warp file that is known"),
+    }).find("is not a warp file that is known"),
         std::string::npos);
     const auto frustum = write_text("f.csv", "x;y;z;heading;pitch;bank;left;right;bottom;top\n0;0;0;0;0;0;1;1;1;1\n");
     EXPECT_NE(complaint([&] {

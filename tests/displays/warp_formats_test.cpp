@@ -412,7 +412,7 @@ TEST(WarpFormatsTest, MpcdiRegionsAreChosenByName)
     EXPECT_EQ(complaint([&] { read("a.mpcdi", archive); }),
         "a.mpcdi: 3 regions are in it and none is chosen; the region \"l\", \"r\" or \"m\" is right");
     EXPECT_EQ(complaint([&] { read("a.mpcdi", archive, "x"); }),
-        "a.mpcdi: \"x\" is no region of it; the region \"l\", \"r\" or \"m\" is right");
+        "a.mpcdi: \"x\" is not a region of it; the region \"l\", \"r\" or \"m\" is right");
     EXPECT_EQ(read("a.mpcdi", archive, "l").vertices[2 * 4 + 1].sees[0].x, 0.25);
     EXPECT_EQ(read("a.mpcdi", archive, "two/m").vertices[2 * 4 + 1].sees[0].x, 0.3f);
     EXPECT_FALSE(read("a.mpcdi", archive, "r").frustum.has_value());

@@ -139,7 +139,7 @@ TEST(WarpWriterTest, AGridEndsWhereTheMeshDoes)
 TEST(WarpWriterTest, MeshesThatAFormatCannotHoldAreRefused)
 {
     const WarpMesh none = read("a.obj", obj), three = read("a.mesh", headset);
-    EXPECT_NE(complaint([&] { write_bourke(none, "a.obj", 1); }).find("no grid"), std::string::npos);
+    EXPECT_NE(complaint([&] { write_bourke(none, "a.obj", 1); }).find("not a grid"), std::string::npos);
     EXPECT_NE(complaint([&] { write_domeprojection(three, "a"); }).find("no flat picture"), std::string::npos);
     EXPECT_NE(complaint([&] { write_pfm(three, "a"); }).find("three ways"), std::string::npos);
     EXPECT_NE(complaint([&] { write_pfm(none, "a"); }).find("not one value per pixel"), std::string::npos);

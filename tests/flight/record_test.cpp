@@ -442,7 +442,7 @@ TEST(Record, WrongFilesAreRefused)
             {with("{\"dt_ns\":1,\"lever\":2}"), "/lever", "2", "from 0 to 1"},
             {with("{\"dt_ns\":1,\"turn\":[0,null,0]}"), "/turn/1", "null", "not a number"},
             {with("{\"dt_ns\":1,\"turn\":[0,0]}"), "/turn", "[0,0]", "3 numbers"},
-            {with("{\"dt_ns\":1,\"head_turned\":[0,0,0,0]}"), "/head_turned", "[0,0,0,0]", "no turn"},
+            {with("{\"dt_ns\":1,\"head_turned\":[0,0,0,0]}"), "/head_turned", "[0,0,0,0]", "not a turn"},
             {with("{\"dt_ns\":1,\"undo\":1}"), "/undo", "1", "true"},
             {with("{\"dt_ns\":1,\"undone\":true}"), "/undone", "true", "undo"},
             {with("{\"ticks\":1,\"digest\":\"12\"}"), "/digest", "\"12\"", "16 hexadecimal"}});

@@ -481,7 +481,7 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
     EXPECT_TRUE(later(at_question, show, 0.05, controls_with(EffectSwitches{.headlight = true})).flight.effects.headlight)
         << "the key must not switch the effect";
     EXPECT_FALSE(later(at_question, show, 0.05, controls_with(Steering{.stop = true})).measured_answer)
-        << "nothing chosen is no answer";
+        << "nothing chosen is not an answer";
     // The explanation stays for three seconds, whenever the answer came.
     EXPECT_EQ(later(answered, show, 2.8).step(), 1u);
     EXPECT_EQ(later(answered, show, 3.1).step(), 2u);

@@ -127,8 +127,8 @@ TEST(Hud, ADamagedFontIsRefused)
         EXPECT_TRUE(said.starts_with(file.string() + ": ") && said.ends_with(" is right")) << said;
         return said;
     };
-    EXPECT_NE(refusal("").find("is no TrueType font"), std::string::npos);
-    EXPECT_NE(refusal(std::string(200'000, 'x')).find("is no TrueType font"), std::string::npos);
+    EXPECT_NE(refusal("").find("is not a TrueType font"), std::string::npos);
+    EXPECT_NE(refusal(std::string(200'000, 'x')).find("is not a TrueType font"), std::string::npos);
     EXPECT_NE(
         refusal(std::string("\0\1\0\0\xff\xff", 6) + std::string(200'000, '\xff')).find("is cut off"), std::string::npos);
     EXPECT_NE(refusal(std::string("\0\1\0\0", 4) + std::string(200, '\0')).find("lacks the table cmap"), std::string::npos);

@@ -108,7 +108,7 @@ TEST(LabTable, DamagedLinesAreRefusedWithPlaceAndValue)
     EXPECT_NE(refusal("\xef\xbb\xbf" + sample()).find("group1.csv:1: column 1: "), std::string::npos);
     EXPECT_EQ(refusal(with_cell(3, "aim_doppler", "0,866")).find("group1.csv:3: "), 0u);
     EXPECT_EQ(refusal(with_cell(3, "aim_doppler", "abc")),
-        "group1.csv:3: aim_doppler: \"abc\" is no number; a number such as 0.866, or nothing, is right");
+        "group1.csv:3: aim_doppler: \"abc\" is not a number; a number such as 0.866, or nothing, is right");
     EXPECT_EQ(refusal(with_cell(4, "gamma", "0.5")),
         "group1.csv:4: gamma: \"0.5\" is out of range; a number of at least 1 is right");
     EXPECT_EQ(
@@ -118,10 +118,11 @@ TEST(LabTable, DamagedLinesAreRefusedWithPlaceAndValue)
     for (const char* wrong : {"nan", "inf", "1e999", " 1", "1 ", "0x10", "--1", "1,"})
         EXPECT_EQ(refusal(with_cell(5, "world_time_s", wrong)).find("group1.csv:5: "), 0u) << wrong;
     EXPECT_EQ(refusal(with_cell(5, "world_time_s", "")),
-        "group1.csv:5: world_time_s: \"\" is no number; a number such as 0.866 is right");
-    EXPECT_EQ(refusal(with_cell(2, "doppler_on", "yes")), "group1.csv:2: doppler_on: \"yes\" is no switch; 0 or 1 is right");
-    EXPECT_NE(refusal(with_cell(2, "overlay", "on")).find("\"on\" is no overlay; off, aim, grid"), std::string::npos);
-    EXPECT_NE(refusal(with_cell(2, "utc", "yesterday")).find("\"yesterday\" is no time"), std::string::npos);
+        "group1.csv:5: world_time_s: \"\" is not a number; a number such as 0.866 is right");
+    EXPECT_EQ(
+        refusal(with_cell(2, "doppler_on", "yes")), "group1.csv:2: doppler_on: \"yes\" is not a switch; 0 or 1 is right");
+    EXPECT_NE(refusal(with_cell(2, "overlay", "on")).find("\"on\" is not an overlay; off, aim, grid"), std::string::npos);
+    EXPECT_NE(refusal(with_cell(2, "utc", "yesterday")).find("\"yesterday\" is not a time"), std::string::npos);
     // A line that a power cut has cut.
     const std::string cut = sample().substr(0, sample().size() - 40);
     EXPECT_NE(refusal(cut).find("group1.csv:6: "), std::string::npos);

@@ -58,8 +58,9 @@ TEST(Command, WrongWordsAreRefusedWithTheRightForm)
         {{"exposure", "10.5"}, "exposure and a number from -10 to 10"}, {{"exposure", "nan"}, "from -10 to 10"},
         {{"speed-limit", "nan"}, "a number above 1"}, {{"speed-limit", "inf"}, "a number above 1"},
         {{"speed-limit", "2,5"}, "a number above 1"}, {{"scene", "../../etc/passwd"}, "scene and a name is right"},
-        {{"scene", "/etc/passwd"}, "is no name"}, {{"layout", "..."}, "is no name"}, {{"layout", ".json"}, "is no name"},
-        {{"scene", std::string(65, 'a')}, "is no name"}, {{"caption", std::string(401, 'a')}, "at most 400 bytes"}};
+        {{"scene", "/etc/passwd"}, "is not a name"}, {{"layout", "..."}, "is not a name"},
+        {{"layout", ".json"}, "is not a name"}, {{"scene", std::string(65, 'a')}, "is not a name"},
+        {{"caption", std::string(401, 'a')}, "at most 400 bytes"}};
     for (const auto& [words, says] : wrong) {
         const std::string message = complaint([&] { read(words); });
         EXPECT_NE(message.find(says), std::string::npos) << message;

@@ -160,8 +160,8 @@ TEST(BusTest, InterfacesAreNamesOrNetworks)
     EXPECT_TRUE(said("203.0.113.0/24").starts_with("interface \"203.0.113.0/24\" is none of this machine"))
         << said("203.0.113.0/24");
     for (const char* wrong : {"127.0.0.0/", "127.0.0.0/33", "127.0.0.0/0", "127.0.0/8", "a/8", "127.0.0.0/8x"})
-        EXPECT_EQ(
-            said(wrong), "interface \"" + std::string(wrong) + "\" is no network; one such as \"192.168.7.0/24\" is right");
+        EXPECT_EQ(said(wrong),
+            "interface \"" + std::string(wrong) + "\" is not a network; one such as \"192.168.7.0/24\" is right");
 }
 
 TEST(BusTest, ANetworkWithAGatewayLeadsElsewhere)

@@ -202,7 +202,7 @@ TEST(Diary, DamagedDaysAreRefusedInOneLineOrRead)
             load_day(state, "2026-11-23");
         },
         {good}, fuzz_count() / 5);
-    EXPECT_NE(complaint([&] { load_day(state, "../2026"); }).find("is no day"), std::string::npos);
+    EXPECT_NE(complaint([&] { load_day(state, "../2026"); }).find("is not a day"), std::string::npos);
 }
 
 TEST(Exposition, SaysWhatWasCounted)

@@ -97,7 +97,7 @@ TEST(Messages, WrongRequestsAreRefusedInOneSentence)
         EXPECT_TRUE(message.ends_with("right") || message.find(" is right: ") != message.npos) << wrong << ": " << message;
     }
     EXPECT_NE(complaint([] { request_of(std::string(5000, ' ')); }).find("at most 4096 are right"), std::string::npos);
-    EXPECT_NE(complaint([] { request_of(std::string(4096, '[')); }).find("no JSON object"), std::string::npos);
+    EXPECT_NE(complaint([] { request_of(std::string(4096, '[')); }).find("not a JSON object"), std::string::npos);
     EXPECT_NE(complaint([] { pin_of(R"({"pin":123456})"); }).find("has no PIN"), std::string::npos);
 }
 

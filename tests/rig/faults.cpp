@@ -473,7 +473,7 @@ VkResult failure(const char* name, const void* handle)
     if (now.empty())
         return VK_SUCCESS;
     if (!errors.count(now)) {
-        std::fprintf(stderr, "fault: %s is no error of Vulkan here\n", now.c_str());
+        std::fprintf(stderr, "fault: %s is not an error of Vulkan here\n", now.c_str());
         std::abort();
     }
     if (now == "DEVICE_LOST" && handle)

@@ -92,7 +92,7 @@ LivePicture read_picture(const char* file)
     int greatest = 255;
     std::FILE* const stream = file ? std::fopen(file, "rb") : nullptr;
     if (stream && std::fscanf(stream, "P6 %d %d %d%*c", &picture.width, &picture.height, &greatest) != 3)
-        throw InputError(file, "", "is no binary PPM; one is right");
+        throw InputError(file, "", "is not a binary PPM; one is right");
     const std::size_t width = std::size_t(picture.width), pixels = width * std::size_t(picture.height);
     picture.rgb.resize(pixels * 3);
     if (stream) {

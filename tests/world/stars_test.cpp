@@ -88,19 +88,19 @@ TEST(StarsTest, WrongCataloguesAreRefused)
     struct Case {
         const char *text, *says;
     };
-    for (const Case& wrong :
-        {Case{"", ": holds no star; "}, {"# none\n", ": holds no star; "},
-            {"0 0 0 0 1\n0 0 0 0\n", ":2: \"0 0 0 0\" is no star; five columns"},
-            {"0 0 0 0 - 0\n", ":1: \"0 0 0 0 - 0\" is no star; five columns"},
-            {"36000000 0 0 0 -\n",
-                ":1: \"36000000\" is no right ascension in 1e-5 degrees; a whole number from 0 to 35999999"},
-            {"-1 0 0 0 -\n", ":1: \"-1\" is no right ascension"}, {"0 9000001 0 0 -\n", ":1: \"9000001\" is no declination"},
-            {"0 0 1.5 0 -\n", ":1: \"1.5\" is no magnitude in 0.01; a whole number from -3000 to 3000 is right"},
-            {"0 0 99999999999 0 -\n", ":1: \"99999999999\" is no magnitude"},
-            {"0 0 0 nan -\n", ":1: \"nan\" is no B-V in 0.01"}, {"0 0 0 -51 -\n", ":1: \"-51\" is no B-V"},
-            {"0 0 0 -- -\n", ":1: \"--\" is no B-V"},
-            {"0 0 0 0 0\n",
-                ":1: \"0\" is no parallax in 0.01 milliseconds of arc; a whole number from 1 to 1000000 is right"}}) {
+    for (const Case& wrong : {Case{"", ": holds no star; "}, {"# none\n", ": holds no star; "},
+             {"0 0 0 0 1\n0 0 0 0\n", ":2: \"0 0 0 0\" is not a star; five columns"},
+             {"0 0 0 0 - 0\n", ":1: \"0 0 0 0 - 0\" is not a star; five columns"},
+             {"36000000 0 0 0 -\n",
+                 ":1: \"36000000\" is not a right ascension in 1e-5 degrees; a whole number from 0 to 35999999"},
+             {"-1 0 0 0 -\n", ":1: \"-1\" is not a right ascension"},
+             {"0 9000001 0 0 -\n", ":1: \"9000001\" is not a declination"},
+             {"0 0 1.5 0 -\n", ":1: \"1.5\" is not a magnitude in 0.01; a whole number from -3000 to 3000 is right"},
+             {"0 0 99999999999 0 -\n", ":1: \"99999999999\" is not a magnitude"},
+             {"0 0 0 nan -\n", ":1: \"nan\" is not a B-V in 0.01"}, {"0 0 0 -51 -\n", ":1: \"-51\" is not a B-V"},
+             {"0 0 0 -- -\n", ":1: \"--\" is not a B-V"},
+             {"0 0 0 0 0\n",
+                 ":1: \"0\" is not a parallax in 0.01 milliseconds of arc; a whole number from 1 to 1000000 is right"}}) {
         const auto file = write_text("wrong.txt", wrong.text);
         const std::string message = complaint([&] { load_stars(file); });
         EXPECT_TRUE(message.starts_with(file.string() + wrong.says)) << message;

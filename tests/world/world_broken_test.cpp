@@ -60,7 +60,7 @@ TEST_F(WorldBrokenTest, EveryFaultIsNamedByItsPointer)
         {"/buffers/0/uri", "\"data:text/plain,hello\"", "/buffers/0/uri: is"},
         {"/buffers/0/uri", "\"data:;base64,a*b=\"", "/buffers/0/uri: has a character that is not base64"},
         {"/buffers/0/uri", "\"a\\nb\"", "/buffers/0/uri: names \"a?b\""},
-        {"/buffers/0/uri", "\"pipe\"", "/buffers/0/uri: names \"pipe\", which is a FIFO and no file"},
+        {"/buffers/0/uri", "\"pipe\"", "/buffers/0/uri: names \"pipe\", which is a FIFO, not a file"},
         {"/buffers/0/uri", "\"out.bin\"", "/buffers/0/uri: is \"out.bin\", which leads out"},
         {"/buffers/0/uri", "\"loop.bin\"", "/buffers/0/uri: names \"loop.bin\", which cannot be found"},
         {"/bufferViews/1/buffer", "1", "/bufferViews/1/buffer: names buffer 1; the file has 0 to 0"},
@@ -226,8 +226,8 @@ TEST_F(WorldBrokenTest, OtherThanRegularFilesAreRefused)
     EXPECT_TRUE(complaint(folder / "missing.glb").starts_with("does not exist"));
     EXPECT_TRUE(complaint(folder).starts_with("is a folder"));
     ASSERT_EQ(::mkfifo((folder / "pipe.glb").c_str(), 0600), 0);
-    EXPECT_TRUE(complaint(folder / "pipe.glb").starts_with("is a FIFO and no file"));
-    EXPECT_TRUE(complaint("/dev/zero").starts_with("is a device and no file"));
+    EXPECT_TRUE(complaint(folder / "pipe.glb").starts_with("is a FIFO, not a file"));
+    EXPECT_TRUE(complaint("/dev/zero").starts_with("is a device, not a file"));
     EXPECT_EQ(::truncate(write("vast.glb", std::string("glTF")).c_str(), (1ll << 30) + 1), 0);
     EXPECT_TRUE(complaint(folder / "vast.glb").starts_with("is larger than 1024 MiB; "));
 }
@@ -332,7 +332,7 @@ TEST_F(WorldBrokenTest, FaultyAnimationsAreNamedByTheirPointer)
         {sampler + "/input", std::to_string(early), accessor(early) + ": element 0 is -1.0; a key's time should be 0 to"},
         {sampler + "/output", std::to_string(endless), accessor(endless) + ": element 1 is not finite or above 1e30"},
         {a + "/samplers/1/output", std::to_string(skewed),
-            accessor(skewed) + ": element 1 is no rotation; should be a unit"},
+            accessor(skewed) + ": element 1 is not a rotation; should be a unit"},
         {"/nodes/1/extras", "{\"starbow\": 3}", "/nodes/1/extras/starbow: is 3; should be an object"},
         {"/nodes/1/extras", "{\"starbow\": {\"turn\": 1}}", "/nodes/1/extras/starbow/turn: is not known here"},
         {"/nodes/1/extras", "{\"starbow\": {\"spin\": {\"axis\": [0, 1, 0]}}}",

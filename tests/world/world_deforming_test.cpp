@@ -67,7 +67,7 @@ TEST_F(WorldDeforming, ASkinHangsOnItsMovingJoints)
     EXPECT_EQ(world.notes, std::vector<std::string>{});
     ASSERT_EQ(world.instances.size(), 1u);
     ASSERT_EQ(world.deformations.size(), 1u);
-    EXPECT_EQ(world.deformations[0].bones.size(), 2u) << "a joint without vertices is no bone";
+    EXPECT_EQ(world.deformations[0].bones.size(), 2u) << "a joint without vertices is not a bone";
     const Instance& instance = world.instances[0];
     const Primitive& primitive = world.primitives[instance.primitive];
     for (double time : {0.0, 2.5, 10.0, 17.0, 33.0, -4.0}) {

@@ -31,12 +31,12 @@ std::string unknown(const CLI::App& app)
         for (const CLI::Option* option : app.get_options())
             if (option->nonpositional())
                 names.push_back("--" + option->get_lnames().at(0));
-        return left[0] + " is no option of '" + whole_name + "'; " + there_are(names);
+        return left[0] + " is not an option of '" + whole_name + "'; " + there_are(names);
     }
     for (const CLI::App* command : app.get_subcommands({}))
         names.push_back(command->get_name());
     return left[0]
-        + (names.empty() ? " is one argument too many for '" + whole_name + "'" : " is no command; " + there_are(names));
+        + (names.empty() ? " is one argument too many for '" + whole_name + "'" : " is not a command; " + there_are(names));
 }
 
 } // namespace
@@ -51,7 +51,7 @@ OptionRule whole_number(long low, long high)
             const bool whole = error == std::errc() && end == text.data() + text.size();
             if (whole && value >= low && value <= high)
                 return "";
-            return text + " is no whole number" + (whole ? " that fits" : "") + "; one from " + from + " to " + to
+            return text + " is not a whole number" + (whole ? " that fits" : "") + "; one from " + from + " to " + to
                 + " is right";
         };
         option.check(problem, "from " + from + " to " + to);

@@ -19,7 +19,7 @@ inline glm::ivec2 parse_size(const std::string& text)
             return size;
     }
     throw InputError(
-        "--size " + text + " is no size; give width x height in pixels, each from 1 to 16384, such as 1280x720");
+        "--size " + text + " is not a size; give width x height in pixels, each from 1 to 16384, such as 1280x720");
 }
 
 } // namespace starbow

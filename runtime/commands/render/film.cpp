@@ -55,8 +55,8 @@ std::string device_of_parts(const FilmOptions& options)
             return kept.value("device", "");
     }
     throw InputError(one_line(folders.front().string()), "",
-        "is no folder of frames, so there is nothing to join; all parts drawn before, or --others with the folders of their "
-        "frames, is right");
+        "is not a folder of frames, so there is nothing to join; all parts drawn before, or --others with the folders of "
+        "their frames, is right");
 }
 
 void print_line(const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }
@@ -66,7 +66,7 @@ void print_line(const std::string& line) { std::fprintf(stderr, "starbow: %s\n",
 void check_film(const FilmOptions& options, const Layout& layout)
 {
     if (fs::path(options.movie).extension() != ".mp4")
-        throw InputError(one_line(options.movie), "", "is no name of a movie here; one that ends in .mp4 is right");
+        throw InputError(one_line(options.movie), "", "is not a name of a movie here; one that ends in .mp4 is right");
     for (const Output& output : layout.outputs)
         check_writable(movie_of(options.movie, layout, output.name));
     check_ffmpeg();
@@ -83,7 +83,7 @@ FilmPart film_part(const std::string& text)
             && part.count <= 100'000)
             return part;
     }
-    throw InputError("--part " + text + " is no part; its number and the number of all parts, such as 2/8, are right");
+    throw InputError("--part " + text + " is not a part; its number and the number of all parts, such as 2/8, are right");
 }
 
 Filming::Filming(const FilmOptions& options, const Layout& layout, const fs::path& scene, const Words& words, long frames,

@@ -30,7 +30,7 @@ std::pair<long, long> parse_frames(const std::string& text)
             return frames;
     }
     throw InputError("--frames " + text
-        + " is no range; the first and the last frame, counted from 0, such as 600:659, are "
+        + " is not a range; the first and the last frame, counted from 0, such as 600:659, are "
           "right");
 }
 

@@ -71,7 +71,7 @@ SoakLog::SoakLog(const std::filesystem::path& file, const std::string& use, long
                 &s.temporary_files)
             != 10)
             throw InputError(file.string() + ":" + std::to_string(number), "",
-                line.substr(0, 60) + " is no sample; ten numbers with commas are right");
+                line.substr(0, 60) + " is not a sample; ten numbers with commas are right");
         before_.push_back(s);
     }
 }

@@ -37,7 +37,7 @@ void read_values(WorldBuild& build, int accessor, Track& track)
             fail("is not finite or above 1e30; should be smaller");
         if (track.rotation && (track.interpolation != Interpolation::cubic || i % 3 == 1)) {
             if (std::abs(glm::length(value) - 1) > 0.01)
-                fail("is no rotation; should be a unit quaternion");
+                fail("is not a rotation; should be a unit quaternion");
             value = glm::normalize(value);
         }
         track.values.push_back(value);

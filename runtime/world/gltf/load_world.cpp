@@ -43,7 +43,7 @@ std::vector<glm::dmat4> places_of(WorldBuild& build, int node)
         const glm::dquat turn(part(3), part(0), part(1), part(2));
         const double length = glm::length(turn);
         if (!(length > 0.9 && length < 1.1))
-            build.fail("/nodes/" + std::to_string(node), "has an instance whose rotation is no unit quaternion");
+            build.fail("/nodes/" + std::to_string(node), "has an instance whose rotation is not a unit quaternion");
         place = glm::mat4_cast(turn / length);
     });
     each(instancing->scales, [](glm::dmat4& place, auto part) {
