@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Wrong input at the command line ends with exit 2, one line,, not a file written. Usage: cli_test.sh PROGRAM
+# Wrong input at the command line ends with exit 2, one line, and no file written. Usage: cli_test.sh PROGRAM
 set -u
 program=$1
 folder=$(mktemp -d)
