@@ -400,7 +400,7 @@ refused 'is not a point' render --shot start --measure '1deg,2'
 refused 'lies outside the picture' render --shot start --measure '100,100;800,5'
 refused 'overlay' render --shot start --overlay none
 said=$("$program" render --shot clocks-passing --size 200x150 --out "$folder/lab" --measure '-14.7deg,0deg; 16.8deg,0deg' --overlay ring --why delay)
-if [[ $said == *"ahead: D 0.866"* && $said == *"long 17.49 of 20.00 light-s, ◇ minus ○ 9.71 s"* ]]; then passed=$((passed + 1)); else fail "render --measure: $said"; fi
+if [[ $said == *"ahead: D 0.866"* && $said == *"length 17.49 (rest 20.00 light-s), ◇ minus ○ 9.71 s"* ]]; then passed=$((passed + 1)); else fail "render --measure: $said"; fi
 says '--log-every' run --log-every 1
 
 # Exhibit files.

@@ -586,11 +586,11 @@ TEST(Instruments, ReadingsUseTheLanguagesWords)
     const auto english = reading_fields(m, words()), german = reading_fields(m, words("de"));
     EXPECT_EQ(english[1], Field("550 nm →", "635 nm"));
     EXPECT_EQ(english[3], Field("distance", "35.80 light-s"));
-    EXPECT_EQ(english[7], Field("length", "17.49 (at rest 20.00 light-s)"));
+    EXPECT_EQ(english[7], Field("length", "17.49 (rest 20.00 light-s)"));
     EXPECT_EQ(german[0], Field("D", "0,866"));
     EXPECT_EQ(german[3], Field("Entfernung", "35,80 Licht-s"));
     EXPECT_EQ(german[6], Field("○–◇", "31,49°"));
-    EXPECT_EQ(german[7], Field("Länge", "17,49 (in Ruhe 20,00 Licht-s)"));
+    EXPECT_EQ(german[7], Field("Länge", "17,49 (Ruhe 20,00 Licht-s)"));
     m.pair.reset(), m.marks = {};
     m.aim.seen_nm = 4321;
     EXPECT_EQ(reading_fields(m, words("de"))[1].second, "4321 nm infrarot");
