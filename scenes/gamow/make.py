@@ -559,7 +559,7 @@ def bodies():
     return trams + cyclists
 
 
-SCENE = """// A street where light flies at 5 metres a second (after George Gamow's Mr Tompkins): trams at 3 m/s, cyclists at 4 m/s, and who
+SCENE = """// A street where light flies at 5 metres a second (after George Gamow's Mr Tompkins): trams at 3 m/s, cyclists at 4 m/s, and whoever
 // walks briskly sees the houses lean. One unit is one metre. scenes/gamow/make.py writes the glTF and this file.
 {
     "gltf": "../../scenes/gamow/gamow.glb",
