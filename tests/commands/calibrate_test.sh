@@ -211,7 +211,7 @@ check 'Ctrl-C' 'stopped early; nothing was written'
 play 2 "$alone"$'\nunplug thrustmaster-t16000m\nwait 0.3' calibrate
 check 'a device unplugged meanwhile' 'unplugged; nothing was written'
 play 2 'start typed' calibrate
-check 'no stick' 'No stick, throttle, pad or space mouse is plugged in'
+check 'no stick' 'No stick, throttle, pad or space mouse that this user can read is plugged in'
 play 2 $'plug thrustmaster-t16000m 0\nstart typed' calibrate --device 1234:5678
 check 'another device' '1234:5678 is not plugged in'
 [ "$(cat "$written")" = "$before" ] || fail 'the file was changed'

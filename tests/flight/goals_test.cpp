@@ -136,7 +136,7 @@ TEST(GoalsTest, WrongGoalsAreRefused)
         load_scene_file(write_text("scene.json", scene(condition(R"("measure": { "quantity": "beta" }, "from": 0.5)"))))
             .goals.size(),
         1u);
-    EXPECT_NE(refusal(condition(R"("measure": { "quantity": "beta" })")).find("holds always"), std::string::npos);
+    EXPECT_NE(refusal(condition(R"("measure": { "quantity": "beta" })")).find("always holds"), std::string::npos);
     EXPECT_NE(refusal(condition(R"("measure": { "quantity": "beta" }, "from": 1, "below": 1)")).find("leaves nothing"),
         std::string::npos);
     EXPECT_NE(refusal(condition(R"("measure": { "quantity": "speed" }, "from": 1)")).find("gamma"), std::string::npos);
