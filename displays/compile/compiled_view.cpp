@@ -188,7 +188,7 @@ void bound_cache(const std::filesystem::path& folder, std::uintmax_t most_bytes)
         if (error)
             continue;
         if (const std::string kind = entry.path().extension().string();
-            kind == ".map" || kind == ".detail" || kind == ".shadow") {
+            kind == ".map" || kind == ".sky" || kind == ".detail" || kind == ".shadow") {
             all.push_back({read, entry.path(), bytes});
             sum += bytes;
         } else if (entry.path().extension() == ".part" && read < hour_ago) {

@@ -19,7 +19,7 @@ struct CompiledView {
 /// set; maps are then kept in memory only.
 std::filesystem::path map_cache_folder();
 
-/// The most bytes of the maps and the worlds' levels of detail and shadows in the folder.
+/// The most bytes of the maps and the worlds' skies, levels of detail and shadows in the folder.
 constexpr std::uintmax_t most_cached_bytes = std::uintmax_t(4) << 30;
 /// Removes the files that were read longest ago, and the unfinished files of processes that ended while they wrote.
 void bound_cache(const std::filesystem::path& folder, std::uintmax_t most_bytes = most_cached_bytes);

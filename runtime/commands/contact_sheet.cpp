@@ -24,7 +24,9 @@ std::vector<Job> jobs()
     for (const auto& entry : fs::directory_iterator(home() / "config" / "shots"))
         if (entry.path().extension() == ".json")
             all.push_back({"desk", entry.path().stem()});
-    std::sort(all.begin(), all.end(), [](const Job& a, const Job& b) { return a.shot < b.shot; });
+    // Whoever waits for the first picture sees the default world's best one.
+    const auto place = [](const Job& job) { return std::pair(job.shot != "starbow", job.shot); };
+    std::sort(all.begin(), all.end(), [&](const Job& a, const Job& b) { return place(a) < place(b); });
     all.push_back({"dome", "avenue-gamma4"});
     all.push_back({"stereo", "avenue-gamma4"});
     return all;
@@ -106,6 +108,9 @@ int render_contact_sheet(const fs::path& directory)
         auto pictures = render_still(folder, renderer, shot, false, &panel);
         sheet.place(int(i), all[i].name(), layout.outputs[0].size, pictures[0], typesetter);
         double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+        if (i == 0)
+            std::printf("The first picture is %s; %zu more follow.\n",
+                (folder / (layout.outputs[0].name + ".png")).string().c_str(), all.size() - 1);
         std::printf("%zu of %zu  %-28s about %.0f s left\n", i + 1, all.size(), (folder.string() + "/").c_str(),
             passed / double(i + 1) * double(all.size() - i - 1));
         std::fflush(stdout);

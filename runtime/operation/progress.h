@@ -4,8 +4,9 @@
 
 namespace starbow {
 
-/// One line on standard error that shows a person at a terminal how far long work is, and about how long the rest may take.
-/// It replaces itself, and is cleared with the object. Nothing is printed where standard error is no terminal.
+/// Lines on standard error that show a person how far long work is, and about how long the rest may take. At a terminal one
+/// line replaces itself, and is cleared with the object. Elsewhere work of more than two seconds has a line, and another one
+/// each minute.
 class Progress {
 public:
     Progress();
@@ -21,7 +22,7 @@ private:
     using Clock = std::chrono::steady_clock;
     bool terminal_, shown_ = false;
     double first_part_ = -1, last_part_ = 0;
-    Clock::time_point began_{}, last_{};
+    Clock::time_point began_{}, last_{}, made_ = Clock::now();
 };
 
 /// "about 40 s left", in minutes from 90 seconds on.

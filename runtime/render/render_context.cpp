@@ -12,7 +12,9 @@ namespace starbow {
 LoadedScene load_scene(const std::filesystem::path& file)
 {
     SceneFile scene = open_scene(file);
-    World world = load_world(scene);
+    World world = load_world(scene, map_cache_folder());
+    if (scene.stars && scene.stars->milky_way)
+        bound_cache(map_cache_folder());
     Progress progress;
     const auto show = [&](double part) { progress.show("levels of detail of " + scene.name, part); };
     if (add_kept_detail_levels(world, map_cache_folder(), show))

@@ -1,10 +1,8 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
-#include "config/json/whole_file.h"
 #include "config/model/scene_file.h"
 #include "globes.h"
-#include "gltf/parts.h"
-#include "painted_sky.h"
+#include "sky_cache.h"
 #include <algorithm>
 
 namespace starbow {
@@ -25,7 +23,7 @@ bool has_light(const World& world, const SceneFile& scene)
 
 } // namespace
 
-World load_world(const SceneFile& scene)
+World load_world(const SceneFile& scene, const std::filesystem::path& cache)
 {
     World world = load_world(scene.gltf);
     world.notes.insert(world.notes.begin(), scene.notes.begin(), scene.notes.end());
@@ -44,17 +42,7 @@ World load_world(const SceneFile& scene)
     }
     if (!scene.stars || !scene.stars->milky_way)
         return world;
-    const std::filesystem::path& file = scene.stars->milky_way->panorama;
-    const std::string right = "a PNG or JPEG of the whole sky, twice as wide as high,";
-    const std::string bytes = read_whole(file, std::size_t(256) << 20, right);
-    const std::string name = one_line(file.string());
-    Texture panorama = decode_image(name, "", {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, 0);
-    if (panorama.size.x != 2 * panorama.size.y)
-        throw InputError(name, "",
-            "has " + std::to_string(panorama.size.x) + " x " + std::to_string(panorama.size.y) + " pixels; " + right
-                + " is right");
-    if (const std::vector<Star> stars = painted_stars(*scene.stars); !stars.empty())
-        panorama = painted(panorama, stars, scene.stars->milky_way->peak_arcmin2);
+    Texture panorama = load_sky(*scene.stars, cache);
     panorama.sampler = {.u = Wrap::repeat, .v = Wrap::clamp};
     world.milky_way = int(world.textures.size());
     world.textures.push_back(std::move(panorama));

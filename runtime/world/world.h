@@ -253,7 +253,7 @@ struct World {
 /// Reads glTF 2.0 (.glb or .gltf) and nothing outside the file's own folder. Throws InputError in one line for anything
 /// broken, required but unsupported, or absurdly large.
 World load_world(const std::filesystem::path& file);
-/// A scene's world: its glTF, and the picture of its Milky Way, if it has one. Throws InputError.
-World load_world(const SceneFile& scene);
+/// A scene's world: its glTF, and the picture of its sky, if it has one. cache: load_sky's folder. Throws InputError.
+World load_world(const SceneFile& scene, const std::filesystem::path& cache = {});
 
 } // namespace starbow

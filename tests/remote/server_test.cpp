@@ -353,9 +353,9 @@ TEST(Server, LargeAndManyMessagesEndTheConnection)
     const auto parts = running.page("222222"); // and where it comes in parts
     for (int i = 0; i < 5; ++i) {
         std::string part(1000, ' ');
-        parts->send(
-            std::string{char(i == 0 ? 1 : 0), char(0x80 | 126), char(part.size() >> 8), char(part.size() & 255), 0, 0, 0, 0}
-            + part);
+        std::string frame{
+            char(i == 0 ? 1 : 0), char(0x80 | 126), char(part.size() >> 8), char(part.size() & 255), 0, 0, 0, 0};
+        parts->send(frame.append(part));
     }
     EXPECT_EQ(parts->read_close(), 1009);
     const auto fast = running.page("222222");

@@ -15,7 +15,6 @@ void GpuEnvironment::SetUp()
 #ifdef __GLIBC__
     // A software device allocates with malloc. Memory filled with 0x7e is NaN in fp16 and 8e37 in float, so that a read
     // of memory that was never written shows in the picture.
-    mallopt(M_MMAP_MAX, 0);
     mallopt(M_PERTURB, 0x81);
 #endif
     context = std::make_unique<RenderContext>(testing::source_dir() / "config/scenes/avenue.json",
