@@ -269,8 +269,8 @@ TEST(BodiesGpuTest, OnlyTheRelativeMotionMatters)
 
 TEST(BodiesGpuTest, ASphereKeepsACircularOutline)
 {
-    // docs/physics/relativity.md: a circle of radius 20 degrees, 90 degrees from the motion, at 0.9 c: centre 27.26680, radius
-    // 9.01490.
+    // docs/physics/relativity.md: a circle of radius 20 degrees, 90 degrees from the motion, at 0.9 c: centre 27.26680,
+    // radius 9.01490.
     Doc doc;
     const int material = unlit(doc, {1, 1, 1});
     std::vector<float> positions;
