@@ -11,7 +11,7 @@ cat >"$folder/small.json" <<'LAYOUT'
 LAYOUT
 
 # Without a device the program says so and measures nothing.
-said=$(timeout 60 umockdev-wrapper "$built/fake_sticks" "$hid" <(echo start) "$program" bench --input --layout "$folder/small.json" --seconds 1 2>&1 >/dev/null)
+said=$(timeout 300 umockdev-wrapper "$built/fake_sticks" "$hid" <(echo start) "$program" bench --input --layout "$folder/small.json" --seconds 1 2>&1 >/dev/null)
 [ $? = 2 ] && [[ $said == *"a keyboard does not count"* ]] || fail "without a device: $said"
 ok
 
@@ -23,7 +23,7 @@ start
 wait 0.5
 report $name 020000e2ff0000 1200
 SCRIPT
-timeout 60 umockdev-wrapper "$built/fake_sticks" "$hid" "$folder/script" "$program" bench --input --layout "$folder/small.json" --seconds 2 \
+timeout 300 umockdev-wrapper "$built/fake_sticks" "$hid" "$folder/script" "$program" bench --input --layout "$folder/small.json" --seconds 2 \
     >"$folder/table" 2>"$folder/log" || fail "exit $?: $(cat "$folder/table")"
 ok
 grep -q '^A device reports' "$folder/log" || fail "no line says that a device reports"
@@ -41,7 +41,7 @@ awk -v o="$own" -v f="$frame" 'BEGIN { split(o, s); split(f, t); exit !(s[1] < t
 ok
 # An interrupted measurement prints its results so far.
 (
-    timeout 60 umockdev-wrapper "$built/fake_sticks" "$hid" "$folder/script" bash -c 'echo $$ >"$0/pid"; exec "$@"' "$folder" \
+    timeout 300 umockdev-wrapper "$built/fake_sticks" "$hid" "$folder/script" bash -c 'echo $$ >"$0/pid"; exec "$@"' "$folder" \
         "$program" bench --input --layout "$folder/small.json" --seconds 600 >"$folder/cut" 2>"$folder/cut-log"
     echo $? >"$folder/status"
 ) &

@@ -59,7 +59,7 @@ lit() { # AREA
 }
 a=320x240+0+0 b=320x240+320+0 c=320x240+640+0 d=240x180+1000+30
 expect() { # WHAT AREA PICTURE
-    until_true 15 shows "$2" "$3" || fail "$1: $2 does not show $(basename "$3"): $(psnr "$2" "$3") dB"
+    until_true 60 shows "$2" "$3" || fail "$1: $2 does not show $(basename "$3"): $(psnr "$2" "$3") dB"
     ok
 }
 expect_all() { # WHAT
@@ -69,19 +69,19 @@ expect_all() { # WHAT
     expect "$1" $d "$folder/d.png"
 }
 expect_dark() { # WHAT AREA
-    until_true 15 dark "$2" || fail "$1: $2 is not dark"
+    until_true 60 dark "$2" || fail "$1: $2 is not dark"
     ok
 }
 expect_log() { # TEXT: the program's log must have it
-    until_true 15 grep -q -- "$1" "$folder/log" || fail "not in the log: $1"
+    until_true 60 grep -q -- "$1" "$folder/log" || fail "not in the log: $1"
     ok
 }
 
 fly() {
-    timeout 120 "$program" run --exhibit "$folder/exhibit.json" --layout "$folder/wall.json" >"$folder/log" 2>&1 &
+    timeout 600 "$program" run --exhibit "$folder/exhibit.json" --layout "$folder/wall.json" >"$folder/log" 2>&1 &
     exhibit=$!
     started+=($exhibit)
-    until_true 30 xdotool search --name '^Starbow a' || fail "no window"
+    until_true 60 xdotool search --name '^Starbow a' || fail "no window"
     local window
     window=$(xdotool search --name '^Starbow a')
     until_true 60 lit $a || fail "no first picture" # keys count from then on
@@ -197,20 +197,20 @@ f11() { # WHAT
     local size
     size=$(xdotool getwindowgeometry "$window" | sed -n 's/.*Geometry: //p')
     xdotool windowmove "$window" 650 20
-    until_true 15 placed || fail "$1: the window does not move: $(xdotool getwindowgeometry "$window")"
+    until_true 60 placed || fail "$1: the window does not move: $(xdotool getwindowgeometry "$window")"
     xdotool key F11
-    until_true 15 geometry 640,0 320x240 || fail "$1: F11 leads elsewhere: $(xdotool getwindowgeometry "$window")"
+    until_true 60 geometry 640,0 320x240 || fail "$1: F11 leads elsewhere: $(xdotool getwindowgeometry "$window")"
     ok
     xdotool key F11
-    until_true 15 placed || fail "$1: F11 does not lead back: $(xdotool getwindowgeometry "$window")"
+    until_true 60 placed || fail "$1: F11 does not lead back: $(xdotool getwindowgeometry "$window")"
     ok
 }
 
 # A window with a frame changes its size faster than pictures are drawn.
-timeout 120 "$program" run --layout desk --trace "$folder/trace.json" >"$folder/log" 2>&1 &
+timeout 600 "$program" run --layout desk --trace "$folder/trace.json" >"$folder/log" 2>&1 &
 exhibit=$!
 started+=($exhibit)
-until_true 30 xdotool search --name '^Starbow desk' || fail "no window"
+until_true 60 xdotool search --name '^Starbow desk' || fail "no window"
 window=$(xdotool search --name '^Starbow desk')
 pictured() { # true if the window has a picture
     [ "$(import -window "$window" png:- | identify -format '%[fx:maxima > 0.1]' -)" = 1 ]
@@ -218,7 +218,7 @@ pictured() { # true if the window has a picture
 until_true 60 pictured || fail "no first picture"
 for i in $(seq 60); do xdotool windowsize "$window" $((100 + i * 37 % 500)) $((60 + i * 23 % 150)); done
 xdotool windowsize "$window" 1 1 windowsize "$window" 300 200
-until_true 15 sh -c "xdotool getwindowgeometry $window | grep -q 300x200" || fail "resized: $(xdotool getwindowgeometry "$window")"
+until_true 60 sh -c "xdotool getwindowgeometry $window | grep -q 300x200" || fail "resized: $(xdotool getwindowgeometry "$window")"
 xdotool windowfocus "$window"
 f11 "with openbox"
 xdotool windowminimize "$window"
@@ -227,7 +227,7 @@ least=$(($(steps) + 15))
 stepped() { [ "$(steps)" -ge $least ]; }
 until_true 60 stepped || fail "minimised: the frame loop stands still"
 xdotool windowmap "$window"
-until_true 15 pictured || fail "no picture after the window was minimised"
+until_true 60 pictured || fail "no picture after the window was minimised"
 xdotool windowfocus "$window"
 xdotool key Escape
 wait $exhibit || fail "resized: exit $?"
@@ -244,7 +244,7 @@ xrandr --output DUMMY0 --mode 240x180
 cat >"$folder/one.json" <<'END'
 { "outputs": [{ "name": "a", "monitor": { "connector": "DUMMY0" }, "size": [40, 30], "viewports": [{ "projection": { "type": "planar" } }] }] }
 END
-STARBOW_VALIDATION=0 timeout 60 "$program" run --layout "$folder/one.json" --frames 150 >"$folder/log" 2>&1 || fail "paced: exit $?"
+STARBOW_VALIDATION=0 timeout 300 "$program" run --layout "$folder/one.json" --frames 150 >"$folder/log" 2>&1 || fail "paced: exit $?"
 flown=$(sed -n 's/.*ship \([0-9.]*\) s.*/\1/p' "$folder/log")
 awk "BEGIN { exit !($flown >= 2.8) }" || fail "paced: 150 frames in $flown s"
 ok
@@ -254,18 +254,18 @@ echo "150 frames at 50 Hz took $flown s"
 kill -9 $manager
 wait $manager 2>/dev/null
 xprop -root _NET_SUPPORTING_WM_CHECK | grep -q 0x || fail "the killed window manager left no property behind, so that nothing is tested"
-timeout 60 "$program" run --layout "$folder/wall.json" --frames 3 >"$folder/log" 2>&1 || fail "after a killed window manager: exit $?"
+timeout 300 "$program" run --layout "$folder/wall.json" --frames 3 >"$folder/log" 2>&1 || fail "after a killed window manager: exit $?"
 ok
 
 # Without a window manager the program alone decides where a window goes.
 xrandr --output DUMMY0 --mode 320x240
-timeout 60 "$program" run --layout desk >"$folder/log" 2>&1 &
+timeout 300 "$program" run --layout desk >"$folder/log" 2>&1 &
 exhibit=$!
 started+=($exhibit)
-until_true 30 xdotool search --name '^Starbow desk' || fail "no window"
+until_true 60 xdotool search --name '^Starbow desk' || fail "no window"
 window=$(xdotool search --name '^Starbow desk')
 xdotool windowsize "$window" 300 200
-until_true 15 sh -c "xdotool getwindowgeometry $window | grep -q 300x200" || fail "F11: $(xdotool getwindowgeometry "$window")"
+until_true 60 sh -c "xdotool getwindowgeometry $window | grep -q 300x200" || fail "F11: $(xdotool getwindowgeometry "$window")"
 xdotool windowfocus "$window"
 f11 "without a window manager"
 xdotool key Escape
