@@ -21,7 +21,8 @@ cat >"$folder/script" <<SCRIPT
 plug $name 0
 start
 wait 0.5
-report $name 020000e2ff0000 1200
+forever
+report $name 020000e2ff0000 200
 SCRIPT
 timeout 300 umockdev-wrapper "$built/fake_sticks" "$hid" "$folder/script" "$program" bench --input --layout "$folder/small.json" --seconds 2 \
     >"$folder/table" 2>"$folder/log" || fail "exit $?: $(cat "$folder/table")"

@@ -22,8 +22,8 @@
 // STARBOW_COUNT_CALLS=1: at the end the layer prints on stderr how often each function of the lists was called before and
 // after the first presentation.
 // STARBOW_SHOWN_LATE_MS=MS: the layer provides VK_KHR_present_wait. Each swapchain shows its pictures MS later than the
-// swapchain made before it. When the device is destroyed, the layer prints the median of the frames' times between the first
-// and the last report of a picture: `fault: reported MS ms apart`.
+// swapchain made before it. When the device is destroyed, the layer prints the times between a frame's first and last
+// report of a picture, without the least and the greatest three tenths: `fault: reported MS to MS ms apart`.
 // STARBOW_BARRIER=SURFACES: the layer provides VK_NV_present_barrier. SURFACES is `all`, or `none` where no surface can take
 // part. For each swapchain that takes part it prints `fault: in the barrier` on stderr.
 #include <algorithm>
@@ -371,8 +371,9 @@ VKAPI_ATTR void VKAPI_CALL destroy_device(VkDevice device, const VkAllocationCal
         if (times.second > times.first)
             apart_ms.push_back(std::chrono::duration<double, std::milli>(times.second - times.first).count());
     if (!apart_ms.empty()) {
-        std::nth_element(apart_ms.begin(), apart_ms.begin() + apart_ms.size() / 2, apart_ms.end());
-        std::fprintf(stderr, "fault: reported %.2f ms apart\n", apart_ms[apart_ms.size() / 2]);
+        std::sort(apart_ms.begin(), apart_ms.end());
+        std::fprintf(stderr, "fault: reported %.2f to %.2f ms apart\n", apart_ms[apart_ms.size() * 3 / 10],
+            apart_ms[apart_ms.size() * 7 / 10]);
     }
     reported.clear();
     lost_devices.erase(k);
