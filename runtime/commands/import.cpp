@@ -105,7 +105,7 @@ void add_import(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<ImportOptions>();
     Subcommand* command = app.add_subcommand("import", "Make a layout from another program's configuration.");
-    command->require_subcommand(1);
+    command->require_subcommand();
     Subcommand* sgct = command->add_subcommand("sgct", "Import SGCT's JSON, and print the new place of each member");
     sgct->add_option("file", options->file, "SGCT's configuration")->required();
     sgct->add_option("--out", options->out, "The layout's file")->required();

@@ -10,6 +10,6 @@ namespace starbow {
 /// would be read. A folder that is empty, or can't be used, only makes starts slower. progress: as add_detail_levels'.
 /// Returns true if it has written a file.
 bool add_kept_detail_levels(World& world, const std::filesystem::path& folder,
-    const std::function<void(double)>& progress = {}, std::size_t worth_keeping = 600'000);
+    const std::function<void(double)>& progress = {}, std::size_t worth_keeping = 20'000);
 
 } // namespace starbow

@@ -131,7 +131,7 @@ END
     chmod -R go+rX "$folder"
     (cd "$folder" && timeout 30 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/locked" \
         setpriv --reuid=65534 --regid=65534 --clear-groups "$folder/open/starbow" devices) >"$folder/log" 2>&1 </dev/null
-    grep -q 'T.16000M.*can't be read by this user: copy config/udev/70-starbow.rules' "$folder/log" || fail "no permission: devices does not name the rule"
+    grep -q "T.16000M.*can't be read by this user: copy config/udev/70-starbow.rules" "$folder/log" || fail "no permission: devices does not name the rule"
     ok
     advice='copy config/udev/70-starbow.rules'
     for rules in /etc/udev/rules.d /run/udev/rules.d /usr/lib/udev/rules.d /lib/udev/rules.d; do

@@ -25,8 +25,8 @@ TEST(ReaderTest, InvalidJsonIsReportedWithARemedy)
 {
     const std::vector<std::array<std::string, 3>> cases = {
         {"{\n \"a\": [\n {\"b\": \"c\" // d\n \"e\": 1}]}", "3", "follows \"e\"; a comma"},
-        {"{\n \"a\": 1\n \"b\": 2}", "2", "follows \"b\"; a comma"},
-        {"{\n \"a\": [1\n 2.5e3]}", "2", "follows 2.5e3; a comma"},
+        {"{\n \"a\": 1\n \"b\": 2}", "2", "is followed by \"b\"; a comma"},
+        {"{\n \"a\": [1\n 2.5e3]}", "2", "is followed by 2.5e3; a comma"},
         {"{\"a\": 1,\n}", "2", "} follows a comma"},
         {"{\"a\": [1,\n]}", "2", "] follows a comma"},
         {"{a: 1}", "1", "a stands where a name should"},
@@ -40,7 +40,7 @@ TEST(ReaderTest, InvalidJsonIsReportedWithARemedy)
         {"{\"a\": \"b\n}", "1", "a text has no end"},
         {"{\"a\": \"\\q\"}", "1", "can't be read"},
         {"{\"a\": 1}}", "1", "} comes after the end"},
-        {"{\"a\": [1, 2}", "1", "follows }; a comma between them, or a closing ]"},
+        {"{\"a\": [1, 2}", "1", "is followed by }; a comma between them, or a closing ]"},
         {"{\"a\": NaN}", "1", "NaN is not a value"},
     };
     for (const auto& [text, line, problem] : cases)
