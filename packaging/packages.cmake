@@ -18,7 +18,7 @@ file(WRITE ${CMAKE_BINARY_DIR}/packaging/copyright "${copyright}${notice}")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/copyright NOTICE)
 
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
-  ${CMAKE_CURRENT_LIST_DIR}/catalog.py ${CMAKE_SOURCE_DIR}/docs/log.md ${CMAKE_SOURCE_DIR}/config/model/log_kinds.h)
+  ${CMAKE_CURRENT_LIST_DIR}/catalog.py ${CMAKE_SOURCE_DIR}/docs/operation.md ${CMAKE_SOURCE_DIR}/config/model/log_kinds.h)
 execute_process(COMMAND python3 ${CMAKE_CURRENT_LIST_DIR}/catalog.py ${CMAKE_BINARY_DIR}/packaging/starbow.catalog
   COMMAND_ERROR_IS_FATAL ANY)
 
