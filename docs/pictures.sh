@@ -37,7 +37,7 @@ convert "$work/wall/left.png" "$work/wall/middle.png" "$work/wall/right.png" -ba
     -chop 10x0 -resize 1280x -quality 85 docs/museum.jpg
 still dome --layout dome --shot gamow-cycling --size 1024x1024
 convert "$work/dome/domemaster.png" -resize 512x512 -quality 88 docs/dome.jpg
-still class --shot alice --size 800x500 --overlay ring --measure "0deg,0deg; 16.8deg,0deg" --why doppler
+still class --shot gamow-walking --size 800x500 --overlay ring --measure "0deg,2deg; 17deg,8deg" --why doppler
 convert "$work/class/desk.png" -quality 88 docs/class.jpg
 
 # The worlds.
@@ -47,8 +47,8 @@ while read -r world shot; do
 done <<'END'
 avenue avenue-rest
 rainbow rainbow-line
-solar-system saturn
-warm-wall warm-wall-4
+solar-system earth
+warm-wall warm-wall-1.5
 clocks clocks-rest
 chart chart-rest
 train train-tunnel

@@ -27,8 +27,7 @@ install(DIRECTORY config scenes DESTINATION share/starbow COMPONENT starbow
   PATTERN *.py EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN config/model EXCLUDE PATTERN config/json EXCLUDE
   PATTERN config/import EXCLUDE PATTERN config/udev EXCLUDE PATTERN LICENSE* EXCLUDE PATTERN README.md EXCLUDE)
 install(DIRECTORY docs/ DESTINATION share/doc/starbow COMPONENT starbow
-  FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN *.png PATTERN *.webm)
-install(FILES README.md DESTINATION share/doc/starbow COMPONENT starbow)
+  FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN *.png PATTERN *.jpg PATTERN *.webm)
 install(FILES packaging/starbow.desktop DESTINATION share/applications COMPONENT starbow)
 install(FILES packaging/starbow.metainfo.xml DESTINATION share/metainfo COMPONENT starbow)
 install(FILES config/udev/70-starbow.rules DESTINATION /lib/udev/rules.d COMPONENT starbow)

@@ -1,5 +1,7 @@
 // The pages for readers: docs/README.md leads to every page, and every link leads to a file and a heading that are there.
 #include "tests/support/files.h"
+#include <algorithm>
+#include <optional>
 #include <regex>
 #include <set>
 
@@ -25,13 +27,16 @@ std::string without_code(const std::string& page)
     return plain;
 }
 
-/// The fragments by which a link reaches a page's headings, as GitHub makes them: lower case, spaces as hyphens, no other
-/// punctuation; of equal headings the second has -1 at its end.
+/// The fragments by which a link reaches a place of a page: each id="...", and each heading as GitHub makes it: lower case,
+/// spaces as hyphens, no other punctuation; of equal headings the second has -1 at its end.
 std::set<std::string> fragments_of(const std::string& page)
 {
-    std::istringstream text(without_code(page));
-    static const std::regex link(R"(\[([^\]]*)\]\([^)]*\))");
+    const std::string plain = without_code(page);
+    static const std::regex link(R"(\[([^\]]*)\]\([^)]*\))"), id("id=\"([^\"]+)\"");
     std::set<std::string> all;
+    for (std::sregex_iterator at(plain.begin(), plain.end(), id), end; at != end; ++at)
+        all.insert((*at)[1]);
+    std::istringstream text(plain);
     for (std::string line; std::getline(text, line);) {
         if (!line.starts_with("#"))
             continue;
@@ -52,10 +57,13 @@ std::set<std::string> fragments_of(const std::string& page)
 /// The relative targets of a page's links and pictures, in Markdown and in HTML.
 std::vector<std::string> links_of(const std::string& page)
 {
-    static const std::regex markdown(R"(\]\(([^)\s]+)\))"), html("(href|src)=\"([^\"]+)\""), inline_code("`[^`\n]*`");
+    // [text](target), and [name]: target at a line's beginning
+    static const std::regex markdown(R"(\]\(([^)\s]+)\))"), definition(R"((?:^|\n)\[[^\]\n]+\]: (\S+))"), html("(href|src)=\"([^\"]+)\""), inline_code("`[^`\n]*`");
     const std::string plain = std::regex_replace(without_code(page), inline_code, "");
     std::vector<std::string> all;
     for (std::sregex_iterator at(plain.begin(), plain.end(), markdown), end; at != end; ++at)
+        all.push_back((*at)[1]);
+    for (std::sregex_iterator at(plain.begin(), plain.end(), definition), end; at != end; ++at)
         all.push_back((*at)[1]);
     for (std::sregex_iterator at(plain.begin(), plain.end(), html), end; at != end; ++at)
         all.push_back((*at)[2]);
@@ -143,14 +151,15 @@ TEST(Docs, PlantedFaultsAreFound)
 {
     const auto read = [](const std::string& file) -> std::optional<std::string> {
         if (file == "docs/a.md")
-            return "# A page: of *two* parts\n\n## Light\n\n```\n# no heading\n```\n\n## Light\n";
+            return "# A page: of *two* parts\n\n<a id=\"x1905\"></a>\n\n## Light\n\n```\n# no heading\n```\n\n## Light\n";
         return file == "docs/b.md" ? std::optional<std::string>("") : std::nullopt;
     };
     const auto broken = [&](const std::string& text) { return lines(broken_links("docs/a.md", text, read)); };
     EXPECT_EQ(broken("[b](b.md) ![b](../docs/b.md) [web](https://example.org/gone) <img src=\"b.md\">"), "");
-    EXPECT_EQ(broken("[a](#a-page-of-two-parts) [l](a.md#light) [m](#light-1)"), "");
+    EXPECT_EQ(broken("[a](#a-page-of-two-parts) [l](a.md#light) [m](#light-1) [n](#x1905)\n[x]: a.md#light"), "");
     EXPECT_EQ(broken("`[c](c.md)`\n```\n[c](c.md)\n```\n"), "");
     EXPECT_EQ(broken("[c](c.md)"), "docs/a.md links c.md, which the repository does not have\n");
+    EXPECT_EQ(broken("x\n[c]: c.md#d\n"), "docs/a.md links c.md#d, which the repository does not have\n");
     EXPECT_EQ(broken("<img src=\"c.png\">"), "docs/a.md links c.png, which the repository does not have\n");
     EXPECT_EQ(broken("[h](#no-heading)"), "docs/a.md links #no-heading, a heading that docs/a.md does not have\n");
     EXPECT_EQ(broken("[b](b.md#dark)"), "docs/a.md links b.md#dark, a heading that docs/b.md does not have\n");
