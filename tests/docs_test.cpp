@@ -54,11 +54,11 @@ std::set<std::string> fragments_of(const std::string& page)
     return all;
 }
 
-/// The relative targets of a page's links and pictures, in Markdown and in HTML.
+/// The relative targets of a page's links and pictures, in Markdown and in HTML; formulas between $ have none.
 std::vector<std::string> links_of(const std::string& page)
 {
     // [text](target), and [name]: target at a line's beginning
-    static const std::regex markdown(R"(\]\(([^)\s]+)\))"), definition(R"((?:^|\n)\[[^\]\n]+\]: (\S+))"), html("(href|src)=\"([^\"]+)\""), inline_code("`[^`\n]*`");
+    static const std::regex markdown(R"(\]\(([^)\s]+)\))"), definition(R"((?:^|\n)\[[^\]\n]+\]: (\S+))"), html("(href|src)=\"([^\"]+)\""), inline_code("`[^`\n]*`|\\$[^$\n]*\\$");
     const std::string plain = std::regex_replace(without_code(page), inline_code, "");
     std::vector<std::string> all;
     for (std::sregex_iterator at(plain.begin(), plain.end(), markdown), end; at != end; ++at)
