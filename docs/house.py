@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws docs/house.svg: the rooms of README's table and the #includes between them. From the repository's root:
+"""Draws docs/house.svg: the rooms of CONTRIBUTING.md's table and the #includes between them. From the repository's root:
 
     python3 docs/house.py            # writes docs/house.svg
     python3 docs/house.py --check    # exits 1 where docs/house.svg is not up to date
@@ -17,7 +17,7 @@ SOURCES = {".h", ".cpp", ".glsl", ".vert", ".frag", ".comp"}
 def table():
     """[(room, one line of text)] in the table's order, each merged room once."""
     rooms = {}
-    for folder, text in re.findall(r"^\| `([^`]+)/` \| ([^|]*)\|", (ROOT / "README.md").read_text(), re.M):
+    for folder, text in re.findall(r"^\| `([^`]+)/` \| ([^|]*)\|", (ROOT / "CONTRIBUTING.md").read_text(), re.M):
         room = folder.split("/")[0] if folder.split("/")[0] in MERGED else folder
         rooms.setdefault(room, text.strip())
     return list(rooms)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the journal's catalog: what docs/log.md says of each kind of line, under the identifier in config/model/log_kinds.h.
+"""Writes the journal's catalog: what docs/operation.md says of each kind of line, under the identifier in config/model/log_kinds.h.
 From the repository's root:
 
     python3 packaging/catalog.py FILE
@@ -25,11 +25,11 @@ def main():
     kinds = re.findall(r"^    (\w+),$", re.search(r"enum class LogKind.*?\{(.*?)\};", header, re.S)[1], re.M)
     if [kind.replace("_", "-") for kind in kinds] != [name for name, *_ in rules]:
         sys.exit("config/model/log_kinds.h: LogKind and log_rules do not have the same kinds in the same order")
-    page = (ROOT / "docs/log.md").read_text()
+    page = (ROOT / "docs/operation.md").read_text()
     rows = re.findall(r"^\| ([a-z-]+) \| (debug|info|warning|error) \| ([^|]*) \| ([^|]*) \| ([^|]*) \|$", page, re.M)
     differ = sorted({(name, level) for name, _, level in rules} ^ {(name, level) for name, level, *_ in rows})
     if differ or len(rows) != len(rules) or not rules:
-        sys.exit(f"docs/log.md and config/model/log_kinds.h do not have the same kinds, each once: {differ}")
+        sys.exit(f"docs/operation.md and config/model/log_kinds.h do not have the same kinds, each once: {differ}")
     explained = {name: (means, do) for name, _, _, means, do in rows}
     entries = []
     for name, message_id, _ in rules:
@@ -37,7 +37,7 @@ def main():
         subject, _, rest = means.partition(". ")
         entries.append(
             f"-- {message_id}\nSubject: {subject.rstrip('.')}\nDefined-By: Starbow\n"
-            "Documentation: file:///usr/share/doc/starbow/log.md\n\n"
+            "Documentation: file:///usr/share/doc/starbow/operation.md\n\n"
             + (rest + "\n" if rest else "") + f"What to do: {do}\n"
         )
     pathlib.Path(sys.argv[1]).write_text("\n".join(entries))

@@ -14,7 +14,7 @@ compressed(${CMAKE_CURRENT_LIST_DIR}/starbow.1 starbow.1)
 compressed(${CMAKE_CURRENT_LIST_DIR}/changelog changelog)
 
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
-  ${CMAKE_CURRENT_LIST_DIR}/catalog.py ${CMAKE_SOURCE_DIR}/docs/log.md ${CMAKE_SOURCE_DIR}/config/model/log_kinds.h)
+  ${CMAKE_CURRENT_LIST_DIR}/catalog.py ${CMAKE_SOURCE_DIR}/docs/operation.md ${CMAKE_SOURCE_DIR}/config/model/log_kinds.h)
 execute_process(COMMAND python3 ${CMAKE_CURRENT_LIST_DIR}/catalog.py ${CMAKE_BINARY_DIR}/packaging/starbow.catalog
   COMMAND_ERROR_IS_FATAL ANY)
 
@@ -24,8 +24,7 @@ install(DIRECTORY config scenes DESTINATION share/starbow COMPONENT starbow
   PATTERN *.py EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN config/model EXCLUDE PATTERN config/json EXCLUDE
   PATTERN config/import EXCLUDE PATTERN config/udev EXCLUDE PATTERN LICENSE* EXCLUDE PATTERN README.md EXCLUDE)
 install(DIRECTORY docs/ DESTINATION share/doc/starbow COMPONENT starbow
-  FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN *.png PATTERN *.webm)
-install(FILES README.md DESTINATION share/doc/starbow COMPONENT starbow)
+  FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN *.png PATTERN *.jpg PATTERN *.webm)
 install(FILES packaging/starbow.desktop DESTINATION share/applications COMPONENT starbow)
 install(FILES packaging/starbow.metainfo.xml DESTINATION share/metainfo COMPONENT starbow)
 install(FILES config/udev/70-starbow.rules DESTINATION /lib/udev/rules.d COMPONENT starbow)

@@ -1,5 +1,5 @@
-// The house rules, read from the repository itself: README's table says which room may include which, and every #include
-// must follow it.
+// The house rules, read from the repository itself: CONTRIBUTING.md's table says which room may include which, and every
+// #include must follow it.
 #include "tests/support/files.h"
 #include <algorithm>
 #include <fstream>
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A row of README's table: a folder without its last slash, and the folders that its files may include.
+/// A row of CONTRIBUTING.md's table: a folder without its last slash, and the folders that its files may include.
 struct Room {
     std::string folder;
     std::vector<std::string> may;
@@ -33,11 +33,11 @@ std::vector<std::string> quoted(const std::string& cell)
 }
 
 /// Reads the rows of the table with "room" and "may include" in its head.
-std::vector<Room> rooms_of(const std::string& readme)
+std::vector<Room> rooms_of(const std::string& page)
 {
     static const std::regex row(R"(\| `([^`]+)/` \|[^|]*\|([^|]*)\|)");
     std::vector<Room> rooms;
-    std::istringstream text(readme.substr(readme.find("| room | what it holds | may include |")));
+    std::istringstream text(page.substr(page.find("| room | what it holds | may include |")));
     std::string line;
     while (std::getline(text, line) && line.starts_with("|")) {
         std::smatch cells;
@@ -110,7 +110,7 @@ std::vector<std::string> broken_rules(const std::vector<Room>& rooms, const std:
         }
         const Room *from = room_of(rooms, one.from), *to = room_of(rooms, one.to);
         if (!from || !to) {
-            broken.push_back((from ? one.to : one.from) + " is in no room of README's table");
+            broken.push_back((from ? one.to : one.from) + " is in no room of CONTRIBUTING.md's table");
             continue;
         }
         const bool allowed = from == to || std::any_of(from->may.begin(), from->may.end(), [&](const std::string& folder) {
@@ -161,7 +161,7 @@ std::string lines(const std::vector<std::string>& all)
 
 const std::vector<Room>& rooms()
 {
-    static const std::vector<Room> all = rooms_of(read_text(source_dir() / "README.md"));
+    static const std::vector<Room> all = rooms_of(read_text(source_dir() / "CONTRIBUTING.md"));
     return all;
 }
 const std::vector<Include>& includes()
@@ -172,7 +172,7 @@ const std::vector<Include>& includes()
 
 } // namespace
 
-TEST(House, EveryIncludeFollowsTheTableInReadme)
+TEST(House, EveryIncludeFollowsTheTableOfRooms)
 {
     ASSERT_GE(rooms().size(), 20u);
     ASSERT_GE(includes().size(), 900u); // otherwise some sources were not found
@@ -348,7 +348,7 @@ TEST(House, PlantedFaultsAreFound)
     EXPECT_EQ(lines(broken_rules(two, includes("low/a.h", "  # include \"gone.h\"\n"))),
         "low/a.h includes \"gone.h\", which the repository does not have\n");
     EXPECT_EQ(lines(broken_rules(two, includes("high/c.h", "#include \"stray/d.h\""))),
-        "stray/d.h is in no room of README's table\n");
+        "stray/d.h is in no room of CONTRIBUTING.md's table\n");
     std::vector<Include> both = includes("low/a.h", "#include \"b.h\"");
     EXPECT_EQ(lines(cycle(both)), "");
     for (const Include& one : includes("low/b.h", "#include \"a.h\""))

@@ -10,7 +10,7 @@ namespace starbow {
 enum class LogLevel : std::uint8_t { debug, info, warning, error };
 
 /// The kinds of the log's lines. A text may change with the place and the moment, its kind's identifier never does:
-/// scripts and the journal's catalog know the kinds by it. docs/log.md explains each of them.
+/// scripts and the journal's catalog know the kinds by it. docs/operation.md explains each of them.
 enum class LogKind : std::uint8_t {
     hung,
     diary_damaged,

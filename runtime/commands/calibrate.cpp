@@ -14,7 +14,7 @@
 #include <poll.h>
 #include <termios.h>
 #include <thread>
-#include <strings.h>
+#include <cstring>
 #include <unistd.h>
 
 namespace starbow {

@@ -33,7 +33,9 @@ has() {
 }
 has starbow /usr/bin/starbow /usr/lib/starbow/starbow-tools /usr/share/starbow/config/layouts/dome2/left.data /usr/share/starbow/scenes/avenue/avenue.glb \
     /usr/share/starbow/config/words/de.json /usr/share/starbow/config/remote/page.html \
-    /usr/share/starbow/config/remote/page.js /usr/share/starbow/config/remote/page.css /usr/share/doc/starbow/remote.png /usr/share/doc/starbow/exhibit.md /usr/share/doc/starbow/physics/spectrum.svg \
+    /usr/share/starbow/config/remote/page.js /usr/share/starbow/config/remote/page.css /usr/share/doc/starbow/remote.png /usr/share/doc/starbow/README.md \
+    /usr/share/doc/starbow/exhibit.md /usr/share/doc/starbow/operation.md /usr/share/doc/starbow/worlds/gamow.jpg /usr/share/doc/starbow/layouts/dome.svg \
+    /usr/share/doc/starbow/physics/spectrum.svg \
     /usr/share/applications/starbow.desktop /usr/share/man/man1/starbow.1.gz /usr/share/doc/starbow/changelog.gz \
     /usr/share/doc/starbow/copyright /lib/udev/rules.d/70-starbow.rules
 has starbow-exhibit /lib/systemd/system/starbow.service /lib/systemd/system/starbow-display.service \

@@ -1,0 +1,64 @@
+#!/bin/sh
+# Draws the pictures of README.md, docs/scenes.md and docs/displays.md again. From the repository's root, with ffmpeg
+# and ImageMagick installed:
+#
+#     docs/pictures.sh build/release/starbow
+set -eu
+starbow=$1
+work=out/pictures
+mkdir -p "$work" docs/worlds docs/layouts
+
+# still NAME OPTION...: draws $work/NAME/OUTPUT.png
+still() {
+    name=$1
+    shift
+    "$starbow" render --out "$work/$name" "$@"
+}
+
+# The take-off: a tour as a movie, and the movie as a moving picture.
+"$starbow" render --tour docs/take-off.json --movie "$work/take-off.mp4" --fps 15 --size 640x360 --quality balanced
+ffmpeg -v error -y -i "$work/take-off.mp4" -c:v libwebp_anim -loop 0 -quality 70 -compression_level 6 docs/take-off.webp
+
+# One street at rest and at gamma 4, shapes alone: the same place, time and view.
+cat >"$work/street-gamma4.json" <<'END'
+{
+    "scene": "gamow", "time": 8.0, "position": [1.0, 1.7, 17.0], "look": [0, 0, -1],
+    "velocity": { "direction": [0, 0, -1], "gamma": 4 },
+    "effects": { "aberration": true, "doppler": false, "headlight": false }
+}
+END
+still rest --shot gamow-rest --size 640x480
+still gamma4 --shot "$work/street-gamma4.json" --size 640x480
+convert "$work/rest/desk.png" "$work/gamma4/desk.png" -splice 4x0+0+0 +append -chop 4x0 -quality 88 docs/rest-gamma4.jpg
+
+# A wall of three screens with the display for visitors, a domemaster, and the laboratory's instruments.
+still wall --layout wall3 --shot gamow-cycling --size 640x400 --hud --information visitor
+convert "$work/wall/left.png" "$work/wall/middle.png" "$work/wall/right.png" -background '#222' -splice 10x0 +append \
+    -chop 10x0 -resize 1280x -quality 85 docs/museum.jpg
+still dome --layout dome --shot gamow-cycling --size 1024x1024
+convert "$work/dome/domemaster.png" -resize 512x512 -quality 88 docs/dome.jpg
+still class --shot gamow-walking --size 800x500 --overlay ring --measure "0deg,2deg; 17deg,8deg" --why doppler
+convert "$work/class/desk.png" -quality 88 docs/class.jpg
+
+# The worlds.
+while read -r world shot; do
+    still "world-$world" --shot "$shot" --size 640x400
+    convert "$work/world-$world/desk.png" -resize 480x300 -quality 82 "docs/worlds/$world.jpg"
+done <<'END'
+avenue avenue-rest
+rainbow rainbow-line
+solar-system earth
+warm-wall warm-wall-1.5
+clocks clocks-rest
+chart chart-rest
+train train-tunnel
+twins twins-turn
+light-clock light-clock
+alice-and-bob alice
+gamow gamow-rest
+END
+
+# A layout of each projection, as `starbow check` draws it.
+for layout in desk wall3 cave5 dome dome2 mirror headset stereo; do
+    "$starbow" check "$layout" --svg "docs/layouts/$layout.svg"
+done

@@ -1,0 +1,168 @@
+// The pages for readers: docs/README.md leads to every page, and every link leads to a file and a heading that are there.
+#include "tests/support/files.h"
+#include <algorithm>
+#include <optional>
+#include <regex>
+#include <set>
+
+namespace docs_test {
+
+using namespace starbow::testing;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The text of a page without its code: blocks between ``` and quotations between `.
+std::string without_code(const std::string& page)
+{
+    std::istringstream text(page);
+    std::string plain;
+    bool code = false;
+    for (std::string line; std::getline(text, line);) {
+        if (line.starts_with("```"))
+            code = !code;
+        else if (!code)
+            plain += line + "\n";
+    }
+    return plain;
+}
+
+/// The fragments by which a link reaches a place of a page: each id="...", and each heading as GitHub makes it: lower case,
+/// spaces as hyphens, no other punctuation; of equal headings the second has -1 at its end.
+std::set<std::string> fragments_of(const std::string& page)
+{
+    const std::string plain = without_code(page);
+    static const std::regex link(R"(\[([^\]]*)\]\([^)]*\))"), id("id=\"([^\"]+)\"");
+    std::set<std::string> all;
+    for (std::sregex_iterator at(plain.begin(), plain.end(), id), end; at != end; ++at)
+        all.insert((*at)[1]);
+    std::istringstream text(plain);
+    for (std::string line; std::getline(text, line);) {
+        if (!line.starts_with("#"))
+            continue;
+        const std::string heading = std::regex_replace(line.substr(line.find_first_not_of("# ")), link, "$1");
+        std::string fragment;
+        for (const char c : heading)
+            if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || static_cast<unsigned char>(c) >= 128)
+                fragment += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            else if (c == ' ')
+                fragment += '-';
+        std::string other = fragment;
+        for (int n = 1; !all.insert(other).second; ++n)
+            other = fragment + "-" + std::to_string(n);
+    }
+    return all;
+}
+
+/// The relative targets of a page's links and pictures, in Markdown and in HTML; formulas between $ have none.
+std::vector<std::string> links_of(const std::string& page)
+{
+    // [text](target), and [name]: target at a line's beginning
+    static const std::regex markdown(R"(\]\(([^)\s]+)\))"), definition(R"((?:^|\n)\[[^\]\n]+\]: (\S+))"), html("(href|src)=\"([^\"]+)\""), inline_code("`[^`\n]*`|\\$[^$\n]*\\$");
+    const std::string plain = std::regex_replace(without_code(page), inline_code, "");
+    std::vector<std::string> all;
+    for (std::sregex_iterator at(plain.begin(), plain.end(), markdown), end; at != end; ++at)
+        all.push_back((*at)[1]);
+    for (std::sregex_iterator at(plain.begin(), plain.end(), definition), end; at != end; ++at)
+        all.push_back((*at)[1]);
+    for (std::sregex_iterator at(plain.begin(), plain.end(), html), end; at != end; ++at)
+        all.push_back((*at)[2]);
+    std::erase_if(all, [](const std::string& target) { return target.find("://") != target.npos; });
+    return all;
+}
+
+/// One sentence for each link of a page that leads nowhere. read: the text of a file, relative to the repository's root, or
+/// nothing if the repository does not have it. A folder's text is empty.
+std::vector<std::string> broken_links(const std::string& page, const std::string& text,
+    const std::function<std::optional<std::string>(const std::string&)>& read)
+{
+    std::vector<std::string> broken;
+    for (const std::string& target : links_of(text)) {
+        const std::size_t hash = std::min(target.find('#'), target.size());
+        const std::string file
+            = hash == 0 ? page : (fs::path(page).parent_path() / target.substr(0, hash)).lexically_normal().generic_string();
+        const std::optional<std::string> other = read(file);
+        if (!other)
+            broken.push_back(page + " links " + target + ", which the repository does not have");
+        else if (hash < target.size() && !fragments_of(*other).contains(target.substr(hash + 1)))
+            broken.push_back(page + " links " + target + ", a heading that " + file + " does not have");
+    }
+    return broken;
+}
+
+std::optional<std::string> read_file(const std::string& file)
+{
+    const fs::path path = source_dir() / file;
+    if (fs::is_directory(path))
+        return "";
+    if (!fs::is_regular_file(path))
+        return std::nullopt;
+    return read_text(path);
+}
+
+/// Every page below docs/, from the repository's root.
+std::vector<std::string> pages()
+{
+    std::vector<std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(source_dir() / "docs"))
+        if (entry.path().extension() == ".md")
+            all.push_back(fs::relative(entry.path(), source_dir()).generic_string());
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+std::string lines(const std::vector<std::string>& all)
+{
+    std::string text;
+    for (const std::string& one : all)
+        text += one + "\n";
+    return text;
+}
+
+} // namespace
+
+TEST(Docs, TheIndexLeadsToEveryPage)
+{
+    std::set<std::string> linked{"docs/README.md"};
+    for (const std::string& target : links_of(read_text(source_dir() / "docs/README.md")))
+        linked.insert((fs::path("docs") / target.substr(0, target.find('#'))).lexically_normal().generic_string());
+    ASSERT_GE(pages().size(), 15u);
+    for (const std::string& page : pages())
+        EXPECT_TRUE(linked.contains(page)) << "docs/README.md does not lead to " << page;
+}
+
+TEST(Docs, EveryLinkLeadsToAFileAndAHeading)
+{
+    std::vector<std::string> all = pages(), broken;
+    all.insert(all.end(), {"README.md", "CONTRIBUTING.md"});
+    int links = 0;
+    for (const std::string& page : all) {
+        const std::string text = read_text(source_dir() / page);
+        links += static_cast<int>(links_of(text).size());
+        for (const std::string& one : broken_links(page, text, read_file))
+            broken.push_back(one);
+    }
+    EXPECT_GE(links, 150); // otherwise some were not found
+    EXPECT_EQ(lines(broken), "");
+}
+
+/// Planted faults: the two tests above must find them.
+TEST(Docs, PlantedFaultsAreFound)
+{
+    const auto read = [](const std::string& file) -> std::optional<std::string> {
+        if (file == "docs/a.md")
+            return "# A page: of *two* parts\n\n<a id=\"x1905\"></a>\n\n## Light\n\n```\n# no heading\n```\n\n## Light\n";
+        return file == "docs/b.md" ? std::optional<std::string>("") : std::nullopt;
+    };
+    const auto broken = [&](const std::string& text) { return lines(broken_links("docs/a.md", text, read)); };
+    EXPECT_EQ(broken("[b](b.md) ![b](../docs/b.md) [web](https://example.org/gone) <img src=\"b.md\">"), "");
+    EXPECT_EQ(broken("[a](#a-page-of-two-parts) [l](a.md#light) [m](#light-1) [n](#x1905)\n[x]: a.md#light"), "");
+    EXPECT_EQ(broken("`[c](c.md)`\n```\n[c](c.md)\n```\n"), "");
+    EXPECT_EQ(broken("[c](c.md)"), "docs/a.md links c.md, which the repository does not have\n");
+    EXPECT_EQ(broken("x\n[c]: c.md#d\n"), "docs/a.md links c.md#d, which the repository does not have\n");
+    EXPECT_EQ(broken("<img src=\"c.png\">"), "docs/a.md links c.png, which the repository does not have\n");
+    EXPECT_EQ(broken("[h](#no-heading)"), "docs/a.md links #no-heading, a heading that docs/a.md does not have\n");
+    EXPECT_EQ(broken("[b](b.md#dark)"), "docs/a.md links b.md#dark, a heading that docs/b.md does not have\n");
+}
+
+} // namespace docs_test
