@@ -1,0 +1,283 @@
+#!/usr/bin/env python3
+"""Plants faults in a copy of the tree, one at a time, and says which test finds each. No GPU is needed.
+
+  tests/planted_faults.py                        every fault; some minutes to build the copy, then about half a minute each
+  tests/planted_faults.py --room input           the faults of one room
+  tests/planted_faults.py --only 7               one fault; --list shows the numbers
+  tests/planted_faults.py --copy build/faulty    keeps the copy and what is built in it for the next time
+
+A fault is a slip that compiles: a sign, a < for a <=, a swapped index, a forgotten member, a wrong unit. The copy is a git
+worktree of the last commit, and the folder is removed at the end unless --copy names it. For each fault the script changes one
+text, builds starbow_test without sanitizers, and runs the tests until one fails: first those that are expected to find it, then
+all of tests/ROOM, then all the others. A fault is
+  found         by the named test
+  survived      all tests pass: a test is missing
+  not compiled  the compiler finds it
+  stale         its text stands in the file not exactly once: mend the list below
+The results are a JSON file; a fault that has one there is not tried again unless --again is given. Exit status 1 if a fault
+survived or is stale."""
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+# Room, file, text, text with the fault, tests that are expected to find it.
+FAULTS = [
+    # What the tests without a GPU missed once.
+    ("input", "input/switches.h", '&Controls::false_colours, Leap::toggle', '&Controls::false_colours, Leap::none', "CalmTest.*"),
+    ("input", "input/switches.h", '&Controls::look_ahead, Leap::press', '&Controls::look_ahead, Leap::none', "CalmTest.*"),
+    ("input", "input/switches.h", '&Controls::overlay, Leap::press', '&Controls::overlay, Leap::none', "CalmTest.*"),
+    ("input", "input/switches.h", '&Controls::why, Leap::press', '&Controls::why, Leap::none', "CalmTest.*"),
+    ("input", "input/calm.cpp", 'lever_per_s = 4,', 'lever_per_s = 40,', "CalmTest.*"),
+    ("input", "input/presence.cpp", 'one.pressed != &Controls::taken;',
+     'one.pressed != &Controls::taken && one.pressed != &Controls::beside;', "PresenceTest.*"),
+    ("input", "input/presence.cpp", 'one.pressed != &Controls::taken;',
+     'one.pressed != &Controls::taken && one.pressed != &Controls::reset;', "PresenceTest.*"),
+    ("light", "runtime/light/exposure.cpp", 'std::floor(14 - brightest_ev)', 'std::floor(13 - brightest_ev)', "PreExposure.*"),
+    ("light", "runtime/light/exposure.cpp", '10 - exposure_ev + std::log2(most_gain)', 'std::log2(most_gain) - exposure_ev',
+     "PreExposure.*"),
+    ("light", "runtime/light/exposure.cpp", 'if (below <= bright_from * all)', 'if (below < bright_from * all)', "Metering.*"),
+    ("displays", "displays/projections/equirectangular.cpp", 'pi / 2 - step_.y / 4', 'pi / 2', "PanoramaTest.*"),
+
+    ("config", "config/model/adjust.cpp", 'return {-90, 90};', 'return {-180, 180};', "Adjust.*"),
+    ("config", "config/model/turn.cpp", 'std::atan2(-ahead.y * axes[1].x, ahead.y * axes[1].z)',
+     'std::atan2(ahead.y * axes[1].x, ahead.y * axes[1].z)', "ImportSgct*"),
+    ("config", "config/model/quality.cpp", '|| level.quality.matrices != ladder[0].quality.matrices)', ')', "QualityTest.*"),
+    ("config", "config/model/solar_system.cpp", 'per_day + per_century / 36525', 'per_day + per_century / 36500', "SolarSystemTest.*"),
+    ("config", "config/model/exhibit_file.cpp", ' || name.ends_with(".jsonl")', '', "ExhibitFileTest.*"),
+
+    ("displays", "displays/projections/lens.cpp", 's * (3 * k1 + s * 5 * k2)', 's * (3 * k1 + s * 4 * k2)', "LensTest.*"),
+    ("displays", "displays/projections/spherical_mirror.cpp", '/ 2) - 1e-12)', '/ 2) + 1e-12)', "SphericalMirrorTest.*"),
+    ("displays", "displays/finish/shade.cpp", 'value(high.x, high.y), f.x), f.y)', 'value(high.x, low.y), f.x), f.y)', "ShadeTest.*"),
+    ("displays", "displays/compile/inverse_map.cpp",
+     'cell = {cell.x < 0 ? -1 - cell.x : 2 * side - 1 - cell.x, side - 1 - cell.y};',
+     'cell = {cell.x < 0 ? -cell.x : 2 * side - 1 - cell.x, side - 1 - cell.y};', "InverseMapTest.*"),
+    ("displays", "displays/finish/blend.cpp", '&& order(upper.view) > order(lower.view)', '&& order(upper.view) >= order(lower.view)',
+     "BlendTest.*"),
+
+    ("input", "input/health.cpp", 'if (started > most_at_once', 'if (started >= most_at_once', "ReportTest.*:DevicesTest.*"),
+    ("input", "input/lever.cpp", 'return a.place < b.place;', 'return a.place > b.place;', "LeverTest.*"),
+    ("input", "input/head_tracker.cpp", 'std::chrono::duration<double>(hold_s + return_s)', 'std::chrono::duration<double>(hold_s)',
+     "HeadTrackerTest.*"),
+    ("input", "input/pad.cpp", '''{std::pair(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER),
+             {GLFW_GAMEPAD_BUTTON_LEFT_THUMB, GLFW_GAMEPAD_BUTTON_RIGHT_THUMB}}''',
+     '{std::pair(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER)}', "PadTest.*"),
+    ("input", "input/calibration.cpp", '(axis.usage == 0x36 || axis.usage == 0x37)', 'axis.usage == 0x36', "CalibrationTest.*"),
+
+    ("light", "runtime/light/range_curve.cpp", 'whole, 1 - above_high)', 'whole, 1 - below_low)', "RangeCurve.*"),
+    ("light", "runtime/light/spectrum.cpp", 'nm > points.back().first)', 'nm >= points.back().first)', "SpectrumTest.*"),
+    ("light", "runtime/light/gloss.cpp", 'std::sqrt(1 + width * width * (1', 'std::sqrt(1 + width * (1', "GlossTable.*"),
+    ("light", "runtime/light/greatest_light.cpp", '3 * log2_D(middle + 1)', '3 * log2_D(middle)', "GreatestLight.*"),
+    ("light", "runtime/light/colour_difference.h", '(mean_h - 275) / 25', '(mean_h - 257) / 25', "FalseColoursTest.*"),
+
+    ("world", "runtime/world/clock.cpp", 'return part < 0 ? part + 1 : part;', 'return part;', "ClockTest.*"),
+    ("world", "runtime/world/observer.cpp", 'was_aligned ? least_fast_E : most_slow_E', 'was_aligned ? most_slow_E : least_fast_E',
+     "CubeAxes.*"),
+    ("world", "runtime/world/ephemeris.cpp", '(days + ahead_of_utc_s / 86400)', '(days - ahead_of_utc_s / 86400)', "Ephemeris.*"),
+    ("world", "runtime/world/shape.cpp", 'normal * (mirrored ? -1.0 : 1.0)', 'normal', "WorldDeforming.*"),
+    ("world", "runtime/world/shrink.cpp", 'light[i] = numbers ? double(i) / 255 : light_of_srgb', 'light[i] = light_of_srgb',
+     "WorldMaterialTest.*"),
+
+    ("plan", "runtime/plan/bounding_cap.cpp", 'sinh * cap.axis.z + cosh * least)', 'cosh * cap.axis.z + sinh * least)',
+     "BoundingCap.*"),
+    ("plan", "runtime/plan/cube_map_plan.cpp", '&& same->levels >= image.levels && same->needed', '&& same->needed', "CubeMapPlan.*"),
+    ("plan", "runtime/plan/demand.cpp", 'radius < 1.57 ? std::sin(radius)', 'radius < 3.14 ? std::sin(radius)', "CubeMapPlan.*"),
+    ("plan", "runtime/plan/lit_pixels.cpp", 'lit = away + reach <= lit_angle;', 'lit = away <= lit_angle;', "LitPixels.*"),
+    ("plan", "runtime/plan/painters_order.cpp", 'return face <= 0 ? 1 : -1;', 'return face < 0 ? 1 : -1;', "Cull.*"),
+
+    ("flight", "runtime/flight/boundary.cpp", 'glm::length(from) > edge * boundary.radius && glm::dot',
+     'glm::length(from) > boundary.radius && glm::dot', "BoundaryTest.*"),
+    ("flight", "runtime/flight/comfort.cpp", 'std::atan2(-right.z, right.x)', 'std::atan2(right.z, right.x)', "ComfortTest.*"),
+    ("flight", "runtime/flight/goals.cpp", 'value < condition.below', 'value <= condition.below', "GoalsTest.*"),
+    ("flight", "runtime/flight/history.cpp", 'then.frozen = now.frozen, then.slowness = now.slowness;', 'then.frozen = now.frozen;',
+     "Flight.*:SlowMotionTest.*"),
+    ("flight", "runtime/flight/visit.cpp", 'events.length_s = in_seconds(visit.touched_ns);',
+     'events.length_s = in_seconds(visit.visit_ns);', "VisitTest.*"),
+
+    ("hud", "runtime/hud/hud_place.cpp", '{0, -1, half.y}', '{0, -1, half.x}', "HudPlaceTest.*"),
+    ("hud", "runtime/hud/signs.cpp", 'behind_cosine * distance * speed', 'behind_cosine * distance', "Signs.*"),
+    ("hud", "runtime/hud/why_sketch.cpp", 'part_of(-light_per_s * t_s / apart)', 'part_of(light_per_s * t_s / apart)', "WhySketch.*"),
+    ("hud", "runtime/hud/challenges.cpp", '(!best->solved && (one.solved', '((one.solved', "Challenges.*"),
+    ("hud", "runtime/hud/instruments.cpp", 'found = i, nearest = off;', 'found = i;', "Instruments.*"),
+]
+
+# Test files are compiled several as one, and the rooms' files alone, so that a fault compiles one file.
+UNITY_OF_TESTS = "cmake_language(DEFER CALL set_target_properties starbow_test PROPERTIES UNITY_BUILD ON)\n"
+
+
+class Copy:
+    """A copy of the tree with its build."""
+
+    def __init__(self, folder, jobs):
+        self.folder, self.jobs = folder, str(jobs)
+        self.build_folder = os.path.join(folder, "build", "work")
+        self.program = os.path.join(self.build_folder, "starbow_test")
+
+    def build(self, most_s=None):
+        """The compiler's last lines; empty when it was built."""
+        if not os.path.exists(os.path.join(self.build_folder, "build.ninja")):
+            os.makedirs(self.build_folder, exist_ok=True)
+            unity = os.path.join(self.folder, "build", "unity_of_tests.cmake")
+            with open(unity, "w", encoding="utf-8") as file:
+                file.write(UNITY_OF_TESTS)
+            subprocess.run(["cmake", "-S", self.folder, "-B", self.build_folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                            "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DCMAKE_PROJECT_starbow_INCLUDE=" + unity], check=True,
+                           stdout=subprocess.DEVNULL)
+        done = subprocess.run(["nice", "ninja", "-C", self.build_folder, "-j", self.jobs, "starbow_test"], capture_output=True,
+                              text=True, timeout=most_s)
+        return "" if done.returncode == 0 else done.stdout[-2000:]
+
+    def tests(self):
+        """The folder of each test, by its name."""
+        with tempfile.NamedTemporaryFile(suffix=".json") as file:
+            subprocess.run([self.program, "--gtest_list_tests", "--gtest_output=json:" + file.name], check=True,
+                           stdout=subprocess.DEVNULL)
+            suites = json.load(file)["testsuites"]
+        return {suite["name"] + "." + test["name"]: os.path.basename(os.path.dirname(test["file"]))
+                for suite in suites for test in suite["testsuite"]}
+
+    def first_failure(self, tests, most_s):
+        """The first test that fails, crashes or hangs; empty when all pass."""
+        command = ["nice", self.program, "--gtest_fail_fast", "--gtest_filter=" + ":".join(tests)]
+        try:
+            run = subprocess.run(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=most_s)
+            out, end = run.stdout.decode(errors="replace"), "" if run.returncode >= 0 else " crashes"
+            if run.returncode == 0:
+                return ""
+        except subprocess.TimeoutExpired as late:
+            out, end = (late.stdout or b"").decode(errors="replace"), " hangs"
+        failed = [line[len("[  FAILED  ] "):].split(" ")[0].rstrip(",") for line in out.splitlines() if line.startswith("[  FAILED  ] ")]
+        begun = [line[len("[ RUN      ] "):] for line in out.splitlines() if line.startswith("[ RUN      ] ")]
+        return failed[0] if failed else (begun[-1] if begun else "the program") + end
+
+
+def matches(name, pattern):
+    import fnmatch
+    return any(fnmatch.fnmatchcase(name, one) for one in pattern.split(":"))
+
+
+def stages(fault, tests):
+    """The names of the tests that are expected to find a fault, of its room's others, and of all others."""
+    room, expected = fault[0], fault[4]
+    first = [name for name in tests if matches(name, expected)]
+    second = [name for name, folder in tests.items() if folder == room and name not in first]
+    taken = set(first) | set(second)
+    return [first, second, [name for name in tests if name not in taken]]
+
+
+def attempt(copy, fault, tests, durations):
+    room, path, text, faulty, expected = fault
+    path = os.path.join(copy.folder, path)
+    with open(path, encoding="utf-8") as file:
+        whole = file.read()
+    if whole.count(text) != 1:
+        return {"result": "stale", "by": "", "detail": "its text stands %d times in the file" % whole.count(text)}
+    try:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(whole.replace(text, faulty))
+        problem = copy.build()
+        if problem:
+            return {"result": "not compiled", "by": "the compiler", "detail": problem}
+        for stage, names in enumerate(stages(fault, tests)):
+            if not names:
+                continue
+            # A machine that others use may be much slower than it was.
+            by = copy.first_failure(names, 60 + 10 * sum(durations.get(name, 0) for name in names))
+            if by:
+                return {"result": "found", "by": by, "where": ["as expected", "in its room", "elsewhere"][stage]}
+        return {"result": "survived", "by": ""}
+    finally:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(whole)
+
+
+def durations_of(copy):
+    """Each test's seconds; ends the script when one fails without any fault."""
+    with tempfile.NamedTemporaryFile(suffix=".json") as file:
+        run = subprocess.run(["nice", copy.program, "--gtest_brief=1", "--gtest_output=json:" + file.name], cwd=copy.folder,
+                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if run.returncode != 0:
+            sys.exit("without any fault tests fail:\n" + run.stdout[-2000:])
+        suites = json.load(file)["testsuites"]
+    return {suite["name"] + "." + test["name"]: float(test["time"].rstrip("s")) for suite in suites for test in suite["testsuite"]}
+
+
+def minutes(seconds):
+    return "%d:%02d" % (seconds // 60, seconds % 60)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", type=int, nargs="+", metavar="N", help="the faults with these numbers")
+    parser.add_argument("--room", help="the faults of one room")
+    parser.add_argument("--list", action="store_true", help="show the faults, and try none")
+    parser.add_argument("--again", action="store_true", help="also those that have a result")
+    parser.add_argument("--results", default="build/planted_faults.json", help="the file of results (build/planted_faults.json)")
+    parser.add_argument("--copy", metavar="FOLDER", help="the copy of the tree, kept; made if it is not there")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="compilers at once (one for each core)")
+    given = parser.parse_args()
+    chosen = [n for n, fault in enumerate(FAULTS) if (not given.only or n in given.only) and (not given.room or fault[0] == given.room)]
+    if given.list:
+        for n in chosen:
+            print("%3d  %-9s %s: %s" % (n, FAULTS[n][0], FAULTS[n][1], " ".join(FAULTS[n][3].split()) or "(nothing)"))
+        return 0
+    if not chosen:
+        sys.exit("no fault is chosen; --list shows them")
+    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    results_file = os.path.join(root, given.results)
+    results = {}
+    if os.path.exists(results_file):
+        with open(results_file, encoding="utf-8") as file:
+            results = json.load(file)
+    # A fault is known by its texts, so that a new one in the list does not take another's result.
+    key = lambda n: " | ".join([FAULTS[n][1], FAULTS[n][2], FAULTS[n][3]])
+    left = [n for n in chosen if given.again or key(n) not in results]
+
+    folder = os.path.abspath(given.copy) if given.copy else tempfile.mkdtemp(prefix="planted_faults_")
+    made = not os.path.exists(os.path.join(folder, "CMakeLists.txt"))
+    try:
+        if left:
+            if made:
+                subprocess.run(["git", "-C", root, "worktree", "add", "--quiet", "--force", "--detach", folder, "HEAD"], check=True)
+            copy = Copy(folder, given.jobs)
+            print("Building the copy in %s" % folder, flush=True)
+            problem = copy.build()
+            if problem:
+                sys.exit("the copy can't be built:\n" + problem)
+            print("Running all tests without a fault", flush=True)
+            durations, tests = durations_of(copy), copy.tests()
+            began = time.monotonic()
+            for done, n in enumerate(left):
+                if done > 0:
+                    rest = (time.monotonic() - began) / done * (len(left) - done)
+                    print("  %d of %d, about %s min left" % (done, len(left), minutes(rest)), flush=True)
+                results[key(n)] = attempt(copy, FAULTS[n], tests, durations)
+                os.makedirs(os.path.dirname(results_file), exist_ok=True)
+                with open(results_file, "w", encoding="utf-8") as file:
+                    json.dump(results, file, indent=1)
+                show(n, results[key(n)])
+    finally:
+        if not given.copy:
+            subprocess.run(["git", "-C", root, "worktree", "remove", "--force", folder], stderr=subprocess.DEVNULL)
+            subprocess.run(["rm", "-rf", folder])
+
+    print()
+    for n in chosen:
+        show(n, results[key(n)])
+    counts = {}
+    for n in chosen:
+        counts[results[key(n)]["result"]] = counts.get(results[key(n)]["result"], 0) + 1
+    print("%d faults: %s" % (len(chosen), ", ".join("%d %s" % (count, result) for result, count in sorted(counts.items()))))
+    return 1 if counts.get("survived") or counts.get("stale") else 0
+
+
+def show(n, result):
+    print("%3d  %-9s %-12s %s: %s  %s" % (n, FAULTS[n][0], result["result"], FAULTS[n][1],
+                                         " ".join(FAULTS[n][3].split()) or "(nothing)", result["by"]), flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
