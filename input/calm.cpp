@@ -1,17 +1,11 @@
 #include "calm.h"
+#include "switches.h"
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <utility>
 
 namespace starbow {
 namespace {
-
-/// A second press undoes the first.
-constexpr bool Controls::*toggles[] = {&Controls::aberration, &Controls::doppler, &Controls::headlight,
-    &Controls::false_colours, &Controls::range, &Controls::hud};
-/// A second press adds nothing while the first one waits.
-constexpr bool Controls::*presses[] = {&Controls::comparison, &Controls::stop, &Controls::home, &Controls::undo,
-    &Controls::reset, &Controls::look_ahead, &Controls::overlay, &Controls::why};
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
@@ -52,16 +46,17 @@ Controls CalmHands::let_through(Controls controls, double dt_s)
 {
     since_leap_s_ += dt_s;
     bool any = false;
-    for (const auto toggle : toggles)
-        any |= waiting_.*toggle ^= controls.*toggle;
-    for (const auto press : presses)
-        any |= waiting_.*press |= controls.*press;
+    for (const auto& [name, pressed, leap] : all_switches) {
+        if (leap == Leap::none)
+            continue;
+        bool& waits = waiting_.*pressed;
+        waits = leap == Leap::toggle ? waits != controls.*pressed : waits || controls.*pressed;
+        any |= waits;
+    }
     const bool lets = any && since_leap_s_ >= calm_every_s - rounding_s;
-    for (const auto members : {std::span<bool Controls::*const>(toggles), std::span<bool Controls::*const>(presses)})
-        for (const auto member : members) {
-            controls.*member = lets && waiting_.*member;
-            waiting_.*member &= !lets;
-        }
+    for (const auto& [name, pressed, leap] : all_switches)
+        if (leap != Leap::none)
+            controls.*pressed = lets && std::exchange(waiting_.*pressed, false);
     if (lets)
         since_leap_s_ = 0;
 

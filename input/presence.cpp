@@ -1,5 +1,6 @@
 #include "presence.h"
 #include "rates.h"
+#include "switches.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,11 +10,9 @@ namespace {
 
 bool any_switch(const Controls& c)
 {
-    const bool switched[]{c.pressed, c.stop, c.home, c.undo, c.reset, c.next_mode, c.freeze, c.menu, c.slow_motion,
-        c.look_ahead, c.lock_exposure, c.range, c.aberration, c.doppler, c.headlight, c.false_colours, c.comparison,
-        c.overlay, c.mark, c.log, c.why, c.plot, c.hud, c.information, c.beside, c.full_screen, c.pattern, c.save,
-        c.choose != 0, c.turn_by != 0};
-    return std::ranges::find(switched, true) != std::end(switched);
+    // A docent takes the stick, and not a visitor.
+    const auto on = [&](const SwitchEntry& one) { return c.*one.pressed && one.pressed != &Controls::taken; };
+    return c.pressed || c.choose != 0 || c.turn_by != 0 || std::ranges::any_of(all_switches, on);
 }
 
 bool moved(const Head& head, const Head& from)

@@ -4,12 +4,13 @@
   tests/planted_faults.py                        every fault; some minutes to build the copy, then about half a minute each
   tests/planted_faults.py --room input           the faults of one room
   tests/planted_faults.py --only 7               one fault; --list shows the numbers
+  tests/planted_faults.py --own-room             quicker: only the tests of each fault's own room
   tests/planted_faults.py --copy build/faulty    keeps the copy and what is built in it for the next time
 
 A fault is a slip that compiles: a sign, a < for a <=, a swapped index, a forgotten member, a wrong unit. The copy is a git
 worktree of the last commit, and the folder is removed at the end unless --copy names it. For each fault the script changes one
 text, builds starbow_test without sanitizers, and runs the tests until one fails: first those that are expected to find it, then
-all of tests/ROOM, then all the others. A fault is
+all of tests/ROOM, then all the others (not with --own-room). A fault is
   found         by the named test
   survived      all tests pass: a test is missing
   not compiled  the compiler finds it
@@ -17,8 +18,10 @@ all of tests/ROOM, then all the others. A fault is
 The results are a JSON file; a fault that has one there is not tried again unless --again is given. Exit status 1 if a fault
 survived or is stale."""
 import argparse
+import fnmatch
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -115,6 +118,29 @@ class Copy:
         self.folder, self.jobs = folder, str(jobs)
         self.build_folder = os.path.join(folder, "build", "work")
         self.program = os.path.join(self.build_folder, "starbow_test")
+        self.sound = os.path.join(folder, "build", "sound")
+
+    def built(self):
+        """What a fault can change in the build: objects, libraries and the program, by their paths in the folder."""
+        for at, _, names in os.walk(self.build_folder):
+            for name in names:
+                if name.endswith((".o", ".a")) or name == "starbow_test":
+                    yield os.path.relpath(os.path.join(at, name), self.build_folder)
+
+    def keep_sound(self):
+        """Keeps the build without a fault."""
+        for name in self.built():
+            to, of = os.path.join(self.sound, name), os.path.join(self.build_folder, name)
+            if not os.path.exists(to) or os.stat(to).st_mtime_ns != os.stat(of).st_mtime_ns:
+                os.makedirs(os.path.dirname(to), exist_ok=True)
+                shutil.copy2(of, to)
+
+    def put_back_sound(self):
+        """Puts the build without a fault back, with its files' times: nothing is compiled again."""
+        for name in self.built():
+            to, of = os.path.join(self.build_folder, name), os.path.join(self.sound, name)
+            if os.path.exists(of) and os.stat(to).st_mtime_ns != os.stat(of).st_mtime_ns:
+                shutil.copy2(of, to)
 
     def build(self, most_s=None):
         """The compiler's last lines; empty when it was built."""
@@ -155,7 +181,6 @@ class Copy:
 
 
 def matches(name, pattern):
-    import fnmatch
     return any(fnmatch.fnmatchcase(name, one) for one in pattern.split(":"))
 
 
@@ -168,11 +193,12 @@ def stages(fault, tests):
     return [first, second, [name for name in tests if name not in taken]]
 
 
-def attempt(copy, fault, tests, durations):
-    room, path, text, faulty, expected = fault
+def attempt(copy, fault, tests, durations, own_room):
+    path, text, faulty = fault[1:4]
     path = os.path.join(copy.folder, path)
     with open(path, encoding="utf-8") as file:
         whole = file.read()
+    times = os.stat(path)
     if whole.count(text) != 1:
         return {"result": "stale", "by": "", "detail": "its text stands %d times in the file" % whole.count(text)}
     try:
@@ -182,23 +208,26 @@ def attempt(copy, fault, tests, durations):
         if problem:
             return {"result": "not compiled", "by": "the compiler", "detail": problem}
         for stage, names in enumerate(stages(fault, tests)):
-            if not names:
+            if not names or (own_room and stage == 2):
                 continue
             # A machine that others use may be much slower than it was.
             by = copy.first_failure(names, 60 + 10 * sum(durations.get(name, 0) for name in names))
             if by:
                 return {"result": "found", "by": by, "where": ["as expected", "in its room", "elsewhere"][stage]}
-        return {"result": "survived", "by": ""}
+        return {"result": "survived", "by": "", "where": "in its room" if own_room else "everywhere"}
     finally:
         with open(path, "w", encoding="utf-8") as file:
             file.write(whole)
+        os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+        copy.put_back_sound()
 
 
-def durations_of(copy):
-    """Each test's seconds; ends the script when one fails without any fault."""
+def durations_of(copy, names):
+    """The tests' seconds; ends the script when one fails without any fault."""
     with tempfile.NamedTemporaryFile(suffix=".json") as file:
-        run = subprocess.run(["nice", copy.program, "--gtest_brief=1", "--gtest_output=json:" + file.name], cwd=copy.folder,
-                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        run = subprocess.run(["nice", copy.program, "--gtest_brief=1", "--gtest_output=json:" + file.name,
+                              "--gtest_filter=" + ":".join(names)], cwd=copy.folder, stdout=subprocess.PIPE,
+                             stderr=subprocess.STDOUT, text=True)
         if run.returncode != 0:
             sys.exit("without any fault tests fail:\n" + run.stdout[-2000:])
         suites = json.load(file)["testsuites"]
@@ -214,6 +243,7 @@ def main():
     parser.add_argument("--only", type=int, nargs="+", metavar="N", help="the faults with these numbers")
     parser.add_argument("--room", help="the faults of one room")
     parser.add_argument("--list", action="store_true", help="show the faults, and try none")
+    parser.add_argument("--own-room", action="store_true", help="try only the tests of each fault's room; what survives them may be found elsewhere")
     parser.add_argument("--again", action="store_true", help="also those that have a result")
     parser.add_argument("--results", default="build/planted_faults.json", help="the file of results (build/planted_faults.json)")
     parser.add_argument("--copy", metavar="FOLDER", help="the copy of the tree, kept; made if it is not there")
@@ -234,7 +264,9 @@ def main():
             results = json.load(file)
     # A fault is known by its texts, so that a new one in the list does not take another's result.
     key = lambda n: " | ".join([FAULTS[n][1], FAULTS[n][2], FAULTS[n][3]])
-    left = [n for n in chosen if given.again or key(n) not in results]
+    known = lambda n: key(n) in results and (given.own_room or results[key(n)].get("where") != "in its room"
+                                             or results[key(n)]["result"] != "survived")
+    left = [n for n in chosen if given.again or not known(n)]
 
     folder = os.path.abspath(given.copy) if given.copy else tempfile.mkdtemp(prefix="planted_faults_")
     made = not os.path.exists(os.path.join(folder, "CMakeLists.txt"))
@@ -247,14 +279,17 @@ def main():
             problem = copy.build()
             if problem:
                 sys.exit("the copy can't be built:\n" + problem)
-            print("Running all tests without a fault", flush=True)
-            durations, tests = durations_of(copy), copy.tests()
+            copy.keep_sound()
+            tests = copy.tests()
+            names = {name for n in left for stage in stages(FAULTS[n], tests)[:2 if given.own_room else 3] for name in stage}
+            print("Running %d tests without a fault" % len(names), flush=True)
+            durations = durations_of(copy, sorted(names))
             began = time.monotonic()
             for done, n in enumerate(left):
                 if done > 0:
                     rest = (time.monotonic() - began) / done * (len(left) - done)
                     print("  %d of %d, about %s min left" % (done, len(left), minutes(rest)), flush=True)
-                results[key(n)] = attempt(copy, FAULTS[n], tests, durations)
+                results[key(n)] = attempt(copy, FAULTS[n], tests, durations, given.own_room)
                 os.makedirs(os.path.dirname(results_file), exist_ok=True)
                 with open(results_file, "w", encoding="utf-8") as file:
                     json.dump(results, file, indent=1)

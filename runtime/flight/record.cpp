@@ -2,6 +2,7 @@
 #include "config/model/comfort_reader.h"
 #include "config/model/exposing_reader.h"
 #include "config/model/shot_reader.h"
+#include "input/switches.h"
 #include "shaders/shared_structs.h"
 #include <algorithm>
 #include <bit>
@@ -55,17 +56,6 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
 constexpr Range any_rate{-1e3, 1e3};
 constexpr Range any_place{-1e15, 1e15};
 constexpr double most_ns = 9e15; ///< a hundred days; whole numbers below it are doubles
-
-constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", &Controls::look_ahead},
-    {"stop", &Controls::stop}, {"home", &Controls::home}, {"undo", &Controls::undo}, {"reset", &Controls::reset},
-    {"next_mode", &Controls::next_mode}, {"freeze", &Controls::freeze}, {"menu", &Controls::menu},
-    {"taken", &Controls::taken}, {"slow_motion", &Controls::slow_motion}, {"aberration", &Controls::aberration},
-    {"doppler", &Controls::doppler}, {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours},
-    {"comparison", &Controls::comparison}, {"lock_exposure", &Controls::lock_exposure}, {"range", &Controls::range},
-    {"overlay", &Controls::overlay}, {"mark", &Controls::mark}, {"log", &Controls::log}, {"why", &Controls::why},
-    {"plot", &Controls::plot}, {"hud", &Controls::hud}, {"information", &Controls::information},
-    {"beside", &Controls::beside}, {"full_screen", &Controls::full_screen}, {"quit", &Controls::quit},
-    {"pattern", &Controls::pattern}, {"save", &Controls::save}};
 
 /// == would accept 0 for -0, which must come back as -0.
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
@@ -245,7 +235,7 @@ RecordEntry read_entry(const Place& top)
 {
     std::vector<std::string_view> known{"dt_ns", "skipped_ns", "unseen", "lever", "faster", "push", "turn", "look_rad",
         "head_m", "head_turned", "exposure", "exposure_ev", "ranged", "range_goal", "choose", "turn_by", "commands"};
-    for (const auto& [name, flag] : switches)
+    for (const auto& [name, flag, leap] : all_switches)
         known.emplace_back(name);
     reject_unknown_members(top, known);
     RecordEntry entry;
@@ -275,7 +265,7 @@ RecordEntry read_entry(const Place& top)
         controls.choose = integer(*p, -1000, 1000);
     if (auto p = find_member(top, "turn_by"))
         controls.turn_by = integer(*p, -1000, 1000);
-    for (const auto& [name, flag] : switches)
+    for (const auto& [name, flag, leap] : all_switches)
         take(top, name, controls.*flag);
     if (auto p = find_member(top, "commands"))
         for (const Place& command : items(*p, 1, 1000, "commands"))
@@ -389,7 +379,7 @@ std::string text_of(const RecordEntry& entry)
         json["choose"] = controls.choose;
     if (controls.turn_by != 0)
         json["turn_by"] = controls.turn_by;
-    for (const auto& [name, flag] : switches)
+    for (const auto& [name, flag, leap] : all_switches)
         if (controls.*flag)
             json[name] = true;
     for (const Command& command : controls.commands)

@@ -30,6 +30,25 @@ TEST(PanoramaTest, AnEquirectangularPictureIsLinearInDegrees)
     expect_at(pixel(part, towards(115, 0)), {100, 50});
 }
 
+TEST(PanoramaTest, APolesRowHasTheCapsSolidAngleAndIsFoundInItsMiddle)
+{
+    // On a pole itself the angle is that of the last half pixel: a cap, which the columns share.
+    for (const glm::ivec2& size : {glm::ivec2(360, 180), {64, 32}, {1000, 50}}) {
+        const Picture all{Equirectangular{}, size};
+        const double half_row = pi / size.y / 2;
+        for (const double y : {0.0, double(size.y)}) {
+            const double share = 2 * pi * (1 - std::cos(half_row)) / size.x / 0.5;
+            // The code multiplies the mean width by the height; the cap's curvature is left out.
+            EXPECT_NEAR(pixel_angle(all, {10, y}) / std::sqrt(share), 1, half_row * half_row) << size.y << " at " << y;
+        }
+        // The row of whole pixels is a cap of twice the angle.
+        const double cap = 2 * pi * (1 - std::cos(2 * half_row)) / size.x;
+        EXPECT_NEAR(pixel_angle(all, {10, 0.5}) / std::sqrt(cap), 1, 1e-9) << size.y;
+        expect_at(pixel(all, {0, 1, 0}), {size.x / 2.0, 0});
+        expect_at(pixel(all, {0, -1, 0}), {size.x / 2.0, size.y});
+    }
+}
+
 TEST(PanoramaTest, ACylinderKeepsPlumbLines)
 {
     const Picture all{Cylinder{{-180, 180, -45, 45}}, {720, 200}};

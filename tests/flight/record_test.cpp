@@ -1,5 +1,6 @@
 // Records: lines are read back to the bit, a replayed flight is the same to the bit, and wrong files are refused.
 #include "config/model/shipped.h"
+#include "input/switches.h"
 #include "runtime/flight/history.h"
 #include "runtime/flight/record_replay.h"
 #include "runtime/flight/recorder.h"
@@ -93,13 +94,8 @@ RecordEntry some_entry(std::mt19937_64& random)
     if (random() % 3 == 0)
         c.head.turned = glm::angleAxis(some_double(random, -3, 3), glm::normalize(glm::dvec3(1, 2, 3)));
     maybe(c.exposure, -1, 1);
-    for (bool Controls::*flag : std::initializer_list<bool Controls::*>{&Controls::look_ahead, &Controls::stop,
-             &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode, &Controls::freeze, &Controls::menu,
-             &Controls::taken, &Controls::slow_motion, &Controls::aberration, &Controls::doppler, &Controls::headlight,
-             &Controls::hud, &Controls::false_colours, &Controls::comparison, &Controls::full_screen, &Controls::quit,
-             &Controls::pattern, &Controls::save, &Controls::lock_exposure, &Controls::range, &Controls::overlay,
-             &Controls::mark, &Controls::log, &Controls::why, &Controls::plot, &Controls::information, &Controls::beside})
-        c.*flag = random() % 200 == 0;
+    for (const SwitchEntry& one : all_switches)
+        c.*one.pressed = random() % 200 == 0;
     c.choose = random() % 20 == 0 ? int(random() % 3) - 1 : 0;
     c.turn_by = random() % 20 == 0 ? int(random() % 21) - 10 : 0;
     return entry;
@@ -116,10 +112,8 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
         all.push_back(std::bit_cast<std::uint64_t>(v));
     for (double v : e.range_goal)
         all.push_back(std::bit_cast<std::uint64_t>(v));
-    for (bool flag : {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.freeze, c.menu, c.taken, c.slow_motion,
-             c.aberration, c.doppler, c.headlight, c.false_colours, c.comparison, c.hud, c.full_screen, c.quit, c.pattern,
-             c.save, c.lock_exposure, c.range, c.overlay, c.mark, c.log, c.why, c.plot, c.information, c.beside})
-        all.push_back(flag);
+    for (const SwitchEntry& one : all_switches)
+        all.push_back(c.*one.pressed);
     all.push_back(std::uint64_t(c.choose));
     all.push_back(std::uint64_t(c.turn_by));
     for (const Command& command : c.commands) {

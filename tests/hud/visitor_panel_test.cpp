@@ -1,10 +1,12 @@
 // The displays for visitors and guides: right, readable, and small enough on every shipped layout.
+#include "config/model/angles.h"
 #include "config/model/layout.h"
 #include "displays/projections/views.h"
 #include "runtime/hud/hud_place.h"
 #include "runtime/hud/visitor_panel.h"
 #include "tests/support/files.h"
 #include <cmath>
+#include <cstdio>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -124,6 +126,50 @@ TEST(VisitorPanel, AllLinesFitBesideEachOther)
                 if (::testing::Test::HasFailure())
                     return;
             }
+}
+
+// A calm exhibit lets through the switches that change words alone (input/switches.h). By WCAG 2.3.1 what fills less than
+// 0.006 sr of any field of 10 degrees is no flash. All that differs counts, on the widest display of the shipped layouts.
+TEST(VisitorPanel, TheWordsThatASwitchChangesAreTooSmallAnAreaToFlash)
+{
+    const Typesetter typesetter;
+    constexpr double width_deg = 60, px_per_deg = 12, limit_sr = 0.006;
+    constexpr int width = int(width_deg * px_per_deg), field = int(10 * px_per_deg);
+    const double pixel_sr = std::pow(pi / 180 / px_per_deg, 2);
+    double most_sr = 0;
+    for (const char* language : {"en", "de"})
+        for (const Information information : {Information::visitor, Information::guide, Information::laboratory})
+            for (const double rapidity : {0.0, 0.5, 1.5}) {
+                Readings usual = at_rapidity(rapidity);
+                usual.information = information;
+                Readings frozen = usual, locked = usual, slow = usual;
+                frozen.frozen = true, locked.exposure_locked = true;
+                slow.prompt = words(language)("hud.slow_motion", {{"board", "0.25 s"}, {"world", "0.25 s"}});
+                const Panel before = typesetter.draw(usual, words(language), width);
+                for (const Readings& other : {frozen, locked, slow}) {
+                    const Panel after = typesetter.draw(other, words(language), width);
+                    ASSERT_EQ(after.size, before.size);
+                    // The sums of the pixels that differ, over all rectangles from the corner on.
+                    const int height = before.size.y;
+                    std::vector<double> sums(std::size_t(width + 1) * (height + 1), 0);
+                    const auto at = [&](int x, int y) -> double& { return sums[std::size_t(y) * (width + 1) + x]; };
+                    for (int y = 0; y < height; ++y)
+                        for (int x = 0; x < width; ++x) {
+                            const std::size_t texel = 2 * (std::size_t(y) * width + x);
+                            const bool differs = before.texels[texel] != after.texels[texel]
+                                || before.texels[texel + 1] != after.texels[texel + 1];
+                            at(x + 1, y + 1) = at(x, y + 1) + at(x + 1, y) - at(x, y) + (differs ? pixel_sr : 0);
+                        }
+                    for (int y = 0; y < std::max(1, height - field); ++y)
+                        for (int x = 0; x < width - field; ++x) {
+                            const int right = x + field, low = std::min(y + field, height);
+                            most_sr = std::max(most_sr, at(right, low) - at(x, low) - at(right, y) + at(x, y));
+                        }
+                }
+            }
+    std::printf("  %.4f sr of letters\n", most_sr);
+    EXPECT_GT(most_sr, 1e-5);
+    EXPECT_LT(most_sr, limit_sr);
 }
 
 TEST(VisitorPanel, OnEveryLayoutItsLettersAreReadableAndItCoversLittle)

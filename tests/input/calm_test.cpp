@@ -1,14 +1,17 @@
 // A calm exhibit's limits, against hands that do their worst; and the flashes that these hands make, by WCAG 2.3.1.
 #include "input/calm.h"
+#include "input/switches.h"
 #include "runtime/flight/history.h"
 #include "runtime/images/flashes.h"
 #include "runtime/light/exposure.h"
 #include "shaders/physics/physics.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
 #include <random>
+#include <set>
 
 namespace calm_shader {
 using namespace glm;
@@ -47,9 +50,11 @@ int most_turns(const std::vector<double>& values)
     return most;
 }
 
-/// What a visitor sees in a row of directions 5 degrees apart, from straight ahead to abreast, in front of a grey world.
+/// What a visitor sees: a row of directions 5 degrees apart, from straight ahead to abreast, in front of a grey world; a
+/// field for each switch that changes the picture, and a field that all of them change.
 struct View {
     static constexpr int directions = 19;
+    static constexpr int fields = directions + int(all_switches.size()) + 1;
 
     /// Luminances before the exposure.
     static std::vector<LuminanceSample> light(const Flight& flight)
@@ -65,6 +70,17 @@ struct View {
         return all;
     }
 };
+
+/// These show words at most, and the exposure that a lock lets go is slow.
+const std::set<std::string> of_words{"freeze", "taken", "slow_motion", "lock_exposure", "quit", "save"};
+
+/// Directions farther apart than a field's diameter, on circles around the sphere.
+glm::vec3 field_at(int i)
+{
+    constexpr int around = 20;
+    const float azimuth = 0.3f * float(i % around), elevation = 0.4f * float(i / around) - 0.4f;
+    return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
+}
 
 struct Worst {
     int general = 0; ///< changes in a second
@@ -89,15 +105,18 @@ Worst flown_by(const std::function<Controls(int frame)>& script, bool calm, doub
     CalmHands hands;
     // Each direction is a field of its own, far from the others.
     std::vector<SeenPixel> pixels;
-    for (int i = 0; i < View::directions; ++i)
-        pixels.push_back({glm::vec3(std::sin(0.3 * i), 0, std::cos(0.3 * i)), 0.01f, 0});
+    for (int i = 0; i < View::fields; ++i)
+        pixels.push_back({field_at(i), 0.01f, 0});
     FlashCounter counter(pixels, 1);
+    std::array<bool, all_switches.size()> leapt{};
+    bool any_leapt = false;
     for (int frame = 0; frame < int(seconds * 60); ++frame) {
         Controls controls = script(frame);
         if (calm)
             controls = hands.let_through(controls, dt_s);
         flight = flown(flight, history, controls, frame_ns, rules, 1, start);
         const std::vector<LuminanceSample> light = View::light(flight);
+        exposure.locked ^= controls.lock_exposure;
         exposure = adapted(exposure, metered_ev(light), dt_s, exposing, start.exposure_ev);
         double shown = shown_ev(exposure, exposing, flight.exposure_ev, start.exposure_ev);
         if (calm)
@@ -105,6 +124,12 @@ Worst flown_by(const std::function<Controls(int frame)>& script, bool calm, doub
         std::vector<glm::vec3> picture;
         for (const LuminanceSample& sample : light)
             picture.push_back(calm_shader::tone_map(glm::vec3(float(sample.luminance * std::exp2(shown)))));
+        for (std::size_t i = 0; i < all_switches.size(); ++i) {
+            const bool leaps = controls.*all_switches[i].pressed && !of_words.contains(all_switches[i].name);
+            leapt[i] ^= leaps, any_leapt ^= leaps;
+            picture.emplace_back(leapt[i] ? 0.7f : 0.1f);
+        }
+        picture.emplace_back(any_leapt ? 0.7f : 0.1f);
         counter.take(frame * frame_ns, picture);
     }
     return {counter.worst(FlashKind::general, 0).changes, flight};
@@ -153,7 +178,7 @@ TEST(CalmTest, TheFirstPressActsAtOnceAndTheOthersTogetherASecondLater)
         controls.headlight = frame == 10 || frame == 20 || frame == 30 || frame == 40; // three more: one is left
         controls.doppler = frame == 25 || frame == 35; // two: none is left
         controls.stop = frame == 50;
-        controls.freeze = frame == 15; // changes no picture
+        controls.freeze = frame == 15; // changes words alone
         controls = hands.let_through(controls, dt_s);
         if (controls.headlight)
             headlight.push_back(frame);
@@ -216,14 +241,12 @@ TEST(CalmTest, NoHandsMakeMoreThanThreeFlashesInASecond)
         std::vector<Controls> script(480);
         double lever = 0.5, exposure = 0, rate = 0;
         for (Controls& controls : script) {
+            for (const SwitchEntry& one : all_switches)
+                controls.*one.pressed = any(random) < 0.1 * restless;
             controls.headlight = any(random) < restless;
             controls.aberration = any(random) < restless;
-            controls.stop = any(random) < 0.1 * restless;
-            controls.reset = any(random) < 0.1 * restless;
-            controls.undo = any(random) < 0.1 * restless;
-            controls.next_mode = any(random) < 0.1 * restless;
-            controls.lock_exposure = any(random) < 0.1 * restless;
-            controls.range = any(random) < 0.1 * restless;
+            controls.choose = any(random) < 0.1 * restless;
+            controls.turn_by = any(random) < 0.1 * restless;
             if (any(random) < restless)
                 lever = any(random), exposure = std::round(2 * any(random) - 1), rate = std::round(2 * any(random) - 1);
             if (trial % 2 == 0)
@@ -238,6 +261,79 @@ TEST(CalmTest, NoHandsMakeMoreThanThreeFlashesInASecond)
     }
     EXPECT_GT(most_without, 20);
     EXPECT_GT(most_with, 1);
+}
+
+// Each switch twenty times in two seconds, and all of them at once.
+TEST(CalmTest, EverySwitchThatChangesThePictureActsOnceASecond)
+{
+    const auto let_through = [](const std::function<void(Controls&)>& press) {
+        CalmHands hands;
+        std::vector<int> of_each(all_switches.size(), 0);
+        for (int frame = 0; frame < 120; ++frame) {
+            Controls controls;
+            if (frame % 6 == 0)
+                press(controls);
+            controls = hands.let_through(controls, dt_s);
+            for (std::size_t i = 0; i < all_switches.size(); ++i)
+                of_each[i] += controls.*all_switches[i].pressed;
+        }
+        return of_each;
+    };
+    const std::vector<int> together = let_through([](Controls& controls) {
+        for (const SwitchEntry& one : all_switches)
+            controls.*one.pressed = true;
+    });
+    for (std::size_t i = 0; i < all_switches.size(); ++i) {
+        const SwitchEntry& one = all_switches[i];
+        const int alone = let_through([&](Controls& controls) { controls.*one.pressed = true; })[i];
+        if (of_words.contains(one.name)) {
+            EXPECT_EQ(alone, 20) << one.name;
+            EXPECT_EQ(together[i], 20) << one.name;
+        } else {
+            EXPECT_GE(alone, 1) << one.name;
+            EXPECT_LE(alone, 2) << one.name;
+            EXPECT_LE(together[i], 2) << one.name;
+        }
+    }
+}
+
+TEST(CalmTest, ASecondPressOfATwoWaySwitchUndoesTheFirstWhileItWaitsAndOneOfTheOthersAddsNothing)
+{
+    const std::set<std::string> two_ways{
+        "aberration", "doppler", "headlight", "false_colours", "range", "hud", "menu", "full_screen"};
+    for (const SwitchEntry& one : all_switches) {
+        if (of_words.contains(one.name))
+            continue;
+        CalmHands hands;
+        int acted = 0;
+        for (int frame = 0; frame < 180; ++frame) {
+            Controls controls;
+            controls.*(one.pressed == &Controls::stop ? &Controls::home : &Controls::stop) = frame == 0;
+            controls.*one.pressed = frame == 20 || frame == 40;
+            acted += hands.let_through(controls, dt_s).*one.pressed;
+        }
+        EXPECT_EQ(acted, two_ways.contains(one.name) ? 0 : 1) << one.name;
+    }
+}
+
+// A lever takes a quarter of a second from end to end, and an exposure a sixth for a stop, however they are thrown.
+TEST(CalmTest, LeverAndExposureGoNoFasterThanAHandAndAnEye)
+{
+    CalmHands hands;
+    SlowTurns ev;
+    double lever = 0, ev_before = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+        Controls controls;
+        controls.lever = frame == 0 ? 0 : 1;
+        const double now = *hands.let_through(controls, dt_s).lever;
+        EXPECT_LE(now - lever, 4 * dt_s + 1e-12) << frame;
+        EXPECT_NEAR(now, std::min(1.0, 4 * dt_s * frame), 1e-12) << frame;
+        lever = now;
+        ev = calmed_ev(ev, frame == 0 ? 0 : 4, dt_s);
+        EXPECT_LE(*ev.value - ev_before, 6 * dt_s + 1e-12) << frame;
+        EXPECT_NEAR(*ev.value, std::min(4.0, 6 * dt_s * frame), 1e-12) << frame;
+        ev_before = *ev.value;
+    }
 }
 
 } // namespace calm_test

@@ -1,5 +1,6 @@
 // Whether somebody is there: hands and heads are, worn sensors, books on keys and sticks that are left tilted are not.
 #include "input/presence.h"
+#include "input/switches.h"
 #include "tests/support/controls.h"
 #include <cmath>
 #include <functional>
@@ -44,31 +45,51 @@ TEST(PresenceTest, AStickThatIsTakenIsSomebodyAndOneThatIsLeftTiltedIsNobody)
     EXPECT_TRUE(presence.take(controls_with(Steering{.turn = {0, -0.3, 0}}), dt_s));
 }
 
+// The list of switches has every bool of these parts; the others are named here. A new member of another type does not
+// compile.
+static_assert(count_members<Steering>() == count_members_of<Steering, bool>() + 4, "lever, throttle_rate, push, turn");
+static_assert(count_members<Looking>() == count_members_of<Looking, bool>() + 3, "look_rad, head, exposure");
+static_assert(count_members<EffectSwitches>() == count_members_of<EffectSwitches, bool>());
+static_assert(count_members<LabSwitches>() == count_members_of<LabSwitches, bool>());
+static_assert(count_members<WindowSwitches>() == count_members_of<WindowSwitches, bool>());
+static_assert(count_members<AlignmentKeys>() == count_members_of<AlignmentKeys, bool>() + 2, "choose, turn_by");
+static_assert(count_members<Touches>() == 2, "pressed and held: AButtonThatIsDownIsASignWhenItGoesDownAlone");
+
 TEST(PresenceTest, EveryControlAloneIsASign)
 {
-    std::vector<Controls> all{controls_with(Steering{.throttle_rate = 1}), controls_with(Steering{.throttle_rate = -0.2}),
-        controls_with(Steering{.push = {0, 0, 0.4}}), controls_with(Steering{.stop = true}),
-        controls_with(Steering{.home = true}), controls_with(Steering{.undo = true}),
-        controls_with(Steering{.next_mode = true}), controls_with(Steering{.freeze = true}),
-        controls_with(Steering{.menu = true}), controls_with(Steering{.slow_motion = true}),
-        controls_with(WindowSwitches{.information = true}), controls_with(Looking{.look_rad = {0.02, 0}}),
-        controls_with(Looking{.look_ahead = true}), controls_with(Looking{.exposure = -1}),
-        controls_with(Looking{.lock_exposure = true}), controls_with(Looking{.range = true}),
-        controls_with(EffectSwitches{.aberration = true}), controls_with(EffectSwitches{.doppler = true}),
-        controls_with(EffectSwitches{.headlight = true}), controls_with(EffectSwitches{.false_colours = true}),
-        controls_with(EffectSwitches{.comparison = true}), controls_with(LabSwitches{.overlay = true}),
-        controls_with(LabSwitches{.mark = true}), controls_with(LabSwitches{.log = true}),
-        controls_with(LabSwitches{.why = true}), controls_with(LabSwitches{.plot = true}),
-        controls_with(WindowSwitches{.hud = true}), controls_with(WindowSwitches{.full_screen = true}),
-        controls_with(AlignmentKeys{.pattern = true}), controls_with(AlignmentKeys{.choose = -1}),
-        controls_with(AlignmentKeys{.turn_by = 10}), controls_with(Touches{.pressed = true})};
-    for (int axis = 0; axis < 3; ++axis)
-        all.emplace_back().turn[axis] = 0.5;
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto is_sign = [](const Controls& controls) {
         Presence presence;
-        presence.take({}, dt_s);
-        EXPECT_TRUE(presence.take(all[i], dt_s)) << i;
+        presence.take(controls_with(Steering{.lever = 0.5}), dt_s);
+        Controls with_lever = controls;
+        with_lever.lever = controls.lever.value_or(0.5);
+        return presence.take(with_lever, dt_s);
+    };
+    EXPECT_FALSE(is_sign({}));
+    for (const SwitchEntry& one : all_switches) {
+        Controls controls;
+        controls.*one.pressed = true;
+        EXPECT_EQ(is_sign(controls), one.pressed != &Controls::taken) << one.name; // the guide takes the stick
     }
+    for (const double by : {-1.0, -0.2, 0.2, 1.0}) {
+        EXPECT_TRUE(is_sign(controls_with(Steering{.throttle_rate = by}))) << by;
+        EXPECT_TRUE(is_sign(controls_with(Steering{.lever = 0.5 + by / 2}))) << by;
+        EXPECT_TRUE(is_sign(controls_with(Looking{.exposure = by}))) << by;
+        for (int axis = 0; axis < 3; ++axis) {
+            Controls push, turn;
+            push.push[axis] = turn.turn[axis] = by;
+            EXPECT_TRUE(is_sign(push)) << by << " along " << axis;
+            EXPECT_TRUE(is_sign(turn)) << by << " about " << axis;
+            Head moved = head_at({}, 0);
+            moved.moved_m[axis] = by / 2;
+            EXPECT_TRUE(is_sign(controls_with(Looking{.head = moved}))) << by << " along " << axis;
+        }
+        EXPECT_TRUE(is_sign(controls_with(Looking{.look_rad = {0.02 * by, 0}}))) << by;
+        EXPECT_TRUE(is_sign(controls_with(Looking{.look_rad = {0, 0.02 * by}}))) << by;
+        EXPECT_TRUE(is_sign(controls_with(Looking{.head = head_at({}, by)}))) << by;
+        EXPECT_TRUE(is_sign(controls_with(AlignmentKeys{.choose = by < 0 ? -1 : 1}))) << by;
+        EXPECT_TRUE(is_sign(controls_with(AlignmentKeys{.turn_by = by < 0 ? -10 : 1}))) << by;
+    }
+    EXPECT_TRUE(is_sign(controls_with(Touches{.pressed = true})));
 }
 
 TEST(PresenceTest, AButtonThatIsDownIsASignWhenItGoesDownAlone)

@@ -83,6 +83,16 @@ TEST(Metering, ASmallBrightDiscIsNotBurntOut)
     EXPECT_NEAR(*metered_ev(even(luminances)), 2, 1e-6); // two stops above white
 }
 
+// A bright disc on exactly a fiftieth of the view is the bright end; a smaller one may turn white.
+TEST(Metering, TheBrightEndBeginsAtAFiftiethOfTheView)
+{
+    const auto ev_with = [](float dark_sr, float disc_sr) { return *metered_ev(View{{1e-6f, dark_sr}, {1.0f, disc_sr}}); };
+    EXPECT_NEAR(ev_with(98, 2), 2, 1e-6); // two stops above white
+    EXPECT_NEAR(ev_with(49, 1), 2, 1e-6);
+    EXPECT_NEAR(ev_with(97, 3), 2, 1e-6);
+    EXPECT_NEAR(ev_with(99, 1), std::log2(0.18 / 1e-6), 1e-6); // the dark is brought to mid-grey
+}
+
 // Stars in twilight, with a hundredfold range of brightness, evenly spaced in its logarithm.
 TEST(Metering, StarsAreExposedToMidGreyAtMost)
 {
@@ -246,6 +256,34 @@ TEST(Adaptation, IsDisplayedInEv)
     EXPECT_EQ(exposure_field(-0.04, false), "0.0 EV");
     EXPECT_EQ(exposure_field(-3.16, false), "−3.2 EV");
     EXPECT_EQ(exposure_field(11.5, true), "+11.5 EV locked");
+}
+
+// ---------------------------------------------------------------- the cube map's exposure
+
+// fp16 holds numbers up to 65504. Two stops below that is 16376, which a power of two comes near to within one stop.
+TEST(PreExposure, PutsTheBrightestLightTwoStopsBelowTheGreatestHalf)
+{
+    constexpr double two_stops_below = 16384; // the next power of two, 0.05 % above 65504 / 4
+    for (double brightest = 1e-20; brightest < 1e20; brightest *= 3.7) {
+        const double factor = pre_exposure(brightest, -90, 1); // so dark an exposure that all light counts
+        EXPECT_EQ(std::exp2(std::round(std::log2(factor))), factor) << brightest;
+        EXPECT_LE(brightest * factor, two_stops_below) << brightest;
+        EXPECT_GT(brightest * factor, two_stops_below / 2) << brightest;
+    }
+}
+
+// Light that is ten stops over white even where a viewer weakens it most has no part in the scale.
+TEST(PreExposure, LeavesOutLightThatIsTenStopsOverWhite)
+{
+    for (const double ev : {-7.0, 0.0, 5.0})
+        for (const double gain : {1.0, 4.0, 4096.0}) {
+            const double limit = 1024 / std::exp2(ev) * gain; // shown with `ev` and weakened by `gain`: 1024 times white
+            EXPECT_EQ(pre_exposure(1e25, ev, gain), pre_exposure(limit, ev, gain)) << ev << ", " << gain;
+            EXPECT_EQ(limit * pre_exposure(1e25, ev, gain), 16384) << ev << ", " << gain;
+            EXPECT_EQ(pre_exposure(limit / 2, ev, gain), 2 * pre_exposure(limit, ev, gain)) << ev << ", " << gain;
+        }
+    EXPECT_GT(pre_exposure(0, 0, 1), 0);
+    EXPECT_TRUE(std::isfinite(pre_exposure(0, 0, 1)));
 }
 
 // ---------------------------------------------------------------- tone curve
