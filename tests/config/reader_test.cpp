@@ -24,7 +24,7 @@ std::string at_line(int line, const std::string& rest)
 TEST(ReaderTest, InvalidJsonIsReportedWithARemedy)
 {
     const std::vector<std::array<std::string, 3>> cases = {
-        {"{\n \"a\": [\n {\"b\": \"c\" // d\n \"e\": 1}]}", "3", "follows \"e\"; a comma"},
+        {"{\n \"a\": [\n {\"b\": \"c\" // d\n \"e\": 1}]}", "3", "is followed by \"e\"; a comma"},
         {"{\n \"a\": 1\n \"b\": 2}", "2", "is followed by \"b\"; a comma"},
         {"{\n \"a\": [1\n 2.5e3]}", "2", "is followed by 2.5e3; a comma"},
         {"{\"a\": 1,\n}", "2", "} follows a comma"},

@@ -2,6 +2,7 @@
 #include "input/presence.h"
 #include "input/switches.h"
 #include "tests/support/controls.h"
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
@@ -72,7 +73,7 @@ TEST(PresenceTest, EveryControlAloneIsASign)
     }
     for (const double by : {-1.0, -0.2, 0.2, 1.0}) {
         EXPECT_TRUE(is_sign(controls_with(Steering{.throttle_rate = by}))) << by;
-        EXPECT_TRUE(is_sign(controls_with(Steering{.lever = 0.5 + by / 2}))) << by;
+        EXPECT_TRUE(is_sign(controls_with(Steering{.lever = std::clamp(0.5 + by, 0.0, 1.0)}))) << by;
         EXPECT_TRUE(is_sign(controls_with(Looking{.exposure = by}))) << by;
         for (int axis = 0; axis < 3; ++axis) {
             Controls push, turn;
