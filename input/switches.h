@@ -29,10 +29,10 @@ inline constexpr std::array all_switches{
     SwitchEntry{"undo", &Controls::undo, Leap::press},
     SwitchEntry{"reset", &Controls::reset, Leap::press},
     SwitchEntry{"next_mode", &Controls::next_mode, Leap::press},
-    SwitchEntry{"freeze", &Controls::freeze, Leap::none},
+    SwitchEntry{"freeze", &Controls::freeze, Leap::toggle}, // its words are too large an area
     SwitchEntry{"menu", &Controls::menu, Leap::toggle},
     SwitchEntry{"taken", &Controls::taken, Leap::none}, // by the guide, and not pressed
-    SwitchEntry{"slow_motion", &Controls::slow_motion, Leap::none},
+    SwitchEntry{"slow_motion", &Controls::slow_motion, Leap::press}, // its words are too large an area
     SwitchEntry{"aberration", &Controls::aberration, Leap::toggle},
     SwitchEntry{"doppler", &Controls::doppler, Leap::toggle},
     SwitchEntry{"headlight", &Controls::headlight, Leap::toggle},
