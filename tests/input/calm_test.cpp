@@ -72,7 +72,7 @@ struct View {
 };
 
 /// These show words at most, and the exposure that a lock lets go is slow.
-const std::set<std::string> of_words{"freeze", "taken", "slow_motion", "lock_exposure", "quit", "save"};
+const std::set<std::string> of_words{"taken", "lock_exposure", "quit", "save"};
 
 /// Directions farther apart than a field's diameter, on circles around the sphere.
 glm::vec3 field_at(int i)
@@ -178,7 +178,7 @@ TEST(CalmTest, TheFirstPressActsAtOnceAndTheOthersTogetherASecondLater)
         controls.headlight = frame == 10 || frame == 20 || frame == 30 || frame == 40; // three more: one is left
         controls.doppler = frame == 25 || frame == 35; // two: none is left
         controls.stop = frame == 50;
-        controls.freeze = frame == 15; // changes words alone
+        controls.lock_exposure = frame == 15; // changes words alone
         controls = hands.let_through(controls, dt_s);
         if (controls.headlight)
             headlight.push_back(frame);
@@ -186,7 +186,7 @@ TEST(CalmTest, TheFirstPressActsAtOnceAndTheOthersTogetherASecondLater)
             doppler.push_back(frame);
         if (controls.stop)
             stop.push_back(frame);
-        EXPECT_EQ(controls.freeze, frame == 15);
+        EXPECT_EQ(controls.lock_exposure, frame == 15);
     }
     EXPECT_EQ(headlight, (std::vector{10, 70}));
     EXPECT_TRUE(doppler.empty());
