@@ -62,3 +62,11 @@ END
 for layout in desk wall3 cave5 dome dome2 mirror headset stereo; do
     "$starbow" check "$layout" --svg "docs/layouts/$layout.svg"
 done
+while read -r name size projection; do
+    echo "{ \"outputs\": [{ \"name\": \"$name\", \"size\": $size, \"viewports\": [{ \"projection\": $projection }] }] }" >"$work/$name.json"
+    "$starbow" check "$work/$name.json" --svg "docs/layouts/$name.svg"
+done <<'END'
+cylinder [4096,1024] { "type": "cylinder", "sides_deg": { "left": -100, "right": 100, "down": -20, "up": 25 } }
+equirectangular [4096,2048] { "type": "equirectangular" }
+cube [6144,1024] { "type": "cube" }
+END
