@@ -1,6 +1,4 @@
 # All tests: starbow_test without a GPU, starbow_gpu_test with Vulkan, the scripts of tests/commands, and the rig of fake devices.
-# The table in tests/README.md says which form runs a test: `./test` the quick and the sanitized ones, `./test --all` every one.
-option(STARBOW_ALL_TESTS "The tests of ./test --all, not only those of ./test" ON)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS tests/README.md)
 # starbow_tests(RESULT PATTERN FORM...): the files of tests/ whose name matches the pattern and whose form is among these.
 function(starbow_tests result pattern)
@@ -37,10 +35,15 @@ file(GLOB SUPPORT CONFIGURE_DEPENDS tests/support/*.cpp)
 set(GPU_SUPPORT ${SUPPORT})
 list(FILTER GPU_SUPPORT INCLUDE REGEX "/(gpu_environment|small_world).cpp$")
 list(REMOVE_ITEM SUPPORT ${GPU_SUPPORT})
+if(NOT STARBOW_ALL_TESTS AND NOT STARBOW_SANITIZE)
+  list(FILTER SUPPORT EXCLUDE REGEX "/schema_check.cpp$") # of those that read files
+endif()
 add_executable(starbow_test ${TESTS} ${SUPPORT})
-target_link_libraries(starbow_test PRIVATE starbow_reference starbow_operation starbow_remote starbow_machines starbow_plan GTest::gtest_main pugixml::pugixml valijson quadmath ${ZIP_LIBRARY} ${MESHOPTIMIZER_LIBRARY} ${DRACO_LIBRARY} ${WEBP_LIBRARY})
+target_link_libraries(starbow_test PRIVATE starbow_operation starbow_remote starbow_machines starbow_plan starbow_images GTest::gtest_main pugixml::pugixml valijson quadmath ${ZIP_LIBRARY} ${MESHOPTIMIZER_LIBRARY} ${DRACO_LIBRARY} ${WEBP_LIBRARY})
+if(STARBOW_ALL_TESTS OR NOT STARBOW_SANITIZE) # what reads foreign bytes needs no rays
+  target_link_libraries(starbow_test PRIVATE starbow_reference)
+endif()
 target_precompile_headers(starbow_test PRIVATE <gtest/gtest.h> ${COMMON_HEADERS})
-target_compile_options(starbow_test PRIVATE $<$<CONFIG:Release>:-O1>) # the rooms compute; the tests only compare
 # Each test file's name is a namespace around it, so that several files can be compiled as one.
 if(STARBOW_SANITIZE)
   # The tests' own code is checked for faults of the heap alone, and not optimized: undefined behaviour, local variables and -O1
@@ -56,47 +59,51 @@ foreach(half 0 1) # one for each core
   set_tests_properties(starbow_test_${half} PROPERTIES ENVIRONMENT "GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${half}")
 endforeach()
 if(NOT STARBOW_SANITIZE)
-  # Benchmarks of the processor's work: `build/release/starbow_bench`. The tests only check that it runs.
-  file(GLOB BENCHES CONFIGURE_DEPENDS tests/bench/*.cpp)
-  add_executable(starbow_bench ${BENCHES})
-  target_link_libraries(starbow_bench PRIVATE starbow_reference starbow_plan starbow_flight benchmark::benchmark_main)
-  add_test(NAME starbow_bench COMMAND starbow_bench --benchmark_min_time=0.001)
-  set_tests_properties(starbow_bench PROPERTIES WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+  if(STARBOW_ALL_TESTS)
+    # Benchmarks of the processor's work: `build/release/starbow_bench`. The tests only check that it runs.
+    file(GLOB BENCHES CONFIGURE_DEPENDS tests/bench/*.cpp)
+    add_executable(starbow_bench ${BENCHES})
+    target_link_libraries(starbow_bench PRIVATE starbow_reference starbow_plan starbow_flight benchmark::benchmark_main)
+    add_test(NAME starbow_bench COMMAND starbow_bench --benchmark_min_time=0.001)
+    set_tests_properties(starbow_bench PROPERTIES WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+    set_target_properties(starbow_bench PROPERTIES UNITY_BUILD OFF)
+  endif()
   add_executable(starbow_gpu_test ${GPU_TESTS} ${GPU_SUPPORT} tests/support/files.cpp tests/support/gltf_fixture.cpp)
   target_link_libraries(starbow_gpu_test PRIVATE starbow_exhibit starbow_reference GTest::gtest_main quadmath)
-  target_precompile_headers(starbow_gpu_test REUSE_FROM starbow_exhibit)
-  # The rooms, the reference among them, keep -O3; the tests' own code only compares.
-  target_compile_options(starbow_gpu_test PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_precompile_headers(starbow_gpu_test REUSE_FROM starbow_render)
   # The driver shall find a test's stand-in for a function of LLVM before LLVM's own.
   target_link_options(starbow_gpu_test PRIVATE -Wl,--export-dynamic-symbol=LLVMModuleCreateWithNameInContext)
   target_link_libraries(starbow_gpu_test PRIVATE ${CMAKE_DL_LIBS})
-  set_target_properties(starbow_bench PROPERTIES UNITY_BUILD OFF)
   foreach(half 0 1)
     add_test(NAME starbow_gpu_test_${half} COMMAND starbow_gpu_test --gtest_brief=1)
     set_tests_properties(starbow_gpu_test_${half} PROPERTIES ENVIRONMENT "GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${half}")
   endforeach()
   # The layer and the fake devices of the shell tests.
-  add_library(starbow_faults MODULE tests/rig/faults.cpp)
-  target_link_libraries(starbow_faults PRIVATE Vulkan::Headers)
-  target_link_options(starbow_faults PRIVATE -Wl,-z,nodelete) # the layer's counts must outlive an instance
+  set(RIG starbow_early_free starbow_clock)
   add_library(starbow_early_free MODULE tests/rig/early_free.cpp)
   add_library(starbow_clock MODULE tests/rig/clock.cpp)
-  add_library(starbow_no_memory MODULE tests/rig/no_memory.cpp)
-  add_custom_command(TARGET starbow_faults POST_BUILD
-    COMMAND ${CMAKE_COMMAND} -E copy ${CMAKE_SOURCE_DIR}/tests/rig/faults.json $<TARGET_FILE_DIR:starbow_faults>)
   add_executable(fake_sticks tests/rig/fake_sticks.cpp)
   target_include_directories(fake_sticks PRIVATE ${UMOCKDEV_INCLUDE_DIRS})
   target_link_libraries(fake_sticks PRIVATE ${UMOCKDEV_LIBRARIES} nlohmann_json::nlohmann_json util)
   set_target_properties(fake_sticks PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/rig)
-  add_executable(set_edid tests/rig/set_edid.cpp)
-  target_link_libraries(set_edid PRIVATE ${XCB_LIBRARY} ${XCB_RANDR_LIBRARY})
-  add_executable(x_client tests/rig/x_client.cpp)
-  target_link_libraries(x_client PRIVATE ${XCB_LIBRARY} ${XCB_SCREENSAVER_LIBRARY})
-  add_executable(screen_saver tests/rig/screen_saver.cpp)
-  target_link_libraries(screen_saver PRIVATE ${SYSTEMD_LIBRARY})
-  add_executable(remote_stage tests/rig/remote_stage.cpp)
-  target_link_libraries(remote_stage PRIVATE starbow_remote)
-  set_target_properties(starbow_faults starbow_early_free starbow_no_memory starbow_clock set_edid x_client screen_saver remote_stage PROPERTIES
+  if(STARBOW_ALL_TESTS)
+    list(APPEND RIG starbow_faults starbow_no_memory set_edid x_client screen_saver remote_stage)
+    add_library(starbow_faults MODULE tests/rig/faults.cpp)
+    target_link_libraries(starbow_faults PRIVATE Vulkan::Headers)
+    target_link_options(starbow_faults PRIVATE -Wl,-z,nodelete) # the layer's counts must outlive an instance
+    add_custom_command(TARGET starbow_faults POST_BUILD
+      COMMAND ${CMAKE_COMMAND} -E copy ${CMAKE_SOURCE_DIR}/tests/rig/faults.json $<TARGET_FILE_DIR:starbow_faults>)
+    add_library(starbow_no_memory MODULE tests/rig/no_memory.cpp)
+    add_executable(set_edid tests/rig/set_edid.cpp)
+    target_link_libraries(set_edid PRIVATE ${XCB_LIBRARY} ${XCB_RANDR_LIBRARY})
+    add_executable(x_client tests/rig/x_client.cpp)
+    target_link_libraries(x_client PRIVATE ${XCB_LIBRARY} ${XCB_SCREENSAVER_LIBRARY})
+    add_executable(screen_saver tests/rig/screen_saver.cpp)
+    target_link_libraries(screen_saver PRIVATE ${SYSTEMD_LIBRARY})
+    add_executable(remote_stage tests/rig/remote_stage.cpp)
+    target_link_libraries(remote_stage PRIVATE starbow_remote)
+  endif()
+  set_target_properties(${RIG} PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/rig RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/rig)
   starbow_shell_test(commands/cli_test.sh $<TARGET_FILE:starbow>)
   starbow_shell_test(commands/lab_test.sh $<TARGET_FILE:starbow>)

@@ -118,7 +118,7 @@ GlobeSky read_globes(const Place& place, const std::filesystem::path& folder)
 }
 
 /// A direction of any length.
-glm::dvec3 read_direction(const Place& place)
+glm::dvec3 unit_direction(const Place& place)
 {
     const glm::dvec3 direction = vec3(place, {-farthest, farthest});
     const double length = glm::length(direction);
@@ -131,7 +131,7 @@ LightCone read_cone(const Place& place)
 {
     reject_unknown_members(place, {"axis", "inner_deg", "outer_deg"});
     LightCone cone{
-        read_direction(member(place, "axis")), 0, glm::radians(number(member(place, "outer_deg"), {0, 90, true}))};
+        unit_direction(member(place, "axis")), 0, glm::radians(number(member(place, "outer_deg"), {0, 90, true}))};
     if (auto inner = find_member(place, "inner_deg"))
         cone.inner_rad = glm::radians(number(*inner, {0, 90}));
     if (!(cone.inner_rad < cone.outer_rad))
@@ -146,7 +146,7 @@ Light read_light(const Place& place, const std::vector<Body>& bodies)
     if (one_of(member(place, "type"), {"directional", "point"}) == "directional") {
         reject_unknown_members(place, {"type", "towards", "radiance", "temperature_K", "line_nm", "spectrum"});
         return DirectionalLight{
-            read_direction(member(place, "towards")), read_colour(member(place, "radiance")), read_emission(place)};
+            unit_direction(member(place, "towards")), read_colour(member(place, "radiance")), read_emission(place)};
     }
     const glm::dvec3 position = vec3(member(place, "position"), {-farthest, farthest});
     const double distance = number(member(place, "distance"), {0, farthest, true});

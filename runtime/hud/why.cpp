@@ -99,11 +99,14 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
         add("why.aberration_angles",
             {{"theta", format.angle(aim.from_motion_world_rad)}, {"seen", format.angle(aim.from_motion_rad)}});
         break;
-    case Why::doppler:
+    case Why::doppler: { // of the motion past the spot, which may move itself
+        const double spot_gamma = std::sqrt(1 + aim.relative_u * aim.relative_u);
         add("why.doppler_numbers",
-            {{"gamma", gammas}, {"beta", beta}, {"cos", format.cosine(aim.from_motion_rad)}, {"D", D}});
+            {{"gamma", shown_number(spot_gamma, words)}, {"beta", shown_number(aim.relative_u / spot_gamma, 4, words)},
+                {"cos", format.cosine(aim.from_relative_motion_rad)}, {"D", D}});
         add("why.doppler_seen", {{"nm", format.wavelength(aim.seen_nm)}});
         break;
+    }
     case Why::headlight:
         add("why.headlight_numbers", {{"D", D}, {"cube", shown_number(std::pow(aim.ray.D, 3), words)}});
         if (!m.effects.headlight)

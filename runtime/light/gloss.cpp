@@ -1,14 +1,13 @@
 #include "gloss.h"
+#include "config/model/angles.h"
 #include "shaders/shared_structs.h"
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace starbow {
 namespace {
 
 constexpr int steps = 40; // along each of the two numbers that distribute the microfacets
-constexpr double pi = std::numbers::pi;
 
 double fifth_power(double x) { return x * x * x * x * x; }
 

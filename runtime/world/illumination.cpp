@@ -89,25 +89,27 @@ std::vector<ReflectedSpectrum> reflected_spectra(
     return all;
 }
 
+void add_once(std::vector<Emission>& all, const Emission& emission)
+{
+    if (std::find(all.begin(), all.end(), emission) == all.end())
+        all.push_back(emission);
+}
+
 /// Every emission once, in the order in which they are met.
 std::vector<Emission> own_emissions(const World& world, const SceneFile& scene, const std::vector<LightKind>& kinds)
 {
     std::vector<Emission> own;
-    auto add = [&](const Emission& emission) {
-        if (std::find(own.begin(), own.end(), emission) == own.end())
-            own.push_back(emission);
-    };
     for (const LightKind& kind : kinds)
         if (kind.is_line())
-            add(shifted_line(kind));
+            add_once(own, shifted_line(kind));
     for (const Material& material : world.materials) {
         if (material.temperature_K > 0)
-            add(BlackBody{material.temperature_K});
+            add_once(own, BlackBody{material.temperature_K});
         if (material.emission)
-            add(*material.emission);
+            add_once(own, *material.emission);
     }
     if (scene.sky.temperature_K > 0)
-        add(BlackBody{scene.sky.temperature_K});
+        add_once(own, BlackBody{scene.sky.temperature_K});
     if (own.size() > MAX_OWN)
         throw InputError(scene.gltf.string(), "",
             "has, with its lights and its sky, " + std::to_string(own.size())

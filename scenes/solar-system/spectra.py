@@ -354,10 +354,6 @@ def main(folder, out):
                       "from memory, about 10 percent).",
             "column_300_du_cm2": 8.07e18,
             "optical_depth_300_du": [[float(x), float(f"{y * 1e-23 * 8.07e18:.3g}")] for x, y in zip(*OZONE)]},
-        "rayleigh": {
-            "source": "Hansen and Travis 1974, Space Science Reviews 16, 527, equation 2.30",
-            "rule": "optical depth at 1013.25 hPa = 0.008569 L^-4 (1 + 0.0113 L^-2 + 0.00013 L^-4), L in micrometres",
-            "scale_height_km": 8.0},
     }
     with open(out, "w", encoding="utf-8") as f:
         import re

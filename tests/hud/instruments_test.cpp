@@ -251,6 +251,15 @@ TEST(Instruments, AClockOnAMovingBodyHasItsRetardedReading)
     EXPECT_NEAR(*reading.emitted_s, ship.time - delay, 1e-9);
     EXPECT_NEAR(reading.ray.D / D, 1, 1e-12);
     EXPECT_LT(angle_between(reading.ray.ship, seen), 1e-12);
+    // The page's formula of D gives D from the numbers that stand in it.
+    const std::string line = why_page(Why::doppler, {.observer = ship, .aim = reading}, words("en")).numbers.at(0);
+    std::vector<double> numbers;
+    const std::regex number("(?:− ?)?[0-9][0-9.]*");
+    for (std::sregex_iterator one(line.begin(), line.end(), number), end; one != end; ++one)
+        numbers.push_back(std::stod(std::regex_replace(one->str(), std::regex("(?:−) ?"), "-")));
+    ASSERT_EQ(numbers.size(), 6u) << line; // 1 / (gamma (1 - beta cos)) = D
+    EXPECT_NEAR(numbers[5] / D, 1, 1e-3) << line;
+    EXPECT_NEAR(1 / (numbers[1] * (1 + numbers[3] * numbers[4])) / D, 1, 3e-3) << line; // the sign came with beta
     // Points that move relative to each other have no length at rest.
     const Spot still{.at = {0, 0, 0}};
     const PairReading pair = read_pair(ship, spot, still, world, 1);

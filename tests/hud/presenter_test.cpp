@@ -185,8 +185,9 @@ TEST(Presenter, EveryGivenCommandIsOneThatARecordReadsBack)
         const PresenterSheet sheet = sheet_of(state, {.list = list}, words_in("en"));
         for (const auto* keys : {&sheet.choices, &sheet.keys})
             for (const PresenterKey& key : *keys)
-                if (const auto* command = std::get_if<Command>(&key.deed))
+                if (const auto* command = std::get_if<Command>(&key.deed)) {
                     EXPECT_EQ(command_of(words_of(*command)), *command) << key.label;
+                }
     }
 }
 

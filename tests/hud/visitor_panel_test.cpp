@@ -83,17 +83,19 @@ TEST(VisitorPanel, EverySentenceIsSaidInSomeState)
         said.insert(plain_sentence(r, words()));
     const std::set<std::string> others{"say.percent", "say.of_light", "say.clock_board", "say.clock_world"};
     for (const auto& [key, text] : words().texts)
-        if (key.starts_with("say.") && !others.contains(key))
+        if (key.starts_with("say.") && !others.contains(key)) {
             EXPECT_TRUE(said.contains(text)) << key;
+        }
 }
 
 TEST(VisitorPanel, VisitorsReadNoFormula)
 {
     for (const char* language : {"en", "de"})
         for (const auto& [key, text] : words(language).texts)
-            if (key.starts_with("say."))
+            if (key.starts_with("say.")) {
                 for (const char* sign : {"γ", "β", "=", "³", "′", "D ", "v/c", "θ"})
                     EXPECT_EQ(text.find(sign), text.npos) << key;
+            }
 }
 
 TEST(VisitorPanel, AllLinesFitBesideEachOther)

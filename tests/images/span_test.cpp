@@ -159,6 +159,8 @@ TEST(SpanTest, SpansOfShippedAndMutatedFilesParseBack)
     for (const char* folder : {"config/layouts", "config/scenes", "config/shots"})
         for (const auto& file : shipped(folder)) {
             seeds.push_back(read_text(file));
+            if (!all_cases() && seeds.size() % 4 != 0)
+                continue;
             expect_slices_parse_back(seeds.back());
             std::string windows = "\xef\xbb\xbf";
             for (char c : seeds.back())

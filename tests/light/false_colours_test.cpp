@@ -67,10 +67,11 @@ TEST(FalseColoursTest, TheSimulationsKeepGreysAndConfuseWhatDichromatsConfuse)
     const glm::dvec3 red(0.45, 0.18, 0.05), green(0.22, 0.28, 0.05);
     EXPECT_GT(ciede2000(lab(red), lab(green)), 25);
     for (const Vision& vision : visions())
-        if (std::string(vision.name).starts_with("deuteranopia"))
+        if (std::string(vision.name).starts_with("deuteranopia")) {
             EXPECT_LT(
                 ciede2000(lab(glm::clamp(vision.seen * red, 0.0, 1.0)), lab(glm::clamp(vision.seen * green, 0.0, 1.0))), 8)
                 << vision.name;
+        }
 }
 
 TEST(FalseColoursTest, EverybodyTellsNeighbouringStepsOfTheScaleApart)

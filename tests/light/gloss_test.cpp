@@ -67,8 +67,9 @@ TEST(GlossTable, TheUpperAndTheLowerSkyShareTheRest)
         for (int column = 0; column < GLOSS_TABLE; ++column) {
             const auto above = [&](int at) { return gloss_table()[std::size_t(row) * GLOSS_TABLE + std::size_t(at)].above; };
             EXPECT_LE(above(column) + above(GLOSS_TABLE - 1 - column), 1.0001f);
-            if (column > 0)
+            if (column > 0) {
                 EXPECT_GE(above(column), above(column - 1) - 1e-4f) << row << ' ' << column;
+            }
         }
 }
 

@@ -4,8 +4,10 @@
 #include "runtime/hud/lab_log.h"
 #include "runtime/hud/lab_table.h"
 #include "runtime/hud/why.h"
-#include "runtime/reference/reference.h"
 #include "runtime/world/instances.h"
+#include "runtime/world/open_scene.h"
+#include "runtime/world/world.h"
+#include "runtime/world/worldline.h"
 #include "tests/support/controls.h"
 #include "tests/support/files.h"
 
@@ -15,12 +17,14 @@ class LabFlight {
 public:
     /// scene: a name in config/scenes. shot: one in config/shots, or empty for the scene's start.
     explicit LabFlight(const std::string& scene, const std::string& shot = "")
-        : world_(open_reference_world(source_dir() / "config/scenes" / (scene + ".json")))
-        , start_(shot.empty() ? world_.scene.start : load_shot(source_dir() / "config/shots" / (shot + ".json")))
+        : file_(open_scene(source_dir() / "config/scenes" / (scene + ".json")))
+        , world_(load_world(file_))
+        , start_(shot.empty() ? file_.start : load_shot(source_dir() / "config/shots" / (shot + ".json")))
         , scene_(scene)
     {
-        sort_instances(world_.world);
-        rules_.boundary = world_.scene.boundary;
+        place_bodies(world_, file_);
+        sort_instances(world_);
+        rules_.boundary = file_.boundary;
         flight = flight_at(start_, rules_);
     }
 
@@ -30,7 +34,7 @@ public:
         constexpr double frame_s = 0.02;
         for (double left = s; left > 1e-9; left -= frame_s) {
             const double dt = std::min(frame_s, left);
-            flight = step(flight, controls, std::llround(1e9 * dt), rules_, world_.scene.seconds_per_time_unit(), start_);
+            flight = step(flight, controls, std::llround(1e9 * dt), rules_, file_.seconds_per_time_unit(), start_);
             since_line_s_ += dt;
             if (log_every_s > 0 && since_line_s_ > log_every_s - 1e-9)
                 log();
@@ -41,7 +45,7 @@ public:
     void faster(double s) { hold(controls_with(Steering{.throttle_rate = 1}), s); }
     void press(const Controls& controls)
     {
-        flight = step(flight, controls, 1'000'000, rules_, world_.scene.seconds_per_time_unit(), start_);
+        flight = step(flight, controls, 1'000'000, rules_, file_.seconds_per_time_unit(), start_);
     }
     void look(double left_deg, double up_deg = 0)
     {
@@ -59,7 +63,7 @@ public:
     {
         Spot nearest;
         double least = 1e9;
-        const World& w = world_.world;
+        const World& w = world_;
         for (std::size_t i = 0; i < w.instances.size(); ++i) {
             if (w.instances[i].frame != frame
                 || !w.materials[std::size_t(w.primitives[w.instances[i].primitive].material)].clock)
@@ -73,8 +77,8 @@ public:
     }
     int moving_frame() const
     {
-        for (std::size_t i = 0; i < world_.world.frames.size(); ++i)
-            if (glm::length(world_.world.frames[i].u) > 0)
+        for (std::size_t i = 0; i < world_.frames.size(); ++i)
+            if (glm::length(world_.frames[i].u) > 0)
                 return int(i);
         ADD_FAILURE() << "nothing moves";
         return 0;
@@ -86,8 +90,8 @@ public:
     {
         since_line_s_ = 0;
         const MeasuringObserver now = observer();
-        const Spot aim = spot_at(now, {.ray = aim_of(now), .distance = INFINITY}, world_.world);
-        Measured m = measured_of(now, flight.ship, world_.scene, world_.world, flight.effects, aim, 1, marks_);
+        const Spot aim = spot_at(now, {.ray = aim_of(now), .distance = INFINITY}, world_);
+        Measured m = measured_of(now, flight.ship, file_, world_, flight.effects, aim, 1, marks_);
         m.mark_numbers = numbers_;
         bytes += log_line(m, "aim", "2026-11-25T08:30:00.000Z") + "\r\n";
     }
@@ -98,7 +102,8 @@ public:
 
 private:
     static constexpr double pi = 3.14159265358979323846;
-    ReferenceWorld world_;
+    SceneFile file_;
+    World world_;
     Shot start_;
     std::string scene_;
     Flying rules_;

@@ -274,7 +274,7 @@ void expect_valid(const World& world)
 TEST_F(WorldFuzzTest, DamagedFilesLoadOrAreRefused)
 {
     const char* count_text = std::getenv("STARBOW_FUZZ_COUNT");
-    const auto count = std::uint32_t(count_text ? std::atol(count_text) : 3000);
+    const auto count = std::uint32_t(count_text ? std::atol(count_text) : 1000);
     MemoryLimit limit(rlim_t(2) << 30);
     std::uint32_t loaded = 0, fast = 0, opened = 0;
     std::string file = (folder / "world.gltf").string();

@@ -8,7 +8,7 @@
 
 namespace starbow {
 
-Bytes unpack_meshopt(const Spot& packed, std::span<const std::uint8_t> from)
+Bytes unpack_meshopt(const JsonSpot& packed, std::span<const std::uint8_t> from)
 {
     const std::string mode = text(packed["mode"]);
     const std::string filter = packed.has("filter") ? text(packed["filter"]) : "NONE";
@@ -73,7 +73,7 @@ int add_accessor(GuardedGltf& out, const std::vector<T>& values, std::size_t cou
 
 } // namespace
 
-void unpack_draco(const Spot& packed, tinygltf::Primitive& written, GuardedGltf& out)
+void unpack_draco(const JsonSpot& packed, tinygltf::Primitive& written, GuardedGltf& out)
 {
     const auto& view
         = out.model.bufferViews[std::size_t(index_into(object(packed)["bufferView"], "buffer view", out.stated_views))];
@@ -100,7 +100,7 @@ void unpack_draco(const Spot& packed, tinygltf::Primitive& written, GuardedGltf&
             indices.push_back(point.value());
         }
     written.indices = add_accessor(out, indices, corners, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
-    const Spot ids = packed["attributes"];
+    const JsonSpot ids = packed["attributes"];
     for (const auto& [name, id] : object(ids).json.items()) {
         if (!written.attributes.contains(name))
             continue; // an attribute that no world of ours uses

@@ -123,7 +123,7 @@ Json parse_json(const GltfFile& file, const std::string& json)
     }
 }
 
-Bytes decode_base64(const std::string& text, std::size_t begin, const Spot& spot)
+Bytes decode_base64(const std::string& text, std::size_t begin, const JsonSpot& spot)
 {
     std::size_t end = text.size();
     while (end > begin && text[end - 1] == '=')
@@ -154,7 +154,7 @@ Bytes decode_base64(const std::string& text, std::size_t begin, const Spot& spot
     return bytes;
 }
 
-std::string decode_percent(const std::string& uri, const Spot& spot)
+std::string decode_percent(const std::string& uri, const JsonSpot& spot)
 {
     auto digit = [&](std::size_t i) {
         char c = i < uri.size() ? uri[i] : ' ';
@@ -174,7 +174,7 @@ std::string decode_percent(const std::string& uri, const Spot& spot)
 }
 
 /// The place on disk that a relative URI names, or a complaint.
-fs::path resolve_inside(const fs::path& folder, const std::string& uri, const Spot& spot)
+fs::path resolve_inside(const fs::path& folder, const std::string& uri, const JsonSpot& spot)
 {
     const char* right = "; should be a data: URI or a relative path inside the file's own folder";
     std::string path = decode_percent(uri, spot);
@@ -250,7 +250,7 @@ GltfFile read_gltf_json(const fs::path& path)
     return out;
 }
 
-Bytes read_uri(GltfFile& file, const Spot& spot)
+Bytes read_uri(GltfFile& file, const JsonSpot& spot)
 {
     if (!spot.json.is_string())
         spot.fail("should be a text");

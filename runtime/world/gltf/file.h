@@ -48,6 +48,6 @@ GltfFile read_gltf_json(const std::filesystem::path& file);
 inline bool begins_glb(std::string_view bytes) { return bytes.starts_with("glTF"); }
 
 /// The bytes behind a URI: base64 `data:`, or a path that stays inside the file's folder. Throws InputError at `spot`.
-Bytes read_uri(GltfFile& file, const Spot& spot);
+Bytes read_uri(GltfFile& file, const JsonSpot& spot);
 
 } // namespace starbow

@@ -24,46 +24,46 @@ constexpr std::array<std::pair<const char*, const char*>, 9> stand_ins{
         {"KHR_materials_variants", "variants: the first look is drawn"},
         {"KHR_lights_punctual", "lamps of the file (KHR_lights_punctual) shine where no scene file names its own lights"}}};
 
-void guard_asset(const Spot& root)
+void guard_asset(const JsonSpot& root)
 {
-    Spot asset = root["asset"];
-    Spot version = object(asset)["version"];
+    JsonSpot asset = root["asset"];
+    JsonSpot version = object(asset)["version"];
     if (!text(version).starts_with("2."))
         version.fail("is " + in_quotes(text(version)) + "; should be \"2.0\"");
     if (asset.has("minVersion") && text(asset["minVersion"]) != "2.0")
         asset["minVersion"].fail("is " + in_quotes(text(asset["minVersion"])) + "; 2.0 is supported");
 }
 
-void guard_extensions(const Spot& root, GuardedGltf& out)
+void guard_extensions(const JsonSpot& root, GuardedGltf& out)
 {
     auto each = [&](const char* key, auto unsupported) {
         if (!root.has(key))
             return;
-        Spot all = root[key];
+        JsonSpot all = root[key];
         list(all, 0);
         for (std::size_t i = 0; i < all.size(); ++i)
             if (std::string name = text(all[i]); std::ranges::find(supported_extensions, name) == supported_extensions.end())
                 unsupported(all[i], in_quotes(name));
     };
-    const auto stand_in = [](const Spot& spot) {
+    const auto stand_in = [](const JsonSpot& spot) {
         const auto one = std::ranges::find(stand_ins, text(spot), [](const auto& each) { return std::string(each.first); });
         return one == stand_ins.end() ? nullptr : one->second;
     };
-    each("extensionsRequired", [&](const Spot& spot, const std::string& name) {
+    each("extensionsRequired", [&](const JsonSpot& spot, const std::string& name) {
         if (text(spot) == "KHR_texture_basisu")
             spot.fail(
                 "requires KTX2 textures (KHR_texture_basisu), which are not read; PNG, JPEG or WebP textures are right");
         if (!stand_in(spot))
             spot.fail("requires the extension " + name + ", which is not supported; export the world without it");
     });
-    each("extensionsUsed", [&](const Spot& spot, const std::string& name) {
+    each("extensionsUsed", [&](const JsonSpot& spot, const std::string& name) {
         if (out.notes.size() < 100)
             note_once(out.notes, stand_in(spot) ? stand_in(spot) : "extension " + name + " is not supported");
     });
 }
 
 /// The extension EXT_meshopt_compression of a buffer or a view; nullopt without it.
-std::optional<Spot> meshopt_of(const Spot& spot)
+std::optional<JsonSpot> meshopt_of(const JsonSpot& spot)
 {
     if (!spot.has("extensions") || !object(spot["extensions"]).has("EXT_meshopt_compression"))
         return {};
@@ -90,16 +90,16 @@ MeshLimits mesh_limits(std::size_t bytes, std::size_t memory)
     return limits;
 }
 
-std::size_t count_of(const Spot& root, const char* key) { return root.has(key) ? list(root[key], 0).size() : 0; }
+std::size_t count_of(const JsonSpot& root, const char* key) { return root.has(key) ? list(root[key], 0).size() : 0; }
 
-void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
+void guard_buffers(GltfFile& file, const JsonSpot& root, GuardedGltf& out)
 {
     constexpr auto most = std::int64_t(GltfLimits::file_bytes);
     auto& buffers = out.model.buffers;
-    guard_list(root, "buffers", buffers, [&](const Spot& buffer, tinygltf::Buffer& written) {
+    guard_list(root, "buffers", buffers, [&](const JsonSpot& buffer, tinygltf::Buffer& written) {
         auto length = std::size_t(integer(buffer["byteLength"], 1, most));
         Bytes& bytes = written.data;
-        if (const std::optional<Spot> packing = meshopt_of(buffer);
+        if (const std::optional<JsonSpot> packing = meshopt_of(buffer);
             packing && packing->has("fallback") && boolean((*packing)["fallback"]))
             return; // every view of it is packed elsewhere
         if (buffer.has("uri"))
@@ -114,7 +114,7 @@ void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
     });
     const std::size_t stated = buffers.size();
     /// The part of a buffer that an object with buffer, byteOffset and byteLength names.
-    const auto part_of = [&](const Spot& view, tinygltf::BufferView& written) {
+    const auto part_of = [&](const JsonSpot& view, tinygltf::BufferView& written) {
         auto buffer = index_into(view["buffer"], "buffer", stated);
         auto offset = integer_or(view, "byteOffset", 0, 0, most);
         auto length = integer(view["byteLength"], 1, most);
@@ -125,8 +125,8 @@ void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
         written.byteOffset = std::size_t(offset);
         written.byteLength = std::size_t(length);
     };
-    guard_list(root, "bufferViews", out.model.bufferViews, [&](const Spot& view, tinygltf::BufferView& written) {
-        if (const std::optional<Spot> packed = meshopt_of(view)) {
+    guard_list(root, "bufferViews", out.model.bufferViews, [&](const JsonSpot& view, tinygltf::BufferView& written) {
+        if (const std::optional<JsonSpot> packed = meshopt_of(view)) {
             part_of(object(*packed), written);
             const Bytes& from = buffers[std::size_t(written.buffer)].data;
             Bytes unpacked = unpack_meshopt(*packed, std::span(from).subspan(written.byteOffset, written.byteLength));
@@ -158,7 +158,7 @@ GuardedGltf guard_gltf(const std::filesystem::path& path)
     GltfFile file = read_gltf_file(path);
     GuardedGltf out;
     out.name = file.name;
-    Spot root{file.json, "", out.name};
+    JsonSpot root{file.json, "", out.name};
     object(root);
     guard_asset(root);
     guard_extensions(root, out);

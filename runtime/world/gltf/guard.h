@@ -47,22 +47,22 @@ struct GuardedGltf {
 GuardedGltf guard_gltf(const std::filesystem::path& file);
 
 /// The parts of the check. Each takes the file's document and writes the accepted parts into `out.model`.
-void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out);
-void guard_accessors(const Spot& root, GuardedGltf& out);
-void guard_materials(GltfFile& file, const Spot& root, GuardedGltf& out);
-void guard_meshes(const Spot& root, GuardedGltf& out);
-void guard_nodes(const Spot& root, GuardedGltf& out);
-void guard_skins(const Spot& root, GuardedGltf& out); ///< after accessors
-void guard_animations(const Spot& root, GuardedGltf& out); ///< after nodes and accessors
+void guard_buffers(GltfFile& file, const JsonSpot& root, GuardedGltf& out);
+void guard_accessors(const JsonSpot& root, GuardedGltf& out);
+void guard_materials(GltfFile& file, const JsonSpot& root, GuardedGltf& out);
+void guard_meshes(const JsonSpot& root, GuardedGltf& out);
+void guard_nodes(const JsonSpot& root, GuardedGltf& out);
+void guard_skins(const JsonSpot& root, GuardedGltf& out); ///< after accessors
+void guard_animations(const JsonSpot& root, GuardedGltf& out); ///< after nodes and accessors
 
 /// Calls `read` with the member "starbow" of an object's extras, an object or a text with one; not called without it.
-void read_extras(const Spot& owner, const std::function<void(const Spot&)>& read);
+void read_extras(const JsonSpot& owner, const std::function<void(const JsonSpot&)>& read);
 
 /// The material that the extras' member "starbow" describes; `written` has the material's accepted members.
-Material guard_surface(const Spot& material, const tinygltf::Material& written);
+Material guard_surface(const JsonSpot& material, const tinygltf::Material& written);
 
 /// A mesh's or a node's weights of its morph targets; empty without any.
-std::vector<double> weights_of(const Spot& owner);
+std::vector<double> weights_of(const JsonSpot& owner);
 
 /// glTF's name of an accessor's type, for messages.
 std::string type_name(const tinygltf::Accessor& accessor);
@@ -70,14 +70,14 @@ std::string type_name(const tinygltf::Accessor& accessor);
 void note_once(std::vector<std::string>& notes, const std::string& note);
 
 /// The length of the document's list `key`; 0 without one.
-std::size_t count_of(const Spot& root, const char* key);
+std::size_t count_of(const JsonSpot& root, const char* key);
 
 /// Calls `each(spot, written)` for every object of the document's list `key`, and then adds `written` to `out`.
-template <typename T, typename Each> void guard_list(const Spot& root, const char* key, std::vector<T>& out, Each each)
+template <typename T, typename Each> void guard_list(const JsonSpot& root, const char* key, std::vector<T>& out, Each each)
 {
     if (!root.has(key))
         return;
-    Spot all = root[key];
+    JsonSpot all = root[key];
     list(all, 0);
     for (std::size_t i = 0; i < all.size(); ++i) {
         T written;

@@ -6,18 +6,18 @@ namespace starbow {
 namespace {
 
 struct Use {
-    const Spot& root;
+    const JsonSpot& root;
     GuardedGltf& out;
     std::size_t& keys_left;
 
-    const tinygltf::Accessor& accessor(const Spot& spot) const
+    const tinygltf::Accessor& accessor(const JsonSpot& spot) const
     {
         const auto& accessors = out.model.accessors;
         return accessors[std::size_t(index_into(spot, "accessor", accessors.size()))];
     }
 };
 
-void guard_input(const Spot& spot, const Use& use)
+void guard_input(const JsonSpot& spot, const Use& use)
 {
     const tinygltf::Accessor& input = use.accessor(spot);
     if (input.type != TINYGLTF_TYPE_SCALAR || input.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
@@ -39,9 +39,9 @@ std::size_t targets_of(const tinygltf::Model& model, const tinygltf::Node& node)
 }
 
 /// Checks the number of a sampler's values. each: values that a key has. counted: the name of keys in a complaint.
-void guard_number(const Spot& sampler, std::size_t each, const std::string& counted, const Use& use)
+void guard_number(const JsonSpot& sampler, std::size_t each, const std::string& counted, const Use& use)
 {
-    const Spot spot = sampler["output"];
+    const JsonSpot spot = sampler["output"];
     const bool cubic = sampler.has("interpolation") && sampler.json["interpolation"] == "CUBICSPLINE";
     const std::size_t times = use.accessor(sampler["input"]).count, values = use.accessor(spot).count;
     const std::size_t right = (cubic ? 3 : 1) * times * each;
@@ -53,9 +53,9 @@ void guard_number(const Spot& sampler, std::size_t each, const std::string& coun
 }
 
 /// Checks the weights of a node's morph targets.
-void guard_weights(const Spot& sampler, std::size_t targets, const Use& use)
+void guard_weights(const JsonSpot& sampler, std::size_t targets, const Use& use)
 {
-    const Spot spot = sampler["output"];
+    const JsonSpot spot = sampler["output"];
     const tinygltf::Accessor& output = use.accessor(spot);
     if (output.type != TINYGLTF_TYPE_SCALAR || !(output.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || output.normalized))
         spot.fail("names accessor " + spot.json.dump() + " of type " + type_name(output) + " and component type "
@@ -64,9 +64,9 @@ void guard_weights(const Spot& sampler, std::size_t targets, const Use& use)
 }
 
 /// Checks a sampler's output by the specification's table: the type of a property's values and their number.
-void guard_output(const Spot& sampler, const std::string& path, const Use& use)
+void guard_output(const JsonSpot& sampler, const std::string& path, const Use& use)
 {
-    const Spot spot = sampler["output"];
+    const JsonSpot spot = sampler["output"];
     const tinygltf::Accessor& output = use.accessor(spot);
     const int component = output.componentType;
     const bool integer = component == TINYGLTF_COMPONENT_TYPE_BYTE || component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
@@ -80,7 +80,7 @@ void guard_output(const Spot& sampler, const std::string& path, const Use& use)
     guard_number(sampler, 1, " times", use);
 }
 
-void guard_sampler(const Spot& sampler, tinygltf::AnimationSampler& written, const Use& use)
+void guard_sampler(const JsonSpot& sampler, tinygltf::AnimationSampler& written, const Use& use)
 {
     guard_input(object(sampler)["input"], use);
     use.accessor(sampler["output"]);
@@ -95,10 +95,10 @@ void guard_sampler(const Spot& sampler, tinygltf::AnimationSampler& written, con
 }
 
 /// Returns false for a channel that Starbow does not read.
-bool guard_channel(const Spot& channel, const Spot& samplers, tinygltf::AnimationChannel& written, const Use& use)
+bool guard_channel(const JsonSpot& channel, const JsonSpot& samplers, tinygltf::AnimationChannel& written, const Use& use)
 {
     const auto sampler = std::size_t(index_into(object(channel)["sampler"], "sampler", samplers.size()));
-    const Spot target = channel["target"];
+    const JsonSpot target = channel["target"];
     const std::string path = text(object(target)["path"]);
     if (path == "pointer") {
         note_once(use.out.notes, "animations of other things than nodes are not supported");
@@ -130,16 +130,16 @@ bool guard_channel(const Spot& channel, const Spot& samplers, tinygltf::Animatio
 
 } // namespace
 
-void guard_animations(const Spot& root, GuardedGltf& out)
+void guard_animations(const JsonSpot& root, GuardedGltf& out)
 {
     if (count_of(root, "animations") == 0)
         return;
     std::size_t keys_left = GltfLimits::keys;
     const Use use{root, out, keys_left};
-    const Spot all = root["animations"];
+    const JsonSpot all = root["animations"];
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const Spot animation = all[i];
-        const Spot samplers = object(animation)["samplers"], channels = animation["channels"];
+        const JsonSpot animation = all[i];
+        const JsonSpot samplers = object(animation)["samplers"], channels = animation["channels"];
         tinygltf::Animation written;
         list(samplers), list(channels);
         for (std::size_t k = 0; k < samplers.size(); ++k)

@@ -6,9 +6,9 @@ namespace {
 
 using tinygltf::Value;
 
-void guard_samplers(const Spot& root, GuardedGltf& out)
+void guard_samplers(const JsonSpot& root, GuardedGltf& out)
 {
-    guard_list(root, "samplers", out.model.samplers, [&](const Spot& sampler, tinygltf::Sampler& written) {
+    guard_list(root, "samplers", out.model.samplers, [&](const JsonSpot& sampler, tinygltf::Sampler& written) {
         auto one_of = [&](const char* key, std::vector<std::int64_t> legal, int& to) {
             if (!sampler.has(key))
                 return;
@@ -24,13 +24,13 @@ void guard_samplers(const Spot& root, GuardedGltf& out)
     });
 }
 
-void guard_textures(const Spot& root, GuardedGltf& out)
+void guard_textures(const JsonSpot& root, GuardedGltf& out)
 {
-    guard_list(root, "textures", out.model.textures, [&](const Spot& texture, tinygltf::Texture& written) {
+    guard_list(root, "textures", out.model.textures, [&](const JsonSpot& texture, tinygltf::Texture& written) {
         if (texture.has("source"))
             written.source = int(index_into(texture["source"], "image", count_of(root, "images")));
         if (texture.has("extensions") && object(texture["extensions"]).has("EXT_texture_webp")) {
-            const Spot webp = object(texture["extensions"]["EXT_texture_webp"]);
+            const JsonSpot webp = object(texture["extensions"]["EXT_texture_webp"]);
             if (webp.has("source"))
                 written.source = int(index_into(webp["source"], "image", count_of(root, "images")));
         }
@@ -40,14 +40,14 @@ void guard_textures(const Spot& root, GuardedGltf& out)
 }
 
 /// The texture's index, its set of coordinates and KHR_texture_transform.
-tinygltf::TextureInfo guard_texture_info(const Spot& info, const Spot& root)
+tinygltf::TextureInfo guard_texture_info(const JsonSpot& info, const JsonSpot& root)
 {
     tinygltf::TextureInfo written;
     written.index = int(index_into(object(info)["index"], "texture", count_of(root, "textures")));
     written.texCoord = int(integer_or(info, "texCoord", 0, 0, 255));
     if (!info.has("extensions") || !object(info["extensions"]).has("KHR_texture_transform"))
         return written;
-    Spot transform = info["extensions"]["KHR_texture_transform"];
+    JsonSpot transform = info["extensions"]["KHR_texture_transform"];
     object(transform);
     Value::Object kept;
     for (const char* key : {"offset", "scale"})
@@ -63,7 +63,7 @@ tinygltf::TextureInfo guard_texture_info(const Spot& info, const Spot& root)
     return written;
 }
 
-void guard_pbr(const Spot& pbr, tinygltf::PbrMetallicRoughness& written, const Spot& root)
+void guard_pbr(const JsonSpot& pbr, tinygltf::PbrMetallicRoughness& written, const JsonSpot& root)
 {
     if (pbr.has("baseColorFactor"))
         written.baseColorFactor = numbers(pbr["baseColorFactor"], 4, 0, 1);
@@ -85,7 +85,7 @@ template <typename Info> Info as(const tinygltf::TextureInfo& from)
     return written;
 }
 
-void guard_alpha(const Spot& material, tinygltf::Material& written)
+void guard_alpha(const JsonSpot& material, tinygltf::Material& written)
 {
     std::string mode = material.has("alphaMode") ? text(material["alphaMode"]) : "OPAQUE";
     if (mode == "MASK" || mode == "BLEND")
@@ -96,19 +96,19 @@ void guard_alpha(const Spot& material, tinygltf::Material& written)
         written.alphaCutoff = number(material["alphaCutoff"], 0, 1e6);
 }
 
-void guard_material(const Spot& material, tinygltf::Material& written, const Spot& root)
+void guard_material(const JsonSpot& material, tinygltf::Material& written, const JsonSpot& root)
 {
     if (material.has("name"))
         written.name = text(material["name"]);
     if (material.has("pbrMetallicRoughness"))
         guard_pbr(object(material["pbrMetallicRoughness"]), written.pbrMetallicRoughness, root);
     if (material.has("normalTexture")) {
-        const Spot spot = material["normalTexture"];
+        const JsonSpot spot = material["normalTexture"];
         written.normalTexture = as<tinygltf::NormalTextureInfo>(guard_texture_info(spot, root));
         written.normalTexture.scale = spot.has("scale") ? number(spot["scale"], -1e6, 1e6) : 1;
     }
     if (material.has("occlusionTexture")) {
-        const Spot spot = material["occlusionTexture"];
+        const JsonSpot spot = material["occlusionTexture"];
         written.occlusionTexture = as<tinygltf::OcclusionTextureInfo>(guard_texture_info(spot, root));
         written.occlusionTexture.strength = spot.has("strength") ? number(spot["strength"], 0, 1) : 1;
     }
@@ -121,18 +121,18 @@ void guard_material(const Spot& material, tinygltf::Material& written, const Spo
         written.doubleSided = boolean(material["doubleSided"]);
     if (!material.has("extensions"))
         return;
-    Spot extensions = material["extensions"];
+    JsonSpot extensions = material["extensions"];
     object(extensions);
     if (extensions.has("KHR_materials_unlit"))
         written.extensions["KHR_materials_unlit"] = Value(Value::Object());
     if (extensions.has("KHR_materials_ior")) {
-        const Spot ior = object(extensions["KHR_materials_ior"]);
+        const JsonSpot ior = object(extensions["KHR_materials_ior"]);
         // 0 means a reflectance of 1, which suits other models.
         const double index = ior.has("ior") ? number(ior["ior"], 0, 1e6) : 1.5;
         written.extensions["KHR_materials_ior"] = Value(Value::Object{{"ior", Value(index)}});
     }
     if (extensions.has("KHR_materials_emissive_strength")) {
-        Spot emissive = extensions["KHR_materials_emissive_strength"];
+        JsonSpot emissive = extensions["KHR_materials_emissive_strength"];
         double strength = object(emissive).has("emissiveStrength") ? number(emissive["emissiveStrength"], 0, 1e12) : 1;
         written.extensions["KHR_materials_emissive_strength"] = Value(Value::Object{{"emissiveStrength", Value(strength)}});
     }
@@ -159,12 +159,12 @@ std::vector<bool> used_images(const GuardedGltf& out, std::size_t count)
     return used;
 }
 
-void guard_images(GltfFile& file, const Spot& root, GuardedGltf& out)
+void guard_images(GltfFile& file, const JsonSpot& root, GuardedGltf& out)
 {
     std::vector<bool> used = used_images(out, count_of(root, "images"));
     out.images.resize(used.size());
     for (std::size_t i = 0; i < used.size(); ++i) {
-        Spot image = root["images"][i];
+        JsonSpot image = root["images"][i];
         object(image);
         if (image.has("bufferView") == image.has("uri"))
             image.fail("should have either a uri or a bufferView");
@@ -182,7 +182,7 @@ void guard_images(GltfFile& file, const Spot& root, GuardedGltf& out)
 
 } // namespace
 
-void guard_materials(GltfFile& file, const Spot& root, GuardedGltf& out)
+void guard_materials(GltfFile& file, const JsonSpot& root, GuardedGltf& out)
 {
     for (const char* key : {"materials", "textures", "images", "samplers"})
         if (count_of(root, key) > GltfLimits::looks)
@@ -190,7 +190,7 @@ void guard_materials(GltfFile& file, const Spot& root, GuardedGltf& out)
                 + std::to_string(GltfLimits::looks) + " are allowed");
     guard_samplers(root, out);
     guard_textures(root, out);
-    guard_list(root, "materials", out.model.materials, [&](const Spot& material, tinygltf::Material& written) {
+    guard_list(root, "materials", out.model.materials, [&](const JsonSpot& material, tinygltf::Material& written) {
         guard_material(material, written, root);
         out.surfaces.push_back(guard_surface(material, written));
     });

@@ -9,15 +9,15 @@ namespace {
 constexpr std::int64_t most_offset = 0xffffffff;
 
 /// A type of accessors (glTF 2.0, section 3.6.2.2).
-struct Shape {
+struct AccessorShape {
     const char* name;
     int type, columns, rows;
 };
-constexpr std::array<Shape, 7> shapes{{{"SCALAR", TINYGLTF_TYPE_SCALAR, 1, 1}, {"VEC2", TINYGLTF_TYPE_VEC2, 1, 2},
+constexpr std::array<AccessorShape, 7> shapes{{{"SCALAR", TINYGLTF_TYPE_SCALAR, 1, 1}, {"VEC2", TINYGLTF_TYPE_VEC2, 1, 2},
     {"VEC3", TINYGLTF_TYPE_VEC3, 1, 3}, {"VEC4", TINYGLTF_TYPE_VEC4, 1, 4}, {"MAT2", TINYGLTF_TYPE_MAT2, 2, 2},
     {"MAT3", TINYGLTF_TYPE_MAT3, 3, 3}, {"MAT4", TINYGLTF_TYPE_MAT4, 4, 4}}};
 
-std::int64_t component_bytes(const Spot& spot)
+std::int64_t component_bytes(const JsonSpot& spot)
 {
     switch (integer(spot, 0, 65535)) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -33,17 +33,17 @@ std::int64_t component_bytes(const Spot& spot)
     spot.fail("is " + spot.json.dump() + "; should be 5120, 5121, 5122, 5123, 5125 or 5126");
 }
 
-const Shape& shape_of(const Spot& type)
+const AccessorShape& shape_of(const JsonSpot& type)
 {
     const std::string name = text(type);
-    const auto shape = std::ranges::find(shapes, name, &Shape::name);
+    const auto shape = std::ranges::find(shapes, name, &AccessorShape::name);
     if (shape == shapes.end())
         type.fail("is " + in_quotes(name) + "; should be SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
     return *shape;
 }
 
 /// Bytes of one element; a matrix's columns start at multiples of 4.
-std::int64_t element_bytes(const Shape& shape, std::int64_t component)
+std::int64_t element_bytes(const AccessorShape& shape, std::int64_t component)
 {
     const std::int64_t column = shape.rows * component;
     return shape.columns == 1 ? column : shape.columns * ((column + 3) / 4 * 4);
@@ -52,7 +52,7 @@ std::int64_t element_bytes(const Shape& shape, std::int64_t component)
 using Views = std::vector<tinygltf::BufferView>;
 
 /// Checks that `count` elements of `element` bytes lie inside the buffer view that `spot` names; returns the view's index.
-int view_holding(const Spot& spot, const Views& views, std::int64_t count, std::int64_t element, bool strided)
+int view_holding(const JsonSpot& spot, const Views& views, std::int64_t count, std::int64_t element, bool strided)
 {
     auto index = index_into(spot["bufferView"], "buffer view", views.size());
     const tinygltf::BufferView& view = views[std::size_t(index)];
@@ -72,10 +72,10 @@ int view_holding(const Spot& spot, const Views& views, std::int64_t count, std::
 }
 
 void guard_sparse(
-    const Spot& sparse, std::int64_t count, std::int64_t element, const Views& views, tinygltf::Accessor& written)
+    const JsonSpot& sparse, std::int64_t count, std::int64_t element, const Views& views, tinygltf::Accessor& written)
 {
     auto replaced = integer(object(sparse)["count"], 1, std::min<std::int64_t>(count, 0x7fffffff));
-    Spot indices = sparse["indices"], values = sparse["values"];
+    JsonSpot indices = sparse["indices"], values = sparse["values"];
     auto type = integer(object(indices)["componentType"], 0, 65535);
     if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
         && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
@@ -91,10 +91,10 @@ void guard_sparse(
 }
 
 /// packed: the file has meshes in other forms, whose accessors only state their counts.
-void guard_accessor(const Spot& accessor, tinygltf::Accessor& written, const Views& views, bool packed)
+void guard_accessor(const JsonSpot& accessor, tinygltf::Accessor& written, const Views& views, bool packed)
 {
     auto component = component_bytes(accessor["componentType"]);
-    const Shape& shape = shape_of(accessor["type"]);
+    const AccessorShape& shape = shape_of(accessor["type"]);
     auto element = element_bytes(shape, component);
     auto count = integer(accessor["count"], 1, 0xffffffff);
     written.componentType = int(integer(accessor["componentType"], 0, 65535));
@@ -144,7 +144,7 @@ const Legal* legal_for(const std::string& attribute)
     return attribute.starts_with("TEXCOORD_") ? &uv : nullptr;
 }
 
-const tinygltf::Accessor& checked_accessor(const Spot& spot, const GuardedGltf& out, const Legal& legal)
+const tinygltf::Accessor& checked_accessor(const JsonSpot& spot, const GuardedGltf& out, const Legal& legal)
 {
     const tinygltf::Accessor& accessor
         = out.model.accessors[std::size_t(index_into(spot, "accessor", out.stated_accessors))];
@@ -156,7 +156,7 @@ const tinygltf::Accessor& checked_accessor(const Spot& spot, const GuardedGltf& 
 }
 
 /// Checks the number of indices, or of vertices where there are none, for a mode.
-void check_count(const Spot& spot, int mode, std::size_t count, std::size_t most)
+void check_count(const JsonSpot& spot, int mode, std::size_t count, std::size_t most)
 {
     if (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0)
         spot.fail("has " + std::to_string(count) + " corners; triangles take a multiple of 3");
@@ -167,11 +167,11 @@ void check_count(const Spot& spot, int mode, std::size_t count, std::size_t most
 }
 
 /// Morph targets: displacements of positions and normals, which are read; of tangents, which are not.
-void guard_targets(const Spot& targets, std::size_t vertices, tinygltf::Primitive& written, const GuardedGltf& out)
+void guard_targets(const JsonSpot& targets, std::size_t vertices, tinygltf::Primitive& written, const GuardedGltf& out)
 {
     for (std::size_t i = 0; i < list(targets, 0).size(); ++i) {
         std::map<std::string, int>& target = written.targets.emplace_back();
-        const Spot spot = targets[i];
+        const JsonSpot spot = targets[i];
         for (const char* name : {"POSITION", "NORMAL"})
             if (object(spot).has(name)) {
                 const auto count = checked_accessor(spot[name], out, *legal_for(name)).count;
@@ -183,17 +183,17 @@ void guard_targets(const Spot& targets, std::size_t vertices, tinygltf::Primitiv
     }
 }
 
-void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, GuardedGltf& out)
+void guard_primitive(const JsonSpot& primitive, tinygltf::Primitive& written, GuardedGltf& out)
 {
     static const Legal indices{{TINYGLTF_TYPE_SCALAR},
         {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
             TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT}};
     written.mode = int(integer_or(primitive, "mode", TINYGLTF_MODE_TRIANGLES, 0, 6));
-    Spot attributes = primitive["attributes"];
+    JsonSpot attributes = primitive["attributes"];
     std::size_t vertices = 0;
     for (const auto& [name, _] : object(attributes).json.items()) {
         const Legal* legal = legal_for(name);
-        Spot spot = attributes[name];
+        JsonSpot spot = attributes[name];
         if (!legal) {
             // Starbow does not read further joints and colours, or application-specific attributes.
             index_into(spot, "accessor", out.stated_accessors);
@@ -217,7 +217,7 @@ void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, Guarde
             primitive["mode"].fail("is packed; packed meshes are lists of triangles here");
         unpack_draco(primitive["extensions"]["KHR_draco_mesh_compression"], written, out);
     } else if (primitive.has("indices")) {
-        Spot spot = primitive["indices"];
+        JsonSpot spot = primitive["indices"];
         const tinygltf::Accessor& accessor = checked_accessor(spot, out, indices);
         if (accessor.bufferView < 0)
             spot.fail("names accessor " + spot.json.dump() + ", which has no bufferView; indices need one");
@@ -229,24 +229,24 @@ void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, Guarde
 
 } // namespace
 
-std::vector<double> weights_of(const Spot& owner)
+std::vector<double> weights_of(const JsonSpot& owner)
 {
     if (!owner.has("weights"))
         return {};
-    const Spot weights = owner["weights"];
+    const JsonSpot weights = owner["weights"];
     return numbers(weights, list(weights).size(), -1e6, 1e6);
 }
 
-void guard_skins(const Spot& root, GuardedGltf& out)
+void guard_skins(const JsonSpot& root, GuardedGltf& out)
 {
-    guard_list(root, "skins", out.model.skins, [&](const Spot& skin, tinygltf::Skin& written) {
-        const Spot joints = skin["joints"];
+    guard_list(root, "skins", out.model.skins, [&](const JsonSpot& skin, tinygltf::Skin& written) {
+        const JsonSpot joints = skin["joints"];
         for (std::size_t i = 0; i < list(joints).size(); ++i)
             written.joints.push_back(int(index_into(joints[i], "node", count_of(root, "nodes"))));
         if (!skin.has("inverseBindMatrices"))
             return;
         static const Legal matrices{{TINYGLTF_TYPE_MAT4}, {TINYGLTF_COMPONENT_TYPE_FLOAT}};
-        const Spot spot = skin["inverseBindMatrices"];
+        const JsonSpot spot = skin["inverseBindMatrices"];
         if (const auto count = checked_accessor(spot, out, matrices).count; count < written.joints.size())
             spot.fail("has " + std::to_string(count) + " matrices; the skin has " + std::to_string(written.joints.size())
                 + " joints");
@@ -256,25 +256,25 @@ void guard_skins(const Spot& root, GuardedGltf& out)
 
 std::string type_name(const tinygltf::Accessor& accessor)
 {
-    return std::ranges::find(shapes, accessor.type, &Shape::type)->name;
+    return std::ranges::find(shapes, accessor.type, &AccessorShape::type)->name;
 }
 
-void guard_accessors(const Spot& root, GuardedGltf& out)
+void guard_accessors(const JsonSpot& root, GuardedGltf& out)
 {
     bool packed = false;
     if (root.has("extensionsUsed"))
         for (std::size_t i = 0; i < list(root["extensionsUsed"], 0).size(); ++i)
             packed |= text(root["extensionsUsed"][i]) == "KHR_draco_mesh_compression";
-    guard_list(root, "accessors", out.model.accessors, [&](const Spot& accessor, tinygltf::Accessor& written) {
+    guard_list(root, "accessors", out.model.accessors, [&](const JsonSpot& accessor, tinygltf::Accessor& written) {
         guard_accessor(accessor, written, out.model.bufferViews, packed);
     });
     out.stated_accessors = out.model.accessors.size();
 }
 
-void guard_meshes(const Spot& root, GuardedGltf& out)
+void guard_meshes(const JsonSpot& root, GuardedGltf& out)
 {
-    guard_list(root, "meshes", out.model.meshes, [&](const Spot& mesh, tinygltf::Mesh& written) {
-        Spot primitives = mesh["primitives"];
+    guard_list(root, "meshes", out.model.meshes, [&](const JsonSpot& mesh, tinygltf::Mesh& written) {
+        JsonSpot primitives = mesh["primitives"];
         list(primitives);
         written.weights = weights_of(mesh);
         for (std::size_t i = 0; i < primitives.size(); ++i)

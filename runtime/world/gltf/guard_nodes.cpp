@@ -4,7 +4,7 @@
 namespace starbow {
 namespace {
 
-void guard_transform(const Spot& node, tinygltf::Node& written)
+void guard_transform(const JsonSpot& node, tinygltf::Node& written)
 {
     bool parts = node.has("translation") || node.has("rotation") || node.has("scale");
     if (node.has("matrix")) {
@@ -31,14 +31,14 @@ void guard_transform(const Spot& node, tinygltf::Node& written)
     }
 }
 
-std::optional<Spin> guard_spin(const Spot& node)
+std::optional<Spin> guard_spin(const JsonSpot& node)
 {
     std::optional<Spin> out;
-    read_extras(node, [&](const Spot& extras) {
+    read_extras(node, [&](const JsonSpot& extras) {
         reject_unknown_members(extras, {"spin"});
         if (!extras.has("spin"))
             return;
-        const Spot spin = extras["spin"];
+        const JsonSpot spin = extras["spin"];
         reject_unknown_members(spin, {"axis", "turns_per_s"});
         for (const char* key : {"axis", "turns_per_s"})
             if (!spin.has(key))
@@ -52,19 +52,19 @@ std::optional<Spin> guard_spin(const Spot& node)
     return out;
 }
 
-std::optional<Instancing> guard_instancing(const Spot& node, const Spot& root)
+std::optional<Instancing> guard_instancing(const JsonSpot& node, const JsonSpot& root)
 {
     if (!node.has("extensions") || !object(node["extensions"]).has("EXT_mesh_gpu_instancing"))
         return {};
-    const Spot attributes = object(node["extensions"]["EXT_mesh_gpu_instancing"])["attributes"];
+    const JsonSpot attributes = object(node["extensions"]["EXT_mesh_gpu_instancing"])["attributes"];
     Instancing instancing;
     for (const auto& [name, to, type] : {std::tuple{"TRANSLATION", &instancing.translations, "VEC3"},
              {"ROTATION", &instancing.rotations, "VEC4"}, {"SCALE", &instancing.scales, "VEC3"}}) {
         if (!object(attributes).has(name))
             continue;
-        const Spot spot = attributes[name];
+        const JsonSpot spot = attributes[name];
         *to = int(index_into(spot, "accessor", count_of(root, "accessors")));
-        const Spot accessor = object(root["accessors"][std::size_t(*to)]);
+        const JsonSpot accessor = object(root["accessors"][std::size_t(*to)]);
         if (text(accessor["type"]) != type)
             spot.fail("names accessor " + spot.json.dump() + " of type " + in_quotes(text(accessor["type"])) + "; " + name
                 + " has " + type);
@@ -81,7 +81,7 @@ std::optional<Instancing> guard_instancing(const Spot& node, const Spot& root)
 }
 
 /// Checks the specification's strict trees: each node has at most one parent, and the children form no cycle.
-void check_trees(const Spot& nodes, const std::vector<std::int64_t>& parent)
+void check_trees(const JsonSpot& nodes, const std::vector<std::int64_t>& parent)
 {
     std::vector<char> known(parent.size(), 0); // 1: on the way being followed, 2: leads to a root
     for (std::size_t i = 0; i < parent.size(); ++i) {
@@ -103,12 +103,12 @@ void check_trees(const Spot& nodes, const std::vector<std::int64_t>& parent)
 
 } // namespace
 
-void guard_nodes(const Spot& root, GuardedGltf& out)
+void guard_nodes(const JsonSpot& root, GuardedGltf& out)
 {
     std::size_t count = count_of(root, "nodes");
     std::vector<std::int64_t> parent(count, -1);
     auto& written_nodes = out.model.nodes;
-    guard_list(root, "nodes", written_nodes, [&](const Spot& node, tinygltf::Node& written) {
+    guard_list(root, "nodes", written_nodes, [&](const JsonSpot& node, tinygltf::Node& written) {
         guard_transform(node, written);
         out.spins.push_back(guard_spin(node));
         out.instancing.push_back(guard_instancing(node, root));
@@ -122,7 +122,7 @@ void guard_nodes(const Spot& root, GuardedGltf& out)
             written.skin = int(index_into(node["skin"], "skin", count_of(root, "skins")));
         written.weights = weights_of(node);
         if (node.has("children")) {
-            Spot children = node["children"];
+            JsonSpot children = node["children"];
             list(children);
             for (std::size_t i = 0; i < children.size(); ++i) {
                 auto child = index_into(children[i], "node", count);
@@ -137,10 +137,10 @@ void guard_nodes(const Spot& root, GuardedGltf& out)
     if (count > 0)
         check_trees(root["nodes"], parent);
 
-    guard_list(root, "scenes", out.model.scenes, [&](const Spot& scene, tinygltf::Scene& written) {
+    guard_list(root, "scenes", out.model.scenes, [&](const JsonSpot& scene, tinygltf::Scene& written) {
         if (!scene.has("nodes"))
             return;
-        Spot nodes = scene["nodes"];
+        JsonSpot nodes = scene["nodes"];
         list(nodes);
         std::vector<bool> named(count, false);
         for (std::size_t i = 0; i < nodes.size(); ++i) {

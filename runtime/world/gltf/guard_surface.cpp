@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t most_text = std::size_t(1) << 20;
 
 /// Pairs of a wavelength in nm, rising, and a value from 0 to `most`.
-std::vector<std::pair<double, double>> points(const Spot& spot, double most)
+std::vector<std::pair<double, double>> points(const JsonSpot& spot, double most)
 {
     if (!spot.json.is_array() || spot.size() < least_points || spot.size() > most_points)
         spot.fail((spot.json.is_array() ? "is a list of " + std::to_string(spot.size()) : std::string("is not a list"))
@@ -17,7 +17,7 @@ std::vector<std::pair<double, double>> points(const Spot& spot, double most)
             + " pairs [wavelength in nm, value]");
     std::vector<std::pair<double, double>> out;
     for (std::size_t i = 0; i < spot.size(); ++i) {
-        const Spot pair = spot[i];
+        const JsonSpot pair = spot[i];
         if (!pair.json.is_array() || pair.size() != 2)
             pair.fail("should be a pair [wavelength in nm, value]");
         const double nm = number(pair[0], shortest_nm, longest_nm);
@@ -29,7 +29,7 @@ std::vector<std::pair<double, double>> points(const Spot& spot, double most)
     return out;
 }
 
-Emission emission(const Spot& spot)
+Emission emission(const JsonSpot& spot)
 {
     reject_unknown_members(spot, {"black_body_K", "line_nm", "table"});
     if (spot.size() != 1)
@@ -46,7 +46,7 @@ Emission emission(const Spot& spot)
 }
 
 /// Throws if the material can't emit. material: the accepted members of the surface's material.
-void check_emits(const Spot& spot, const tinygltf::Material& material)
+void check_emits(const JsonSpot& spot, const tinygltf::Material& material)
 {
     if (material.extensions.contains("KHR_materials_unlit"))
         spot.fail("stands beside KHR_materials_unlit, which leaves emission out; should stand without it");
@@ -60,14 +60,14 @@ void check_emits(const Spot& spot, const tinygltf::Material& material)
         spot.fail("would emit nothing, for the material's emissiveFactor is black; should stand beside one above 0");
 }
 
-WorldClock clock(const Spot& spot)
+WorldClock clock(const JsonSpot& spot)
 {
     reject_unknown_members(spot, {"zero_s"});
     // A clock's figures have no room for more than 1e10.
     return {spot.has("zero_s") ? number(spot["zero_s"], -1e10, 1e10) : 0};
 }
 
-Blink blink(const Spot& spot)
+Blink blink(const JsonSpot& spot)
 {
     reject_unknown_members(spot, {"period_s", "on", "zero_s"});
     if (!spot.has("period_s"))
@@ -80,7 +80,7 @@ Blink blink(const Spot& spot)
     return out;
 }
 
-void read_surface(const Spot& spot, const tinygltf::Material& material, Material& out)
+void read_surface(const JsonSpot& spot, const tinygltf::Material& material, Material& out)
 {
     reject_unknown_members(
         spot, {"ultraviolet", "infrared", "reflectance", "temperature_K", "emissivity", "emission", "clock", "blink"});
@@ -110,12 +110,12 @@ void read_surface(const Spot& spot, const tinygltf::Material& material, Material
 
 } // namespace
 
-void read_extras(const Spot& owner, const std::function<void(const Spot&)>& read)
+void read_extras(const JsonSpot& owner, const std::function<void(const JsonSpot&)>& read)
 {
     // Other applications' extras may have any content.
     if (!owner.has("extras") || !owner.json["extras"].is_object() || !owner["extras"].has("starbow"))
         return;
-    const Spot spot = owner["extras"]["starbow"];
+    const JsonSpot spot = owner["extras"]["starbow"];
     if (!spot.json.is_string()) {
         read(spot);
         return;
@@ -130,10 +130,10 @@ void read_extras(const Spot& owner, const std::function<void(const Spot&)>& read
     read({parsed, spot.at, spot.file});
 }
 
-Material guard_surface(const Spot& material, const tinygltf::Material& written)
+Material guard_surface(const JsonSpot& material, const tinygltf::Material& written)
 {
     Material out;
-    read_extras(material, [&](const Spot& spot) { read_surface(spot, written, out); });
+    read_extras(material, [&](const JsonSpot& spot) { read_surface(spot, written, out); });
     return out;
 }
 

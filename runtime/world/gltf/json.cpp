@@ -27,7 +27,7 @@ std::string in_quotes(const std::string& text)
     return out + (text.size() > 60 ? "...\"" : "\"");
 }
 
-Spot Spot::operator[](const std::string& key) const
+JsonSpot JsonSpot::operator[](const std::string& key) const
 {
     auto found = json.find(key);
     if (found == json.end())
@@ -38,21 +38,21 @@ Spot Spot::operator[](const std::string& key) const
     return {*found, at + "/" + escaped, file};
 }
 
-const Spot& object(const Spot& spot)
+const JsonSpot& object(const JsonSpot& spot)
 {
     if (!spot.json.is_object())
         spot.fail("is " + shown(spot.json) + "; should be an object");
     return spot;
 }
 
-const Spot& list(const Spot& spot, std::size_t at_least)
+const JsonSpot& list(const JsonSpot& spot, std::size_t at_least)
 {
     if (!spot.json.is_array() || spot.json.size() < at_least)
         spot.fail("is " + shown(spot.json) + "; should be a list of " + std::to_string(at_least) + " or more");
     return spot;
 }
 
-std::int64_t integer(const Spot& spot, std::int64_t low, std::int64_t high)
+std::int64_t integer(const JsonSpot& spot, std::int64_t low, std::int64_t high)
 {
     // JSON does not distinguish 3 from 3.0, and some exporters write the latter.
     double value = spot.json.is_number() ? spot.json.get<double>() : std::nan("");
@@ -62,7 +62,7 @@ std::int64_t integer(const Spot& spot, std::int64_t low, std::int64_t high)
     return std::int64_t(value);
 }
 
-double number(const Spot& spot, double low, double high)
+double number(const JsonSpot& spot, double low, double high)
 {
     double value = spot.json.is_number() ? spot.json.get<double>() : std::nan("");
     if (!(value >= low && value <= high))
@@ -70,7 +70,7 @@ double number(const Spot& spot, double low, double high)
     return value;
 }
 
-std::vector<double> numbers(const Spot& spot, std::size_t count, double low, double high)
+std::vector<double> numbers(const JsonSpot& spot, std::size_t count, double low, double high)
 {
     if (!spot.json.is_array() || spot.json.size() != count)
         spot.fail("is " + shown(spot.json) + "; should be a list of " + std::to_string(count) + " numbers");
@@ -80,21 +80,21 @@ std::vector<double> numbers(const Spot& spot, std::size_t count, double low, dou
     return values;
 }
 
-std::string text(const Spot& spot)
+std::string text(const JsonSpot& spot)
 {
     if (!spot.json.is_string())
         spot.fail("is " + shown(spot.json) + "; should be a text");
     return spot.json.get<std::string>();
 }
 
-bool boolean(const Spot& spot)
+bool boolean(const JsonSpot& spot)
 {
     if (!spot.json.is_boolean())
         spot.fail("is " + shown(spot.json) + "; should be true or false");
     return spot.json.get<bool>();
 }
 
-void reject_unknown_members(const Spot& spot, std::initializer_list<const char*> known)
+void reject_unknown_members(const JsonSpot& spot, std::initializer_list<const char*> known)
 {
     std::string right;
     for (const char* name : known)
@@ -104,7 +104,7 @@ void reject_unknown_members(const Spot& spot, std::initializer_list<const char*>
             spot[name].fail("is not known here; should be one of " + right);
 }
 
-std::int64_t index_into(const Spot& spot, const char* what, std::size_t size)
+std::int64_t index_into(const JsonSpot& spot, const char* what, std::size_t size)
 {
     if (size == 0)
         spot.fail("names " + std::string(what) + " " + shown(spot.json) + ", but the file has none");

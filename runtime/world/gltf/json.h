@@ -14,35 +14,35 @@ using Json = nlohmann::json;
 std::string in_quotes(const std::string& text);
 
 /// A value of a glTF file's JSON with its place, which messages name.
-struct Spot {
+struct JsonSpot {
     const Json& json;
     std::string at; ///< JSON pointer
     const std::string& file;
 
     [[noreturn]] void fail(const std::string& problem) const { throw InputError(file, at.empty() ? "/" : at, problem); }
     bool has(const char* key) const { return json.contains(key); }
-    Spot operator[](const std::string& key) const;
-    Spot operator[](std::size_t i) const { return {json[i], at + "/" + std::to_string(i), file}; }
+    JsonSpot operator[](const std::string& key) const;
+    JsonSpot operator[](std::size_t i) const { return {json[i], at + "/" + std::to_string(i), file}; }
     std::size_t size() const { return json.size(); }
 };
 
 /// Each of these returns the value, or throws InputError with a message that names a right value.
-const Spot& object(const Spot& spot);
-const Spot& list(const Spot& spot, std::size_t at_least = 1);
-std::int64_t integer(const Spot& spot, std::int64_t low, std::int64_t high);
-double number(const Spot& spot, double low, double high);
-std::vector<double> numbers(const Spot& spot, std::size_t count, double low, double high);
-std::string text(const Spot& spot);
-bool boolean(const Spot& spot);
+const JsonSpot& object(const JsonSpot& spot);
+const JsonSpot& list(const JsonSpot& spot, std::size_t at_least = 1);
+std::int64_t integer(const JsonSpot& spot, std::int64_t low, std::int64_t high);
+double number(const JsonSpot& spot, double low, double high);
+std::vector<double> numbers(const JsonSpot& spot, std::size_t count, double low, double high);
+std::string text(const JsonSpot& spot);
+bool boolean(const JsonSpot& spot);
 
 /// Throws InputError if an object has members other than these.
-void reject_unknown_members(const Spot& spot, std::initializer_list<const char*> known);
+void reject_unknown_members(const JsonSpot& spot, std::initializer_list<const char*> known);
 
 /// An index into one of the file's lists, which has `size` elements.
-std::int64_t index_into(const Spot& spot, const char* what, std::size_t size);
+std::int64_t index_into(const JsonSpot& spot, const char* what, std::size_t size);
 
 /// The value of an optional member.
-inline std::int64_t integer_or(const Spot& spot, const char* key, std::int64_t absent, std::int64_t low, std::int64_t high)
+inline std::int64_t integer_or(const JsonSpot& spot, const char* key, std::int64_t absent, std::int64_t low, std::int64_t high)
 {
     return spot.has(key) ? integer(spot[key], low, high) : absent;
 }

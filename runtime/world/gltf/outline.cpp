@@ -9,9 +9,9 @@ namespace {
 
 /// The bounds that an accessor of positions states; nullopt without any. Quantized ones are stated as they are stored
 /// (KHR_mesh_quantization).
-std::optional<AlignedBox> stated_bounds(const Spot& root, std::size_t accessor)
+std::optional<AlignedBox> stated_bounds(const JsonSpot& root, std::size_t accessor)
 {
-    const Spot spot = root["accessors"][accessor];
+    const JsonSpot spot = root["accessors"][accessor];
     if (!object(spot).has("min") || !spot.has("max"))
         return {};
     const auto low = numbers(spot["min"], 3, -too_far, too_far), high = numbers(spot["max"], 3, -too_far, too_far);
@@ -20,12 +20,12 @@ std::optional<AlignedBox> stated_bounds(const Spot& root, std::size_t accessor)
     return AlignedBox{glm::dvec3(low[0], low[1], low[2]) / scale, glm::dvec3(high[0], high[1], high[2]) / scale};
 }
 
-std::optional<AlignedBox> bounds_of_mesh(const Spot& root, std::size_t mesh)
+std::optional<AlignedBox> bounds_of_mesh(const JsonSpot& root, std::size_t mesh)
 {
     std::optional<AlignedBox> all;
-    const Spot primitives = root["meshes"][mesh]["primitives"];
+    const JsonSpot primitives = root["meshes"][mesh]["primitives"];
     for (std::size_t i = 0; i < list(primitives).size(); ++i) {
-        const Spot attributes = primitives[i]["attributes"];
+        const JsonSpot attributes = primitives[i]["attributes"];
         if (!object(attributes).has("POSITION"))
             continue;
         const auto at = index_into(attributes["POSITION"], "accessor", count_of(root, "accessors"));
@@ -36,14 +36,14 @@ std::optional<AlignedBox> bounds_of_mesh(const Spot& root, std::size_t mesh)
 }
 
 /// The file's lamps by their index, before they have a place.
-std::vector<OutlineLamp> lamps_of(const Spot& root)
+std::vector<OutlineLamp> lamps_of(const JsonSpot& root)
 {
     std::vector<OutlineLamp> lamps;
     if (!root.has("extensions") || !object(root["extensions"]).has("KHR_lights_punctual"))
         return lamps;
-    const Spot all = object(root["extensions"]["KHR_lights_punctual"])["lights"];
+    const JsonSpot all = object(root["extensions"]["KHR_lights_punctual"])["lights"];
     for (std::size_t i = 0; i < list(all).size(); ++i) {
-        const Spot lamp = object(all[i]);
+        const JsonSpot lamp = object(all[i]);
         OutlineLamp& to = lamps.emplace_back();
         const std::string type = text(lamp["type"]);
         to.directional = type == "directional";
@@ -70,9 +70,9 @@ std::vector<OutlineLamp> lamps_of(const Spot& root)
 }
 
 /// The lamp that a node carries; -1: none.
-int lamp_of(const Spot& root, std::size_t node, std::size_t lamps)
+int lamp_of(const JsonSpot& root, std::size_t node, std::size_t lamps)
 {
-    const Spot spot = root["nodes"][node];
+    const JsonSpot spot = root["nodes"][node];
     if (!spot.has("extensions") || !object(spot["extensions"]).has("KHR_lights_punctual"))
         return -1;
     return int(index_into(object(spot["extensions"]["KHR_lights_punctual"])["light"], "light", lamps));
@@ -107,7 +107,7 @@ Middle middle_of(std::vector<AlignedBox> things)
 Outline read_outline(const std::filesystem::path& path)
 {
     const GltfFile file = read_gltf_json(path);
-    const Spot root{file.json, "", file.name};
+    const JsonSpot root{file.json, "", file.name};
     object(root);
     GuardedGltf guarded;
     guard_nodes(root, guarded);
