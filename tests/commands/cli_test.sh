@@ -4,32 +4,7 @@ set -u
 program=$1
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-passed=0 failed=0
-
-fail() {
-    failed=$((failed + 1))
-    echo "FAILED: $*"
-}
-
-# refused TEXT ARGUMENTS...: the program must print one line that has TEXT, exit with 2 and write nothing.
-refused() {
-    local text=$1 said status
-    shift
-    said=$("$program" "$@" --out "$folder/out" 2>&1 >/dev/null)
-    status=$?
-    if [ $status != 2 ]; then
-        fail "$*: exit $status, not 2: $said"
-    elif [ "$(printf '%s\n' "$said" | wc -l)" != 1 ]; then
-        fail "$*: more than one line: $said"
-    elif [[ $said != *"$text"* ]]; then
-        fail "$*: '$text' is missing in: $said"
-    elif [ -e "$folder/out" ]; then
-        fail "$*: wrote a file"
-        rm -rf "$folder/out"
-    else
-        passed=$((passed + 1))
-    fi
-}
+. "$(dirname "$0")/../rig/refusals.sh"
 
 # Writes a shot file with the given velocity and further members.
 shot() { # FILE VELOCITY [MORE]
@@ -45,13 +20,7 @@ refused '--size' render --shot start --size 800x600x2
 refused '--size' render --shot start --size 99999x99999
 refused '--size' render --shot start --size -800x600
 refused '8192x8192' render --shot start --size 16384x16384 --exr
-refused '8192x8192' render --shot start --size 16384x16384 --reference
-refused '--samples' render --shot start --reference --samples 0
 refused '--samples' render --shot start --samples 4
-refused '--exposure' render --shot start --reference --exposure auto
-refused '--hud' render --shot start --reference --hud
-refused '--overlay' render --shot start --reference --overlay ring
-refused '--spectra' render --shot start --reference --spectra fine
 shot fast '{ "direction": [0, 0, -1], "beta": 1 }'
 refused '/velocity/beta' render --shot "$folder/fast.json"
 shot slow '{ "direction": [0, 0, -1], "gamma": 0.5 }'
@@ -89,8 +58,6 @@ rm "$folder/out"
 mkdir -p "$folder/half/desk.exr"
 said=$("$program" render --shot start --size 8x8 --exr --out "$folder/half" 2>&1 >/dev/null)
 if [ $? != 2 ] || [ -e "$folder/half/desk.png" ]; then fail "a folder in the EXR's place: $said"; else passed=$((passed + 1)); fi
-said=$("$program" bench --json "$folder" 2>&1 >/dev/null)
-if [ $? != 2 ] || [[ $said != *"not a file"* ]]; then fail "bench into a folder: $said"; else passed=$((passed + 1)); fi
 refused 'a?b?[31m' render --shot $'a\nb\e[31m'
 
 # `check` writes a layout's floor plan to the named file, and none for a wrong layout.
@@ -242,19 +209,12 @@ print(done.returncode, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss < 
 if [[ $said == "0 True "*"2 images of 16384 x 8192 pixels (image 0 and others) are drawn with 4096 x 2048: "* ]]; then passed=$((passed + 1)); else fail "large images: $said"; fi
 
 # Unknown and missing options are refused in one line, also with exit 2.
-for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --frames -1' 'check' 'render --shot start --out x --colour' 'render --shot start --out x --spectra 7' 'warp' 'warp inspect' 'import sgct x'; do
+for arguments in '' 'fly' 'render' 'render --shot' 'run --frames -1' 'check' 'render --shot start --out x --colour' 'render --shot start --out x --spectra 7' 'warp' 'warp inspect' 'import sgct x'; do
     # shellcheck disable=SC2086
     said=$("$program" $arguments 2>&1 >/dev/null)
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ]; then passed=$((passed + 1)); else fail "'$arguments' is not refused with exit 2 in one line: $said"; fi
 done
 
-# The message for a misspelt or superfluous word begins with the text, which lists the right ones.
-begins_with() { # TEXT ARGUMENTS...
-    local text=$1 said
-    shift
-    said=$("$program" "$@" 2>&1 >/dev/null)
-    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == "starbow: $text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not begin with '$text': $said"; fi
-}
 begins_with 'fly is not a command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench, measure, report, soak, tell, challenges and class are' fly
 begins_with 'look is not a command; inspect and convert are' warp look
 begins_with "--ouput is not an option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
@@ -282,7 +242,7 @@ begins_with 'There is no none.json in config/tours' run --tour none
 begins_with 'There is no xx.json in config/words; there are: de, en' run --tour rainbow --language xx
 
 # Every subcommand's help ends with an example.
-for command in run render bench check warp import displays doctor measure tell; do
+for command in run render check warp import displays doctor tell; do
     if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
 
@@ -349,13 +309,6 @@ assert any("mine.json" in problem for problem in problems) and any("Voodoo" in p
 begins_with '--trace: 1 required' run --trace
 
 # Two renders give the same bytes, and --exr writes the numbers beside the picture.
-# The reference needs no GPU, and a finished picture leaves no file to continue from.
-for time in once twice; do
-    VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent "$program" render --shot starbow --size 40x30 --reference \
-        --samples 2 --out "$folder/rays-$time" --exr >/dev/null || fail "--reference needs a GPU"
-done
-cmp -s "$folder/rays-once/desk.png" "$folder/rays-twice/desk.png" && cmp -s "$folder/rays-once/desk.exr" "$folder/rays-twice/desk.exr" \
-    && [ ! -e "$folder/rays-once/desk.rows" ] && passed=$((passed + 1)) || fail "--reference draws different bytes the second time, or leaves its rows"
 "$program" render --shot starbow --size 160x120 --out "$folder/once" --exr >/dev/null || fail "a valid shot is refused"
 "$program" render --shot starbow --size 160x120 --out "$folder/twice" --exr >/dev/null
 for file in desk.png desk.exr; do

@@ -114,10 +114,10 @@ TEST(PaceTest, EveryWorldIsFlownThroughInItsPlannedTime)
     }
 }
 
-TEST(PaceTest, AHundredFlightsPassTheAvenuesColumnsInTwentyToFortySeconds)
+TEST(PaceTest, FlightsPassTheAvenuesColumnsInTwentyToFortySeconds)
 {
     double shortest = 1e300, longest = 0;
-    for (int seed = 0; seed < 100; ++seed) {
+    for (int seed = 0; seed < (starbow::testing::all_cases() ? 100 : 25); ++seed) {
         std::mt19937 random{unsigned(seed)};
         const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
         Paced world("avenue");

@@ -300,7 +300,7 @@ TEST(CalmTest, EverySwitchThatChangesThePictureActsOnceASecond)
 TEST(CalmTest, ASecondPressOfATwoWaySwitchUndoesTheFirstWhileItWaitsAndOneOfTheOthersAddsNothing)
 {
     const std::set<std::string> two_ways{
-        "aberration", "doppler", "headlight", "false_colours", "range", "hud", "menu", "full_screen"};
+        "aberration", "doppler", "headlight", "false_colours", "range", "hud", "menu", "full_screen", "freeze"};
     for (const SwitchEntry& one : all_switches) {
         if (of_words.contains(one.name))
             continue;

@@ -29,7 +29,7 @@ std::vector<std::string> lines_after(const fs::path& file, std::size_t count)
     until([&] {
         lines.clear();
         std::ifstream in(file);
-        for (std::string line; std::getline(in, line);)
+        for (std::string line; std::getline(in, line) && !in.eof();) // one without its end is still being written
             lines.push_back(line);
         return lines.size() >= count;
     });

@@ -3,7 +3,7 @@
 #include "runtime/world/detail.h"
 #include "runtime/world/pieces.h"
 #include <gtest/gtest.h>
-#include <map>
+#include <unordered_map>
 #include <set>
 
 namespace starbow::pieces_test {
@@ -85,7 +85,8 @@ TEST(Pieces, AnyChoiceIsClosed)
     for (const dvec3& eye : {dvec3(0, 0, 1.2), dvec3(3, 1, 0), dvec3(0, -20, 0), dvec3(0)})
         for (const double most : {0.0, 1e-4, 1e-3, 4e-3, 0.02, 0.3}) {
             // Each edge of a closed surface is that of two triangles, which run along it in opposite directions.
-            std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+            std::unordered_map<std::uint64_t, int> edges;
+            const auto edge = [](std::uint32_t from, std::uint32_t to) { return std::uint64_t(from) << 32 | to; };
             std::size_t triangles = 0;
             std::set<double> errors;
             for (const DetailPiece* piece : chosen(world, eye, most)) {
@@ -93,13 +94,13 @@ TEST(Pieces, AnyChoiceIsClosed)
                 const std::uint32_t first = piece->triangles.first_index;
                 for (std::uint32_t i = first; i < first + piece->triangles.index_count; i += 3, ++triangles)
                     for (std::uint32_t k = 0; k < 3; ++k)
-                        ++edges[{world.indices[i + k], world.indices[i + (k + 1) % 3]}];
+                        ++edges[edge(world.indices[i + k], world.indices[i + (k + 1) % 3])];
             }
             mixed.insert(errors.size());
             least = std::min(least, triangles);
             long open = 0;
-            for (const auto& [edge, count] : edges) {
-                const auto other = edges.find({edge.second, edge.first});
+            for (const auto& [one, count] : edges) {
+                const auto other = edges.find(edge(std::uint32_t(one), std::uint32_t(one >> 32)));
                 open += other == edges.end() || other->second != count;
             }
             EXPECT_EQ(open, 0) << "eye " << eye.x << ' ' << eye.y << ' ' << eye.z << ", error " << most << ", " << triangles

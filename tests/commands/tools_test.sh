@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# The commands of starbow-tools, as starbow starts them: wrong arguments are refused in one line, help has examples, and the picture by
+# rays needs no GPU. Usage: tools_test.sh PROGRAM
+set -u
+program=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/../rig/refusals.sh"
+
+refused '8192x8192' render --shot start --size 16384x16384 --reference
+refused '--samples' render --shot start --reference --samples 0
+refused '--exposure' render --shot start --reference --exposure auto
+refused '--hud' render --shot start --reference --hud
+refused '--overlay' render --shot start --reference --overlay ring
+refused '--spectra' render --shot start --reference --spectra fine
+begins_with '--rounds: 0 is not' bench --rounds 0
+said=$("$program" bench --json "$folder" 2>&1 >/dev/null)
+if [ $? != 2 ] || [[ $said != *"not a file"* ]]; then fail "bench into a folder: $said"; else passed=$((passed + 1)); fi
+
+for command in bench measure soak; do
+    if "$program" $command --help | grep -q "starbow $command"; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
+done
+
+# The reference needs no GPU, and a finished picture leaves no file to continue from.
+for time in once twice; do
+    VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent "$program" render --shot starbow --size 40x30 --reference \
+        --samples 2 --out "$folder/rays-$time" --exr >/dev/null || fail "--reference needs a GPU"
+done
+cmp -s "$folder/rays-once/desk.png" "$folder/rays-twice/desk.png" && cmp -s "$folder/rays-once/desk.exr" "$folder/rays-twice/desk.exr" \
+    && [ ! -e "$folder/rays-once/desk.rows" ] && passed=$((passed + 1)) || fail "--reference draws different bytes the second time, or leaves its rows"
+
+echo "$passed passed, $failed failed"
+[ $failed = 0 ]
