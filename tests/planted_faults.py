@@ -150,7 +150,7 @@ class Copy:
             with open(unity, "w", encoding="utf-8") as file:
                 file.write(UNITY_OF_TESTS)
             subprocess.run(["cmake", "-S", self.folder, "-B", self.build_folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                            "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DCMAKE_PROJECT_starbow_INCLUDE=" + unity], check=True,
+                            "-DCMAKE_PROJECT_starbow_INCLUDE=" + unity], check=True,
                            stdout=subprocess.DEVNULL)
         done = subprocess.run(["nice", "ninja", "-C", self.build_folder, "-j", self.jobs, "starbow_test"], capture_output=True,
                               text=True, timeout=most_s)

@@ -1,6 +1,7 @@
 // The live picture and its distances compared with the reference in every shipped layout and every world, with clocks, bodies,
 // lines and glows.
 #include "live_and_rays.h"
+#include <set>
 
 namespace every_world_gpu_test {
 

@@ -5,10 +5,8 @@
 #include "runtime/reference/reference.h"
 #include "runtime/shadow/add_shadows.h"
 #include "tests/support/gpu_environment.h"
-#include <set>
 
 namespace starbow::gpu_test {
-
 
 using Bytes = std::vector<std::uint8_t>;
 

@@ -3,8 +3,8 @@
 #include "runtime/world/detail.h"
 #include "runtime/world/pieces.h"
 #include <gtest/gtest.h>
-#include <unordered_map>
 #include <set>
+#include <unordered_map>
 
 namespace starbow::pieces_test {
 namespace {
