@@ -173,7 +173,8 @@ glm::vec4 scale_place(Overlay overlay, Why why)
 Panel draw_lab_panel(const Typesetter& typesetter, const Words& words, const Measured& measured, Overlay overlay,
     const OverlayScale& scale, Why why, int width, double sketch_s)
 {
-    const double gamma_beta = glm::length(measured.observer.u);
+    // The sketch flies as fast as the formula beside it: for the Doppler effect past the spot, which may move itself.
+    const double gamma_beta = why == Why::doppler ? measured.aim.relative_u : glm::length(measured.observer.u);
     return why != Why::none
         ? draw_page(typesetter, why_page(why, measured, words), why_sketch(why, gamma_beta, sketch_s), width)
         : draw_readings(typesetter, words, measured, overlay, scale, width);
