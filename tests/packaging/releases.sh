@@ -21,8 +21,9 @@ if [ -z "$folder" ]; then
     trap 'rm -rf --one-file-system "$folder"' EXIT
 fi
 mkdir -p "$folder"
-# The machine's own mirror.
-mirror=$(sed -n 's/^URIs: *//p; s/^deb \(\[[^]]*\] \)\?\([^ ]*\) .*/\2/p' /etc/apt/sources.list.d/*.sources /etc/apt/sources.list 2>/dev/null | head -n 1)
+# The machine's own mirror; one of the two files is missing on most machines.
+mirror=$({ sed -n 's/^URIs: *//p; s/^deb \(\[[^]]*\] \)\?\([^ ]*\) .*/\2/p' /etc/apt/sources.list.d/*.sources /etc/apt/sources.list 2>/dev/null || true; } |
+    head -n 1)
 : "${mirror:=http://deb.debian.org/debian}"
 
 # inside ROOT COMMAND...: runs a command in a root, with the kernel's file systems there until it ends.
