@@ -3,7 +3,6 @@
 #include "shot_reader.h"
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 
 namespace starbow {
@@ -115,16 +114,6 @@ GlobeSky read_globes(const Place& place, const std::filesystem::path& folder)
 {
     reject_unknown_members(place, {"file", "date", "origin"});
     return {folder / text(member(place, "file")), read_date(member(place, "date")), text(member(place, "origin"))};
-}
-
-/// A direction of any length.
-glm::dvec3 unit_direction(const Place& place)
-{
-    const glm::dvec3 direction = vec3(place, {-farthest, farthest});
-    const double length = glm::length(direction);
-    if (!(length > 1e-100))
-        complain(place, "points nowhere; a direction of any length above 0 is right");
-    return direction / length;
 }
 
 LightCone read_cone(const Place& place)

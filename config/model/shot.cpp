@@ -1,5 +1,6 @@
 #include "shot.h"
 #include "shot_reader.h"
+#include <algorithm>
 #include <cmath>
 
 namespace starbow {
@@ -13,14 +14,6 @@ glm::dvec3 unit(const glm::dvec3& v)
     const glm::dvec3 size = glm::abs(v);
     const double largest = std::max(size.x, std::max(size.y, size.z));
     return largest > 0 ? glm::normalize(v / largest) : glm::dvec3(0);
-}
-
-glm::dvec3 read_direction(const Place& place)
-{
-    const glm::dvec3 direction = unit(vec3(place, {-1e300, 1e300}));
-    if (direction == glm::dvec3(0))
-        complain(place, "points nowhere; a direction of any length above 0 is right");
-    return direction;
 }
 
 /// gamma beta from the one of the three that the file has; each form is free of cancellation.
@@ -56,9 +49,9 @@ glm::dquat read_orientation(const Place& place)
     glm::dvec3 look{0, 0, -1}, up{0, 1, 0};
     const auto look_at = find_member(place, "look"), up_at = find_member(place, "up");
     if (look_at)
-        look = read_direction(*look_at);
+        look = unit_direction(*look_at);
     if (up_at)
-        up = read_direction(*up_at);
+        up = unit_direction(*up_at);
     if (glm::length(glm::cross(look, up)) < 1e-6)
         complain(up_at ? *up_at : *look_at,
             std::string("is parallel to \"") + (up_at ? "look" : "up")
@@ -67,6 +60,14 @@ glm::dquat read_orientation(const Place& place)
 }
 
 } // namespace
+
+glm::dvec3 unit_direction(const Place& place)
+{
+    const glm::dvec3 direction = unit(vec3(place, {-1e300, 1e300}));
+    if (direction == glm::dvec3(0))
+        complain(place, "points nowhere; a direction of any length above 0 is right");
+    return direction;
+}
 
 glm::dquat orientation(const glm::dvec3& look, const glm::dvec3& up)
 {
@@ -97,7 +98,7 @@ Effects read_effects(const Place& place)
 glm::dvec3 read_velocity(const Place& place)
 {
     reject_unknown_members(place, {"direction", "gamma", "beta", "rapidity"});
-    const glm::dvec3 direction = read_direction(member(place, "direction"));
+    const glm::dvec3 direction = unit_direction(member(place, "direction"));
     return direction * read_proper_speed(place);
 }
 

@@ -7,6 +7,9 @@ namespace starbow {
 /// A limit large enough for any world, small enough that squares and sums stay far from overflow.
 constexpr double farthest = 1e15;
 
+/// A direction as a unit vector, from three numbers of any length above 0.
+glm::dvec3 unit_direction(const Place& place);
+
 /// gamma beta from a direction and exactly one of "gamma", "beta" and "rapidity".
 glm::dvec3 read_velocity(const Place& place);
 

@@ -2,8 +2,6 @@
 #include "measure_reader.h"
 #include "saying.h"
 #include "shot_reader.h"
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace starbow {
@@ -75,12 +73,8 @@ struct Reader {
     {
         reject_unknown_members(place, {"rapidity_per_s", "towards"});
         Thrust thrust{number(member(place, "rapidity_per_s"), {0, 1e6, true}), {}};
-        if (auto p = find_member(place, "towards")) {
-            const glm::dvec3 way = vec3(*p, {-1e6, 1e6});
-            if (!(glm::length(way) > 1e-6))
-                complain(*p, "points nowhere; a direction of any length above 0 is right");
-            thrust.towards = glm::normalize(way);
-        }
+        if (auto p = find_member(place, "towards"))
+            thrust.towards = unit_direction(*p);
         return thrust;
     }
 
