@@ -51,11 +51,11 @@ stage() {
 first_picture() {
     inside "$root" bash -c 'cd /starbow && ./run & run=$!
         until [ -e /starbow/out/starbow/desk.png ]; do kill -0 $run 2>/dev/null || exit 1; sleep 0.2; done
-        pkill -INT starbow; wait $run; true'
+        kill $run; wait $run; true'
 }
 
 install_packages() {
-    inside "$root" bash -c 'cd /starbow && . ./prepare && build build/release "all" -DCMAKE_BUILD_TYPE=Release -DSTARBOW_ALL_TESTS=OFF
+    inside "$root" bash -c 'cd /starbow && tests=yes && . ./prepare && build build/release "all" -DCMAKE_BUILD_TYPE=Release -DSTARBOW_ALL_TESTS=OFF
         cd build/release && cpack -G DEB -B /packages && apt-get install -q -y --no-install-recommends /packages/starbow.deb /packages/starbow-exhibit.deb'
 }
 
