@@ -14,6 +14,7 @@ const LensRays& of(const std::array<LensRays, 3>& lenses, Channel channel) { ret
 template <typename... Cases> struct Match : Cases... {
     using Cases::operator()...;
 };
+template <typename... Cases> Match(Cases...) -> Match<Cases...>; // clang 16 does not deduce it
 
 } // namespace
 
