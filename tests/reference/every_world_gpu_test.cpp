@@ -13,7 +13,7 @@ TEST(LivePicture, ConvergesToTheReferenceInEveryShippedLayout)
     const Shot shot = shipped_shot("avenue-gamma4");
     for (const auto& file : starbow::testing::shipped("config/layouts")) {
         // A mirror's rim shows so much in a pixel that the light of a picture of 128 is 1.2 % too much, of 192 0.3 %.
-        const Layout layout = small_layout(file, file.stem() == "mirror" ? 192 : 128);
+        const Layout layout = starbow::testing::small_layout(file, file.stem() == "mirror" ? 192 : 128);
         std::vector<Bytes> truth;
         for (std::size_t i = 0; i < layout.outputs.size(); ++i)
             truth.push_back(shown(reference(avenue_by_rays().input(), layout, shot, i, {.samples = 8})));

@@ -5,6 +5,7 @@
 #include "runtime/reference/reference.h"
 #include "runtime/shadow/add_shadows.h"
 #include "tests/support/gpu_environment.h"
+#include "tests/support/layouts.h"
 
 namespace starbow::gpu_test {
 
@@ -24,17 +25,6 @@ inline double mean_light(const Bytes& a)
         if (i % 4 < 3)
             sum += light_of_srgb(a[i] / 255.0);
     return sum / (0.75 * double(a.size()));
-}
-
-/// The layout with its outputs' longer sides reduced to `side` pixels.
-inline Layout small_layout(const std::filesystem::path& file, int side)
-{
-    Layout layout = load_layout(file);
-    for (Output& output : layout.outputs) {
-        const double scale = double(side) / std::max(output.size.x, output.size.y);
-        output.size = glm::max(ivec2(glm::round(dvec2(output.size) * scale)), 16);
-    }
-    return layout;
 }
 
 inline Shot shipped_shot(const std::string& name)

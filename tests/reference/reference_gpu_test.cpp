@@ -11,8 +11,7 @@ TEST(LivePicture, ComesCloserToTheReferenceWithHigherQuality)
 {
     const Shot shot = shipped_shot("avenue-gamma4");
     for (const char* name : {"desk", "dome"}) {
-        const Layout layout
-            = small_layout(starbow::testing::source_dir() / "config/layouts" / (std::string(name) + ".json"), 160);
+        const Layout layout = starbow::testing::small_shipped_layout(name, 160);
         const Bytes truth = shown(reference(avenue_by_rays().input(), layout, shot, 0, {.samples = 128}));
         double before = 0;
         for (double texels : {0.5, 1.0, 2.0, 4.0}) {

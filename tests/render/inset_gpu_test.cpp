@@ -2,12 +2,14 @@
 // frame's own picture must stay.
 #include "config/model/beside.h"
 #include "shaders/physics/physics.h"
+#include "tests/support/layouts.h"
 #include "tests/support/small_world.h"
 #include <algorithm>
 
 namespace starbow::gpu_test::inset_gpu_test {
 namespace {
 
+using starbow::testing::small_shipped_layout;
 using Bytes = std::vector<std::uint8_t>;
 constexpr std::array kinds = {Beside::at_rest, Beside::aberration, Beside::doppler, Beside::headlight};
 constexpr int width = 160;
@@ -62,17 +64,6 @@ Shot at_eye(Shot shot, const dvec3& eye_m, const Stereo& stereo, const SceneFile
 Layout shipped(const std::string& name)
 {
     return load_layout(starbow::testing::source_dir() / "config/layouts" / (name + ".json"));
-}
-
-/// A shipped layout with small outputs.
-Layout small(const std::string& name, int longest)
-{
-    Layout layout = shipped(name);
-    for (Output& output : layout.outputs) {
-        const double part = double(longest) / std::max(output.size.x, output.size.y);
-        output.size = ivec2(dvec2(output.size) * part);
-    }
-    return layout;
 }
 
 /// Compares the small pictures of a frame with those of their own shots, drawn alone from a cube map of their own, and the
@@ -131,7 +122,7 @@ TEST(InsetGpuTest, TheAvenueAtEverySpeed)
                 if (!all && (coloured != (gamma > 1.1) || (look == 0.6) != (gamma == 1)))
                     continue;
                 SCOPED_TRACE(std::to_string(gamma) + " " + std::to_string(look));
-                compare(avenue().world, small("desk", 400), flying(gamma, coloured, look), test_quality(), gamma == 1);
+                compare(avenue().world, small_shipped_layout("desk", 400), flying(gamma, coloured, look), test_quality(), gamma == 1);
             }
 }
 
@@ -140,7 +131,7 @@ TEST(InsetGpuTest, EveryLayout)
     for (const std::string name : {"desk", "dome", "stereo", "headset", "alice-bob"})
         for (const double gamma : {1.0, 4.0}) {
             SCOPED_TRACE(name + " " + std::to_string(gamma));
-            compare(avenue().world, small(name, 480), flying(gamma, true), test_quality(), gamma == 1);
+            compare(avenue().world, small_shipped_layout(name, 480), flying(gamma, true), test_quality(), gamma == 1);
         }
 }
 
@@ -161,7 +152,7 @@ TEST(InsetGpuTest, MovingBodies)
         const Shot ship = load_shot(starbow::testing::source_dir() / "config/shots" / (name + ".json"));
         const GpuWorld world = upload_scene(
             *GpuEnvironment::context, load_scene(starbow::testing::source_dir() / "config/scenes" / (ship.scene + ".json")));
-        compare(world, small("desk", 400), ship, test_quality(), false);
+        compare(world, small_shipped_layout("desk", 400), ship, test_quality(), false);
         device().device.waitIdle();
     }
 }
@@ -172,14 +163,14 @@ TEST(InsetGpuTest, BesideAComparison)
         Shot ship = flying(4, true);
         ship.effects.comparison = comparison;
         ship.effects.false_colours = true;
-        compare(avenue().world, small("desk", 400), ship, test_quality(), false);
+        compare(avenue().world, small_shipped_layout("desk", 400), ship, test_quality(), false);
     }
 }
 
 TEST(InsetGpuTest, ItFollowsEveryChangeOfTheFrame)
 {
     // From rest to flight and back, through another quality, size and layout, and through a test pattern.
-    const Layout layout = small("desk", 400);
+    const Layout layout = small_shipped_layout("desk", 400);
     OffscreenRenderer whole(device(), pipelines(), avenue().world, layout, test_quality(), false);
     whole.frame().repeatable(true);
     const auto shown = [&](const Shot& ship) {
@@ -213,7 +204,7 @@ TEST(InsetGpuTest, ItFollowsEveryChangeOfTheFrame)
 // At great gamma all the world is a patch of a few degrees: the telescope shows it as fine as a picture of its own would.
 TEST(InsetGpuTest, TheTelescopeIsSharpAndTheLargePictureStays)
 {
-    const Layout layout = small("desk", 400);
+    const Layout layout = small_shipped_layout("desk", 400);
     for (const double gamma : {1.0, 4.0, 30.0, 100.0})
         for (const double look : {0.0, 0.4}) {
             const Shot ship = flying(gamma, true, look);

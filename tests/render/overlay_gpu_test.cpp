@@ -4,6 +4,7 @@
 #include "runtime/exhibit/still_measurement.h"
 #include "runtime/hud/lab_panel.h"
 #include "runtime/world/detail.h"
+#include "tests/support/layouts.h"
 #include "tests/support/quad.h"
 #include "tests/support/small_world.h"
 #include <map>
@@ -259,11 +260,9 @@ double off_colour(const dvec3& seen, const dvec3& plain, double distance_s, cons
 /// A layout with small outputs whose screens have no colours, blends or masks of their own.
 Layout bare_layout(const std::filesystem::path& file, int side)
 {
-    Layout layout = load_layout(file);
+    Layout layout = starbow::testing::small_layout(file, side);
     layout.blend = {};
     for (Output& output : layout.outputs) {
-        const double scale = double(side) / std::max(output.size.x, output.size.y);
-        output.size = glm::max(ivec2(glm::round(dvec2(output.size) * scale)), 16);
         output.colour = {};
         for (Viewport& viewport : output.viewports)
             viewport.alpha_mask.clear(), viewport.black_level.clear();

@@ -5,12 +5,14 @@
 #include "runtime/reference/reference.h"
 #include "runtime/world/observer.h"
 #include "tests/support/gpu_environment.h"
+#include "tests/support/layouts.h"
 
 namespace steady_gpu_test {
 
 using namespace starbow;
 using namespace starbow::gpu_test;
 using starbow::testing::all_cases;
+using starbow::testing::small_shipped_layout;
 
 namespace {
 
@@ -20,16 +22,6 @@ double psnr(const Bytes& a, const Bytes& b)
 {
     const ivec2 size(int(a.size() / 4), 1);
     return psnr_dB({size, a}, {size, b});
-}
-
-Layout small(const std::string& name, int side)
-{
-    Layout layout = load_layout(starbow::testing::source_dir() / "config/layouts" / (name + ".json"));
-    for (Output& output : layout.outputs) {
-        const double scale = double(side) / std::max(output.size.x, output.size.y);
-        output.size = glm::max(ivec2(glm::round(dvec2(output.size) * scale)), 16);
-    }
-    return layout;
 }
 
 /// Directions of motion: along the view, aside, back, and close to one another.
@@ -54,7 +46,7 @@ TEST(Steady, AHeadingAtAMillionthOfLightChangesNothing)
                 continue;
             const Quality quality
                 = within(device(), load_quality(starbow::testing::source_dir() / "config/qualities" / (preset + ".json")));
-            OffscreenRenderer live(device(), pipelines(), avenue().world, small(name, 320), quality, false);
+            OffscreenRenderer live(device(), pipelines(), avenue().world, small_shipped_layout(name, 320), quality, false);
             std::vector<std::vector<Bytes>> pictures;
             pictures.push_back(live.picture(along({0, 0, -1}, 0)));
             for (const dvec3& heading : headings)
@@ -83,7 +75,7 @@ TEST(Steady, ObliqueSlowFlightShowsWhatRaysShow)
                     continue;
                 Shot shot = along({0.6, 0.48, 0.64}, beta);
                 shot.effects = {.aberration = true, .doppler = true, .headlight = true, .comparison = comparison};
-                const Layout layout = small(name, 160);
+                const Layout layout = small_shipped_layout(name, 160);
                 OffscreenRenderer live = renderer(avenue().world, layout);
                 const auto pictures = live.picture(shot);
                 ASSERT_FALSE(observer_of(avenue().world.world, shot, {}).rest_frames[0].aligned());
