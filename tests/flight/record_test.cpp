@@ -13,7 +13,9 @@
 #include <atomic>
 #include <bit>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <random>
+#include <set>
 
 namespace record_test {
 
@@ -190,6 +192,21 @@ TEST(Record, ControlsAreReadBackToTheBit)
         ASSERT_EQ(read.controls.time_ns, entry.dt_ns + entry.skipped_ns);
     }
     EXPECT_EQ(text_of(RecordEntry{.dt_ns = 16666667}), "{\"dt_ns\":16666667}\n"); // the size of an idle frame
+}
+
+TEST(Record, ThePageNamesEveryMemberOfAFrame)
+{
+    const std::string page = read_text(source_dir() / "docs/records.md");
+    std::mt19937_64 random(2);
+    std::set<std::string> names;
+    for (int i = 0; i < 1000; ++i) {
+        const auto line = nlohmann::json::parse(text_of(some_entry(random)));
+        for (const auto& [name, value] : line.items())
+            names.insert(name);
+    }
+    EXPECT_GT(names.size(), all_switches.size() + 10);
+    for (const std::string& name : names)
+        EXPECT_TRUE(page.find("`" + name + "`") != std::string::npos) << name;
 }
 
 TEST(Record, TheHeaderIsReadBackToTheBit)
