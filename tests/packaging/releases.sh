@@ -49,7 +49,7 @@ stage() {
 
 # Until `./run` has drawn its first picture; then it is stopped, as the other pictures are drawn by the installed program.
 first_picture() {
-    inside "$root" bash -c 'cd /starbow && ./run & run=$!
+    inside "$root" bash -c 'cd /starbow || exit 1; ./run & run=$!
         until [ -e /starbow/out/starbow/desk.png ]; do kill -0 $run 2>/dev/null || exit 1; sleep 0.2; done
         kill $run; wait $run; true'
 }
