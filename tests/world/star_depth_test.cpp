@@ -196,6 +196,8 @@ TEST(PaintedSky, AStarHasItsPlaceItsLightAndItsColour)
 {
     for (const glm::dvec2& place : {glm::dvec2(10.123, 20.456), {359.99, -5}, {200, 89.3}, {77, -80.001}, {0.001, 0}})
         for (const double kelvin : {3500.0, 5772.0, 12000.0}) {
+            if (!all_cases() && (kelvin == 5772) == (place.x == 77))
+                continue; // every place, and both other colours at one
             const Star star{equatorial(place.x, place.y), 7, kelvin};
             const double peak = 3e-5; // about the Milky Way's
             const Texture result = painted(plain({256, 128}, 0), {star}, peak);
