@@ -1,6 +1,7 @@
 #include "fill.h"
 #include "runtime/world/parallel.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -16,25 +17,39 @@ struct Cell {
     bool inside = false;
 };
 
+/// The rays of every cell, evenly over the sphere: a Fibonacci lattice. Side 0 of a ray's cosines is for surfaces that face
+/// along each axis, side 1 for those that face against it; and the sums over all rays.
+struct SkyRays {
+    std::array<glm::dvec3, sky_rays> way;
+    std::array<std::array<glm::dvec3, 2>, sky_rays> cosine;
+    std::array<glm::dvec3, 2> all{};
+
+    SkyRays()
+    {
+        for (int i = 0; i < sky_rays; ++i) {
+            const double y = 1 - 2 * (i + 0.5) / sky_rays, turn = 2 * std::numbers::pi * 0.6180339887498949 * i;
+            const double level = std::sqrt(1 - y * y);
+            way[i] = {level * std::cos(turn), y, level * std::sin(turn)};
+            for (int side = 0; side < 2; ++side)
+                all[side] += cosine[i][side] = glm::max(side == 0 ? way[i] : -way[i], 0.0);
+        }
+    }
+};
+
 Cell cell_at(const Occluders& occluders, const glm::dvec3& place)
 {
-    glm::dvec3 seen[2]{}, all[2]{}; // by surfaces that face along each axis, and against it
+    static const SkyRays rays;
+    std::array<glm::dvec3, 2> seen{};
     int backs = 0;
     for (int i = 0; i < sky_rays; ++i) {
-        // Evenly over the sphere: a Fibonacci lattice.
-        const double y = 1 - 2 * (i + 0.5) / sky_rays, turn = 2 * std::numbers::pi * 0.6180339887498949 * i;
-        const double level = std::sqrt(1 - y * y);
-        const glm::dvec3 way(level * std::cos(turn), y, level * std::sin(turn));
-        const auto hit = occluders.first(place, way, 1e37);
-        for (int side = 0; side < 2; ++side) {
-            const glm::dvec3 cosine = glm::max(side == 0 ? way : -way, 0.0);
-            all[side] += cosine;
-            if (!hit)
-                seen[side] += cosine;
-        }
-        backs += hit && hit->back;
+        const auto hit = occluders.first(place, rays.way[i], 1e37);
+        if (hit)
+            backs += hit->back;
+        else
+            for (int side = 0; side < 2; ++side)
+                seen[side] += rays.cosine[i][side];
     }
-    const glm::dvec3 plus = seen[0] / all[0], minus = seen[1] / all[1];
+    const glm::dvec3 plus = seen[0] / rays.all[0], minus = seen[1] / rays.all[1];
     return {0.5 * (plus - minus), 0.5 * (plus + minus), backs > sky_rays / 5};
 }
 
