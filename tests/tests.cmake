@@ -44,7 +44,6 @@ if(STARBOW_ALL_TESTS OR NOT STARBOW_SANITIZE) # what reads foreign bytes needs n
   target_link_libraries(starbow_test PRIVATE starbow_reference)
 endif()
 target_precompile_headers(starbow_test PRIVATE <gtest/gtest.h> ${COMMON_HEADERS})
-target_compile_options(starbow_test PRIVATE $<$<CONFIG:Release>:-Og>) # compiles in three quarters of -O1's time
 # Each test file's name is a namespace around it, so that several files can be compiled as one.
 if(STARBOW_SANITIZE)
   # The tests' own code is checked for faults of the heap alone, and not optimized: undefined behaviour, local variables and -O1
@@ -75,6 +74,7 @@ if(NOT STARBOW_SANITIZE)
   add_executable(starbow_gpu_test ${GPU_TESTS} ${GPU_SUPPORT} tests/support/files.cpp tests/support/gltf_fixture.cpp)
   target_link_libraries(starbow_gpu_test PRIVATE starbow_exhibit starbow_reference GTest::gtest_main quadmath)
   target_precompile_headers(starbow_gpu_test REUSE_FROM starbow_vulkan_headers)
+  set_target_properties(starbow_gpu_test PROPERTIES UNITY_BUILD_BATCH_SIZE 8) # the last to be compiled
   # The driver shall find a test's stand-in for a function of LLVM before LLVM's own.
   target_link_options(starbow_gpu_test PRIVATE -Wl,--export-dynamic-symbol=LLVMModuleCreateWithNameInContext)
   target_link_libraries(starbow_gpu_test PRIVATE ${CMAKE_DL_LIBS})
