@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Starbow on each release of Debian, from nothing: a bare root by debootstrap, a fresh clone, `./run` to its first picture,
 # `./test`, the packages, their installation there, and the installed program's pictures of the shipped shots. They are
-# compared with those of the release named first: at least 45 dB, because Mesa differs. As root.
+# compared with those of the release named first: at least 45 dB, because Mesa differs. As root. A FOLDER keeps the roots, and
+# after an interruption a release that has passed with the same commit is not tried again.
 # Usage: releases.sh [--folder FOLDER] [--without-test] RELEASE...      Example: releases.sh bookworm trixie
 set -euo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -10,7 +11,7 @@ while [[ ${1:-} == --* ]]; do
     case $1 in
         --folder) folder=$2 && shift 2 ;;
         --without-test) with_test= && shift ;;
-        *) sed -n '2,5s/^# //p' "${BASH_SOURCE[0]}" && exit 0 ;;
+        *) sed -n '2,6s/^# //p' "${BASH_SOURCE[0]}" && exit 0 ;;
     esac
 done
 [ $# -gt 0 ] || { echo "releases.sh: no release is named; 'releases.sh bookworm trixie' is right" >&2 && exit 2; }
@@ -77,8 +78,13 @@ compare_shots() {
 }
 
 first=$1
+commit=$(git -C "$source" rev-parse HEAD)
 for release in "$@"; do
     root=$folder/$release
+    if [ "$(cat "$folder/$release-passed" 2>/dev/null)" = "$commit $with_test" ]; then
+        echo "$release: passed before"
+        continue
+    fi
     [ -e "$root/etc/os-release" ] || stage root debootstrap --variant=minbase "$release" "$root" "$mirror"
     cp /etc/resolv.conf "$root/etc/resolv.conf"
     cp /etc/apt/apt.conf.d/*prox* "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
@@ -94,4 +100,5 @@ for release in "$@"; do
         stage comparison compare_shots
         echo "$release: the shots differ from $first's by at least $(cat "$folder/$release-least") dB"
     fi
+    echo "$commit $with_test" >"$folder/$release-passed"
 done
