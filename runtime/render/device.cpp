@@ -44,10 +44,14 @@ vk::raii::Instance make_instance(Device& device, const Device::Options& options)
                 "No Vulkan window can be opened here: install mesa-vulkan-drivers or the GPU maker's Vulkan driver");
         extensions.assign(names, names + count);
     }
-    vk::DebugUtilsMessengerCreateInfoEXT messenger({},
-        vk::DebugUtilsMessageSeverityFlagBitsEXT::eWarning | vk::DebugUtilsMessageSeverityFlagBitsEXT::eError,
-        vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation | vk::DebugUtilsMessageTypeFlagBitsEXT::ePerformance, complain,
-        &device.complaints);
+    // The C structure, because newer headers give the function's pointer another type.
+    vk::DebugUtilsMessengerCreateInfoEXT messenger(VkDebugUtilsMessengerCreateInfoEXT{
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+        .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+        .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
+        .pfnUserCallback = complain,
+        .pUserData = &device.complaints,
+    });
     vk::ValidationFeatureEnableEXT synchronization = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
     vk::ValidationFeaturesEXT features(1, &synchronization, 0, nullptr, &messenger);
     for (const vk::ExtensionProperties& offered : device.context.enumerateInstanceExtensionProperties()) {

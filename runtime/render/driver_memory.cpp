@@ -57,7 +57,9 @@ VKAPI_ATTR void* VKAPI_CALL reallocate(
 
 const vk::AllocationCallbacks& counting_callbacks()
 {
-    static const vk::AllocationCallbacks callbacks(nullptr, allocate, reallocate, release);
+    // The C structure, because newer headers give the functions' pointers another type.
+    static const vk::AllocationCallbacks callbacks(
+        VkAllocationCallbacks{.pfnAllocation = allocate, .pfnReallocation = reallocate, .pfnFree = release});
     return callbacks;
 }
 

@@ -23,7 +23,8 @@ struct Notes {
     int open = 0; ///< labels that have begun and not ended
 };
 Notes notes;
-std::optional<vk::raii::DeviceDispatcher> next; ///< the device's own functions
+using Functions = std::remove_cvref_t<decltype(*std::declval<const vk::raii::Device&>().getDispatcher())>;
+std::optional<Functions> next; ///< the device's own functions
 
 template <class Handle> std::uint64_t number(Handle handle) { return reinterpret_cast<std::uint64_t>(handle); }
 
@@ -87,7 +88,7 @@ VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(
 
 void take_note(Device& device)
 {
-    auto& calls = const_cast<vk::raii::DeviceDispatcher&>(*device.device.getDispatcher());
+    auto& calls = const_cast<Functions&>(*device.device.getDispatcher());
     next.emplace(calls);
     calls.vkSetDebugUtilsObjectNameEXT = set_name;
     calls.vkCmdBeginDebugUtilsLabelEXT = begin_label;

@@ -52,7 +52,7 @@ std::vector<std::filesystem::path> shipped(const std::string& folder)
     return files;
 }
 
-const Words& words(const std::string& language)
+const Words& words(std::string language)
 {
     static std::map<std::string, Words> read;
     if (!read.contains(language))

@@ -23,7 +23,7 @@ const std::vector<std::string> scenes = {"train", "twins", "light-clock", "alice
 SceneFile scene_of(const std::string& name) { return load_scene_file(source_dir() / "config/scenes" / (name + ".json")); }
 Shot shipped_shot(const std::string& name) { return load_shot(source_dir() / "config/shots" / (name + ".json")); }
 
-const World& world_of(const std::string& name)
+const World& world_of(std::string name)
 {
     static std::map<std::string, World> worlds;
     auto [at, made] = worlds.try_emplace(name);

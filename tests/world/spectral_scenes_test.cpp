@@ -14,7 +14,7 @@ using namespace starbow::testing;
 
 namespace {
 
-const World& world_of(const std::string& name)
+const World& world_of(std::string name)
 {
     static std::map<std::string, World> loaded;
     const auto found = loaded.find(name);
@@ -23,7 +23,7 @@ const World& world_of(const std::string& name)
         : loaded.emplace(name, load_world(source_dir() / "scenes" / name / (name + ".glb"))).first->second;
 }
 
-const Material& material(const World& world, const std::string& name)
+const Material& material(const World& world, std::string name)
 {
     for (const Material& m : world.materials)
         if (m.name == name)
