@@ -14,12 +14,12 @@ using namespace starbow;
 
 namespace {
 
-const Adjustable& named(const std::vector<Adjustable>& all, const std::string& name)
+const Adjustable& named(const std::vector<Adjustable>& all, std::string_view name)
 {
     for (const Adjustable& one : all)
         if (one.name == name)
             return one;
-    throw std::runtime_error("no " + name);
+    throw std::runtime_error("no " + std::string(name));
 }
 
 } // namespace

@@ -15,7 +15,7 @@ namespace {
 constexpr double deg = 3.14159265358979323846 / 180;
 const Controls space = controls_with(Steering{.stop = true}), freeze = controls_with(Steering{.freeze = true});
 
-const Challenge& named(const std::string& name)
+const Challenge& named(std::string_view name)
 {
     for (const Challenge& challenge : challenges())
         if (challenge.name == name)

@@ -52,12 +52,13 @@ std::vector<std::filesystem::path> shipped(const std::string& folder)
     return files;
 }
 
-const Words& words(std::string language)
+const Words& words(std::string_view language)
 {
     static std::map<std::string, Words> read;
-    if (!read.contains(language))
-        read[language] = load_words(source_dir() / "config/words" / (language + ".json"));
-    return read[language];
+    const auto [at, made] = read.try_emplace(std::string(language));
+    if (made)
+        at->second = load_words(source_dir() / "config/words" / (at->first + ".json"));
+    return at->second;
 }
 
 std::pair<int, std::string> line_and_rest(const std::string& message, const std::filesystem::path& file)

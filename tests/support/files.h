@@ -26,7 +26,7 @@ std::string read_text(const std::filesystem::path& file);
 std::vector<std::filesystem::path> shipped(const std::string& folder);
 
 /// The shipped words of a language.
-const Words& words(std::string language = "en");
+const Words& words(std::string_view language = "en");
 
 /// Returns the message of the InputError that `act` throws. Anything else fails the test and returns "".
 std::string complaint(const std::function<void()>& act);

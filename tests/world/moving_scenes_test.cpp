@@ -23,12 +23,12 @@ const std::vector<std::string> scenes = {"train", "twins", "light-clock", "alice
 SceneFile scene_of(const std::string& name) { return load_scene_file(source_dir() / "config/scenes" / (name + ".json")); }
 Shot shipped_shot(const std::string& name) { return load_shot(source_dir() / "config/shots" / (name + ".json")); }
 
-const World& world_of(std::string name)
+const World& world_of(std::string_view name)
 {
     static std::map<std::string, World> worlds;
-    auto [at, made] = worlds.try_emplace(name);
+    auto [at, made] = worlds.try_emplace(std::string(name));
     if (made) {
-        const SceneFile scene = scene_of(name);
+        const SceneFile scene = scene_of(at->first);
         at->second = load_world(scene);
         place_bodies(at->second, scene);
         sort_instances(at->second);

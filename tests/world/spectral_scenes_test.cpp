@@ -14,21 +14,21 @@ using namespace starbow::testing;
 
 namespace {
 
-const World& world_of(std::string name)
+const World& world_of(std::string_view name)
 {
     static std::map<std::string, World> loaded;
-    const auto found = loaded.find(name);
-    return found != loaded.end()
-        ? found->second
-        : loaded.emplace(name, load_world(source_dir() / "scenes" / name / (name + ".glb"))).first->second;
+    const auto [at, made] = loaded.try_emplace(std::string(name));
+    if (made)
+        at->second = load_world(source_dir() / "scenes" / name / (at->first + ".glb"));
+    return at->second;
 }
 
-const Material& material(const World& world, std::string name)
+const Material& material(const World& world, std::string_view name)
 {
     for (const Material& m : world.materials)
         if (m.name == name)
             return m;
-    throw std::runtime_error("no material " + name);
+    throw std::runtime_error("no material " + std::string(name));
 }
 
 struct Box {

@@ -108,7 +108,11 @@ Doc by_meshopt(const Sheet& sheet)
     pack(1, attributes(octahedra, 4), 4, sheet.count(), "ATTRIBUTES", "OCTAHEDRAL");
     doc.json["accessors"][1]["componentType"] = 5120, doc.json["accessors"][1]["normalized"] = true;
     std::vector<std::uint32_t> exponents(2 * sheet.count());
+#if MESHOPTIMIZER_VERSION >= 200
+    meshopt_encodeFilterExp(exponents.data(), sheet.count(), 8, 15, sheet.uv.data(), meshopt_EncodeExpSharedVector);
+#else
     meshopt_encodeFilterExp(exponents.data(), sheet.count(), 8, 15, sheet.uv.data());
+#endif
     pack(2, attributes(exponents, 8), 8, sheet.count(), "ATTRIBUTES", "EXPONENTIAL");
     Bytes packed(meshopt_encodeIndexBufferBound(sheet.indices.size(), sheet.count()));
     packed.resize(meshopt_encodeIndexBuffer(packed.data(), packed.size(), sheet.indices.data(), sheet.indices.size()));
