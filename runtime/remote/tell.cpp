@@ -206,7 +206,7 @@ template <class Done> bool serve_until(const Context& context, Telling& telling,
         context.get(), 0, &timer.list, [](lws_sorted_usec_list_t* list) { *reinterpret_cast<End*>(list)->late = true; },
         lws_usec_t(seconds * 1e6));
     while (!late && !done() && telling.failure.empty() && lws_service(context.get(), 0) >= 0) { }
-    lws_sul_schedule(context.get(), 0, &timer.list, nullptr, LWS_SET_TIMER_USEC_CANCEL);
+    lws_sul_cancel(&timer.list);
     return done();
 }
 
