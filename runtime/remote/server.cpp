@@ -83,6 +83,35 @@ const lws_retry_bo_t idle{.secs_since_valid_ping = 15, .secs_since_valid_hangup 
 bool is_loopback(const std::string& address) { return address.starts_with("127.") || address == "::1"; }
 bool is_any(const std::string& address) { return address == "0.0.0.0" || address == "::"; }
 
+bool is_v6(const std::string& address) { return address.find(':') != std::string::npos; }
+
+/// A socket that is bound to a port of an address, to any port where it is 0; -1 if that is not possible.
+int bound_socket(const std::string& address, int port, int type)
+{
+    const bool v6 = is_v6(address);
+    sockaddr_in6 six{};
+    sockaddr_in four{};
+    six.sin6_family = AF_INET6, four.sin_family = AF_INET;
+    six.sin6_port = four.sin_port = htons(std::uint16_t(port));
+    inet_pton(AF_INET6, address.c_str(), &six.sin6_addr);
+    inet_pton(AF_INET, address.c_str(), &four.sin_addr);
+    const int made = ::socket(v6 ? AF_INET6 : AF_INET, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    const int bound = v6 ? bind(made, reinterpret_cast<sockaddr*>(&six), sizeof six)
+                         : bind(made, reinterpret_cast<sockaddr*>(&four), sizeof four);
+    if (bound == 0)
+        return made;
+    close(made);
+    return -1;
+}
+
+/// libwebsockets 4.3 tries without end to open a port of an address that the machine does not have.
+bool has_address(const std::string& address)
+{
+    const int probe = bound_socket(address, 0, SOCK_STREAM);
+    close(probe);
+    return probe >= 0;
+}
+
 void require_readable(const std::filesystem::path& file)
 {
     if (!file.empty())
@@ -116,7 +145,7 @@ Server::Server(const RemoteOptions& options, const Pins& pins, Exchange& exchang
     lws_set_log_level(LLL_ERR | LLL_WARN, library_speaks);
     lws_context_creation_info info{};
     const std::string certificate = settings.certificate.string(), key = settings.key.string();
-    const bool tls = !certificate.empty(), v6 = settings.address.find(':') != std::string::npos;
+    const bool tls = !certificate.empty(), v6 = is_v6(settings.address);
     info.port = settings.port;
     info.iface = is_any(settings.address) ? nullptr : settings.address.c_str();
     info.protocols = protocols.data();
@@ -137,14 +166,19 @@ Server::Server(const RemoteOptions& options, const Pins& pins, Exchange& exchang
         info.ssl_private_key_filepath = key.c_str();
     }
     const std::string place = "port " + std::to_string(settings.port) + " of " + settings.address;
+    const auto refused = [&](const std::string& reason) {
+        return InputError("The remote can't be opened at " + place + " (" + reason
+            + "); a free port, an address of this machine and, if named, a certificate with its key is right");
+    };
+    if (!has_address(settings.address))
+        throw refused("the machine does not have this address");
     last_library_error.clear();
     context_ = lws_create_context(&info);
     vhost_ = context_ ? lws_create_vhost(context_, &info) : nullptr;
     if (!vhost_) {
         if (context_)
             lws_context_destroy(context_);
-        throw InputError("The remote can't be opened at " + place + " (" + last_library_error
-            + "); a free port, an address of this machine and, if named, a certificate with its key is right");
+        throw refused(last_library_error);
     }
     try {
         open_osc();
@@ -185,19 +219,10 @@ void Server::open_osc()
     if (osc.port == 0)
         return;
     const std::string& address = options_.settings.address;
-    const bool v6 = address.find(':') != std::string::npos;
-    sockaddr_in6 six{};
-    sockaddr_in four{};
-    six.sin6_family = AF_INET6, four.sin_family = AF_INET;
-    six.sin6_port = four.sin_port = htons(std::uint16_t(osc.port));
-    inet_pton(AF_INET6, address.c_str(), &six.sin6_addr);
-    inet_pton(AF_INET, address.c_str(), &four.sin_addr);
-    osc_ = ::socket(v6 ? AF_INET6 : AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-    const int bound = v6 ? bind(osc_, reinterpret_cast<sockaddr*>(&six), sizeof six)
-                         : bind(osc_, reinterpret_cast<sockaddr*>(&four), sizeof four);
+    osc_ = bound_socket(address, osc.port, SOCK_DGRAM);
     lws_sock_file_fd_type descriptor{};
     descriptor.filefd = osc_;
-    if (bound != 0 || !lws_adopt_descriptor_vhost(vhost_, LWS_ADOPT_RAW_FILE_DESC, descriptor, "osc", nullptr)) {
+    if (osc_ < 0 || !lws_adopt_descriptor_vhost(vhost_, LWS_ADOPT_RAW_FILE_DESC, descriptor, "osc", nullptr)) {
         close(osc_);
         throw InputError("OSC can't be opened at UDP port " + std::to_string(osc.port) + " of " + address
             + "; a free port and an address of this machine is right");

@@ -499,7 +499,7 @@ TEST(Server, AWrongStartIsRefused)
     for (const auto& [change, says] :
         {std::pair<std::function<void(RemoteSettings&)>, const char*>{
              [&](RemoteSettings& settings) { settings.port = running.settings.port; }, "can't be opened at port"},
-            {[](RemoteSettings& settings) { settings.address = "192.0.2.7"; }, "can't be opened at port"},
+            {[](RemoteSettings& settings) { settings.address = "192.0.2.7"; }, "does not have this address"},
             {[&](RemoteSettings& settings) { settings.osc.port = running.settings.osc.port; }, "OSC can't be opened"},
             {[](RemoteSettings& settings) { settings.pins = "/nowhere/pins"; }, "does not exist"},
             {[](RemoteSettings& settings) { settings.certificate = settings.key = "/nowhere/pem"; }, "does not exist"},
