@@ -10,6 +10,7 @@
 #include <GLFW/glfw3.h>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <dlfcn.h>
 #include <unistd.h>
 
@@ -133,10 +134,24 @@ LastWork::LastWork(std::function<void()> work)
 
 LastWork::~LastWork() { last_works().pop_back(); }
 
+namespace {
+
+bool open_window_system()
+{
+#ifdef GLFW_PLATFORM
+    // Where no Wayland server is named, its library would complain on the standard error.
+    if (!std::getenv("WAYLAND_DISPLAY"))
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+    return glfwInit();
+}
+
+} // namespace
+
 WindowSystem::WindowSystem()
 {
     const auto server = forget_dead_window_manager();
-    if (!glfwInit())
+    if (!open_window_system())
         throw InputError("No window can be opened (" + glfw_says()
             + "): start a desktop session, or set DISPLAY, or use 'starbow render'");
     watch_x_server();
@@ -147,7 +162,7 @@ WindowSystem::~WindowSystem() { glfwTerminate(); }
 bool has_display()
 {
     const auto server = forget_dead_window_manager();
-    return glfwInit();
+    return open_window_system();
 }
 
 Window::Window(Device& device, const Output& output, const std::optional<WindowPlace>& place, bool aside)

@@ -174,8 +174,8 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
         const shared::CubePush surfaces_push = push;
         if (sky_ && !use_.several_rest_frames) {
             set_area(commands, image.atlas, image.size);
-            // Anew for each image: the sky's pipeline has no state for the fronts, which were set since it was bound.
-            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipelines_.sky(world.milky_way >= 0, kind));
+            bind(pipelines_.sky(world.milky_way >= 0, kind));
+            commands.setCullMode(vk::CullModeFlagBits::eNone);
             commands.bindDescriptorSets(
                 vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.surface_layout, 1, *world_.materials.back(), {});
             glm::dvec3 origin = face_direction(image.face, image.low);

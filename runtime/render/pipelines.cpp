@@ -188,7 +188,7 @@ vk::raii::Pipeline Pipelines::make(const Pass& pass) const
     std::vector<vk::PipelineColorBlendAttachmentState> blends(pass.target.colours.size(), blend);
     vk::PipelineColorBlendStateCreateInfo blending({}, false, {}, blends);
     std::vector<vk::DynamicState> dynamic = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
-    if (pass.vertices)
+    if (pass.depth) // surfaces, and the sky between them
         dynamic.insert(dynamic.end(), {vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace});
     vk::PipelineDynamicStateCreateInfo dynamics({}, dynamic);
     const std::vector<vk::Format> formats(pass.target.colours.begin(), pass.target.colours.end());

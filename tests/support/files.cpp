@@ -1,7 +1,9 @@
 #include "files.h"
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
@@ -50,6 +52,25 @@ std::vector<std::filesystem::path> shipped(const std::string& folder)
             files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
+}
+
+void expect_made_by_its_program(const std::string& scene, std::size_t most_bytes)
+{
+    const auto folder = source_dir() / "scenes" / scene, made = scratch(scene + ".glb");
+    const std::string command = "/usr/bin/python3 -B '" + (folder / "make.py").string() + "' '" + made.string() + "'";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    const std::string now = read_text(made), committed = read_text(folder / (scene + ".glb"));
+    ASSERT_EQ(now.size(), committed.size()) << "run scenes/" << scene << "/make.py and commit what it writes";
+    std::uint32_t json = 0;
+    std::memcpy(&json, committed.data() + 12, 4);
+    for (std::size_t at = 0; at + 4 <= now.size(); at += 4) {
+        float a = 0, b = 0;
+        std::memcpy(&a, now.data() + at, 4), std::memcpy(&b, committed.data() + at, 4);
+        const bool same = std::memcmp(&a, &b, 4) == 0 || (at >= 20 + json && std::abs(a - b) < 1e-9f);
+        ASSERT_TRUE(same) << "run scenes/" << scene << "/make.py and commit what it writes; byte " << at;
+    }
+    EXPECT_LT(now.size(), most_bytes);
+    EXPECT_TRUE(std::filesystem::exists(folder / "LICENSES.md"));
 }
 
 const Words& words(std::string_view language)
