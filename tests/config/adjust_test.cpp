@@ -84,6 +84,10 @@ TEST(Adjust, StaysInTheRangeAndOnWholeSteps)
     EXPECT_EQ(value_of(adjusted(layout, named(all, "dome, tilt"), 1), named(all, "dome, tilt")), 30.07);
     EXPECT_EQ(value_of(adjusted(layout, named(all, "dome, tilt"), 1e6), named(all, "dome, tilt")), 180);
     EXPECT_EQ(value_of(adjusted(layout, named(all, "blend, power"), -1e6), named(all, "blend, power")), 0.1);
+    for (const double end : {-90.0, 90.0})
+        EXPECT_EQ(value_of(adjusted(layout, named(all, "head-up display, height"), int(end * 1000)),
+                      named(all, "head-up display, height")),
+            end);
     EXPECT_EQ(value_of(adjusted(layout, named(all, "dome, rotation"), -10), named(all, "dome, rotation")), -1);
 }
 

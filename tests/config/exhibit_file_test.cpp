@@ -55,7 +55,7 @@ TEST(ExhibitFileTest, EveryMemberIsRead)
         "flying": { "mode": "newtonian", "max_gamma": 50, "turn_deg_per_s": 11, "roll_deg_per_s": 12,
                     "turn_jerk_deg_per_s3": 13, "rapidity_per_s": 0.14, "rapidity_jerk_per_s2": 0.15 },
         "exposure": { "mode": "range", "automatic": false, "min_ev": -16, "max_ev": 1.7, "bloom": 0.18 },
-        "visit": { "idle_s": 61, "ask_s": 11, "longest_s": 300, "fade_s": 0.5, "unlock": "red5", "attract": ["rainbow", "own/tour.json"] } })";
+        "visit": { "idle_s": 61, "ask_s": 11, "longest_s": 300, "fade_s": 0.5, "unlock": "red5", "attract": ["rainbow", "own/tour.json", "kept.jsonl"] } })";
     EXPECT_TRUE(schema_accepts(json::parse(text)));
     const auto file = write_text("exhibit.json", text);
     const Exhibit exhibit = load_exhibit(file);
@@ -87,7 +87,7 @@ TEST(ExhibitFileTest, EveryMemberIsRead)
     EXPECT_EQ(exhibit.visiting->longest_s, 300);
     EXPECT_EQ(exhibit.visiting->fade_s, 0.5);
     EXPECT_EQ(exhibit.visiting->unlock, "red5");
-    EXPECT_EQ(exhibit.visiting->attract, (std::vector<std::string>{"rainbow", folder / "own/tour.json"}));
+    EXPECT_EQ(exhibit.visiting->attract, (std::vector<std::string>{"rainbow", folder / "own/tour.json", folder / "kept.jsonl"}));
     EXPECT_FALSE(load_exhibit(write_text("exhibit.json", "{}")).visiting);
 }
 

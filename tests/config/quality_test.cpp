@@ -124,7 +124,9 @@ TEST(QualityTest, ALadderRisesAndIsWrittenAgain)
             {R"({ "levels": [{ "ms": 1 }] })", "quality"},
             {R"({ "levels": [{ "ms": 1, "quality": { "mips": 2 } }] })", "/levels/0/quality/mips: 2"},
             {R"({ "levels": [{ "ms": 1, "quality": {} }, { "ms": 2, "quality": { "spectra": "fine" } }] })",
-                "/levels/1/quality: "}}) {
+                "/levels/1/quality: "},
+            {R"({ "levels": [{ "ms": 1, "quality": {} }, { "ms": 2, "quality": { "stereo": "shared" } }] })", "/levels/1/quality: "},
+            {R"({ "levels": [{ "ms": 1, "quality": {} }, { "ms": 2, "quality": { "matrices": false } }] })", "/levels/1/quality: "}}) {
         SCOPED_TRACE(text);
         const std::string why = message_of([&] { load_ladder(write_text("ladder.json", text)); });
         EXPECT_NE(why.find(problem), why.npos) << why;

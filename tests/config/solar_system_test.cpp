@@ -45,6 +45,20 @@ TEST(SolarSystemTest, TheShippedFileIsWhole)
         EXPECT_TRUE(kind.points.front().first <= 300 && kind.points.back().first >= 2500) << kind.name;
 }
 
+TEST(SolarSystemTest, NeptunesLibrationHasTheWorkingGroupsRate)
+{
+    const SolarSystem system = load_solar_system(folder / "globes.json");
+    const auto neptune = std::ranges::find(system.globes, "Neptune", &Globe::name);
+    ASSERT_NE(neptune, system.globes.end());
+    ASSERT_EQ(neptune->rotation.librations.size(), 1u);
+    const Rotation::Libration& one = neptune->rotation.librations[0];
+    EXPECT_EQ(one.angle_deg, 357.85);
+    EXPECT_NEAR(one.deg_per_day * 36525, 52.316, 1e-9) << "a Julian century";
+    EXPECT_EQ(one.ascension, 0.7);
+    EXPECT_EQ(one.declination, -0.51);
+    EXPECT_EQ(one.meridian, -0.48);
+}
+
 TEST(SolarSystemTest, WrongFilesAreRefused)
 {
     write_companions();

@@ -96,6 +96,20 @@ TEST(ShadeTest, MasksAreScaledToTheirViewport)
     }
 }
 
+TEST(ShadeTest, MasksAreScaledInBothDirections)
+{
+    Layout layout = one({4, 4});
+    layout.outputs[0].viewports[0].alpha_mask = picture("four.png", 2, 2, 1, {0, 51, 102, 255});
+    const Shade s = shade(layout);
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) {
+            const double i = std::clamp(((x + 0.5) / 4 - 0.25) / 0.5, 0.0, 1.0);
+            const double j = std::clamp(((y + 0.5) / 4 - 0.25) / 0.5, 0.0, 1.0);
+            const double value = (1 - j) * 0.2 * i + j * (0.4 * (1 - i) + i);
+            expect_near(s.weight[std::size_t(4 * y + x)], vec3(value), std::to_string(x) + " " + std::to_string(y));
+        }
+}
+
 TEST(ShadeTest, EachViewportHasItsOwnMaskAndBlackLevel)
 {
     Layout layout = one({4, 1});

@@ -46,6 +46,17 @@ struct Hand {
 
 } // namespace
 
+TEST(PressHealth, FourButtonsAtOnceAreFingersAndFiveAreNot)
+{
+    PressHealth health;
+    const std::int64_t s = 1'000'000'000;
+    EXPECT_TRUE(health.take(4, s));
+    EXPECT_FALSE(health.storms(s));
+    EXPECT_FALSE(health.take(5, 2 * s));
+    EXPECT_TRUE(health.storms(2 * s));
+    EXPECT_TRUE(health.take(1, 3 * s + s / 2)) << "a second later";
+}
+
 // A hand shakes a stick at most six or seven times a second; a worn track jumps with every report.
 TEST(AxisHealthTest, NoiseIsDistinguishedFromShaking)
 {
