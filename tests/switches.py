@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Flies a minute through the switches that a visitor changes the picture with, and prints the longest frames, with and without a warm-up before.
+"""Flies a minute through the switches by which a visitor changes the picture, and prints the longest frames, with and without a
+warm-up before.
 
     tests/switches.py STARBOW [SECONDS] [-- OPTIONS FOR starbow run]      (needs a display: xvfb-run works)
 

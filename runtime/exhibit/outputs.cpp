@@ -62,6 +62,16 @@ glm::ivec2 fit_to_screen(glm::ivec2 size)
     return shrink > 0 ? glm::max(glm::ivec2(glm::dvec2(size) * shrink), 1) : size;
 }
 
+/// GLFW 3.4 tries Wayland first, and libwayland prints an error if there is no server.
+bool open_window_system()
+{
+#ifdef GLFW_PLATFORM
+    if (!std::getenv("WAYLAND_DISPLAY"))
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+    return glfwInit();
+}
+
 /// The monitor that shows the largest part of a window; the primary one if none shows any. Null without monitors.
 GLFWmonitor* monitor_of(GLFWwindow* window)
 {
@@ -133,20 +143,6 @@ LastWork::LastWork(std::function<void()> work)
 }
 
 LastWork::~LastWork() { last_works().pop_back(); }
-
-namespace {
-
-bool open_window_system()
-{
-#ifdef GLFW_PLATFORM
-    // Where no Wayland server is named, its library would complain on the standard error.
-    if (!std::getenv("WAYLAND_DISPLAY"))
-        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
-#endif
-    return glfwInit();
-}
-
-} // namespace
 
 WindowSystem::WindowSystem()
 {

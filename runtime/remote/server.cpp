@@ -58,24 +58,17 @@ const std::array protocols{lws_protocols{"http", on_http, pointer, most_message_
     lws_protocols{"starbow", on_socket, pointer, most_message_bytes, 0, nullptr, 0},
     lws_protocols{"osc", on_datagrams, 0, 0, 0, nullptr, 0}, lws_protocols{}};
 
-/// Headers of every answer, a list in the library's form. The page's own files alone are loaded, and no other page may show or
-/// read them.
-const lws_protocol_vhost_options* safe_headers()
-{
-    static std::array headers{
-        lws_protocol_vhost_options{nullptr, nullptr, "content-security-policy:",
-            "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; form-action 'none'; "
-            "frame-ancestors 'none'; base-uri 'none'"},
-        lws_protocol_vhost_options{nullptr, nullptr, "x-content-type-options:", "nosniff"},
-        lws_protocol_vhost_options{nullptr, nullptr, "referrer-policy:", "no-referrer"},
-        lws_protocol_vhost_options{nullptr, nullptr, "cross-origin-resource-policy:", "same-origin"},
-        lws_protocol_vhost_options{nullptr, nullptr, "cross-origin-opener-policy:", "same-origin"},
-        lws_protocol_vhost_options{nullptr, nullptr, "cache-control:", "no-store"},
-    };
-    for (std::size_t i = 1; i < headers.size(); ++i)
-        headers[i - 1].next = &headers[i];
-    return headers.data();
-}
+/// Headers of every answer, a list whose entries name the next one. The page's own files alone are loaded, and no other page may
+/// show or read them.
+using Header = lws_protocol_vhost_options;
+const Header no_store{nullptr, nullptr, "cache-control:", "no-store"},
+    own_opener{&no_store, nullptr, "cross-origin-opener-policy:", "same-origin"},
+    own_resources{&own_opener, nullptr, "cross-origin-resource-policy:", "same-origin"},
+    no_referrer{&own_resources, nullptr, "referrer-policy:", "no-referrer"},
+    named_types{&no_referrer, nullptr, "x-content-type-options:", "nosniff"},
+    safe_headers{&named_types, nullptr, "content-security-policy:",
+        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; form-action 'none'; "
+        "frame-ancestors 'none'; base-uri 'none'"};
 
 /// A page that does not answer for half a minute has gone.
 const lws_retry_bo_t idle{.secs_since_valid_ping = 15, .secs_since_valid_hangup = 30};
@@ -108,8 +101,7 @@ int bound_socket(const std::string& address, int port, int type)
 bool has_address(const std::string& address)
 {
     const int probe = bound_socket(address, 0, SOCK_STREAM);
-    close(probe);
-    return probe >= 0;
+    return probe >= 0 && close(probe) == 0;
 }
 
 void require_readable(const std::filesystem::path& file)
@@ -149,7 +141,7 @@ Server::Server(const RemoteOptions& options, const Pins& pins, Exchange& exchang
     info.port = settings.port;
     info.iface = is_any(settings.address) ? nullptr : settings.address.c_str();
     info.protocols = protocols.data();
-    info.headers = safe_headers();
+    info.headers = &safe_headers;
     info.user = this;
     info.server_string = "starbow";
     info.alpn = "http/1.1";

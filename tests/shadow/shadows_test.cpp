@@ -210,9 +210,9 @@ TEST_F(ShadowsTest, TheGridTellsTheVisiblePartOfTheSky)
 TEST_F(ShadowsTest, KeptShadowsAreReadAgainAndDamagedOnesAreNot)
 {
     Doc doc;
-    wall(doc, {0, 0, 0}, {10, 0, 0}, {0, 0, -0.5}); // a strip has few cells of sky
-    wall(doc, {0, 2, 0}, {1, 0, 0}, {0, 0, -0.5});
-    const std::vector<Json> suns(5, sun); // whose maps are the smallest
+    ground(doc);
+    wall(doc, {0, 2, 0}, {1, 0, 0}, {0, 0, -1});
+    const std::vector<Json> suns(5, sun); // their maps are smaller than one sun's, and made sooner
     SceneFile scene = scene_of(doc, {{"lights", suns}});
     const std::filesystem::path kept = folder / "kept";
     std::filesystem::create_directories(kept);

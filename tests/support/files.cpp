@@ -54,11 +54,16 @@ std::vector<std::filesystem::path> shipped(const std::string& folder)
     return files;
 }
 
+void run_generator(const std::filesystem::path& folder, const std::filesystem::path& made)
+{
+    const std::string command = "/usr/bin/python3 -B '" + (folder / "make.py").string() + "' '" + made.string() + "'";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+}
+
 void expect_made_by_its_program(const std::string& scene, std::size_t most_bytes)
 {
     const auto folder = source_dir() / "scenes" / scene, made = scratch(scene + ".glb");
-    const std::string command = "/usr/bin/python3 -B '" + (folder / "make.py").string() + "' '" + made.string() + "'";
-    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    ASSERT_NO_FATAL_FAILURE(run_generator(folder, made));
     const std::string now = read_text(made), committed = read_text(folder / (scene + ".glb"));
     ASSERT_EQ(now.size(), committed.size()) << "run scenes/" << scene << "/make.py and commit what it writes";
     std::uint32_t json = 0;

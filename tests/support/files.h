@@ -25,6 +25,9 @@ std::string read_text(const std::filesystem::path& file);
 /// The JSON files of a folder of the repository, in order of their names.
 std::vector<std::filesystem::path> shipped(const std::string& folder);
 
+/// Runs FOLDER/make.py, which writes to `made`; the test fails if the program does.
+void run_generator(const std::filesystem::path& folder, const std::filesystem::path& made);
+
 /// Runs scenes/SCENE/make.py, and expects that the committed world is what it writes: the same bytes, and numbers to 1e-9,
 /// because C libraries differ in the last bit of a sine; a folder with its licence, and at most so many bytes.
 void expect_made_by_its_program(const std::string& scene, std::size_t most_bytes);
