@@ -103,7 +103,7 @@ TEST(SolarSystemTest, MistypedFilesLoadOrAreRefused)
         globes(
             R"({ "body": "Sun", "scattering": "sun" }, { "body": "Neptune", "scattering": "cloudy", "kinds": [null, null, null, "soil"] })"));
     const std::string bodies = read_text(folder / "bodies.json"), spectra = read_text(scratch("spectra.json"));
-    const int count = std::max(fuzz_count() / 20, 20); // the file is large
+    const int count = std::max(fuzz_count() / 50, 20); // the file is large
     expect_survives(
         [&](const std::filesystem::path& mutated) {
             write_text("bodies.json", read_text(mutated));

@@ -3,6 +3,7 @@
 #include "tests/support/files.h"
 #include "tests/support/view.h"
 #include <cmath>
+#include <set>
 
 namespace inverse_map_test {
 
@@ -55,6 +56,47 @@ TEST(InverseMapTest, TheSearchBeginsNearEveryPixel)
         std::printf("  %s: %d cells a side, %.1f pixels at most\n", c.name, inverse.side, farthest);
         EXPECT_LT(farthest, 25) << c.name;
     }
+}
+
+TEST(InverseMapTest, APixelReachesTwoCellsFarAlsoOverTheNetsEdges)
+{
+    DirectionMap map;
+    map.size = {1, 1};
+    map.texels = {glm::vec4(0, 0, 1, 0.06f)}; // 4 pi / (16 * 0.06^2): 14 cells a side
+    const int side = starbow::inverse(map).side;
+    ASSERT_EQ(side, 14);
+    const auto direction_of = [&](double x, double y) { // of a place of the net, in cells
+        const double a = 2 * x / side - 1, b = 2 * y / side - 1, z = 1 - std::abs(a) - std::abs(b);
+        return glm::normalize(z >= 0 ? glm::dvec3(a, b, z)
+                                     : glm::dvec3((a < 0 ? -1 : 1) * (1 - std::abs(b)), (b < 0 ? -1 : 1) * (1 - std::abs(a)), z));
+    };
+    // The cells that share a side with a cell: those of directions a little off the middles of its sides.
+    const auto beside = [&](glm::ivec2 cell) {
+        std::set<std::pair<int, int>> found;
+        for (const glm::dvec2& middle : {glm::dvec2(0, 0.5), {1, 0.5}, {0.5, 0}, {0.5, 1}}) {
+            const glm::dvec3 n = direction_of(cell.x + middle.x, cell.y + middle.y);
+            for (int axis = 0; axis < 3; ++axis)
+                for (const double off : {-1e-6, 1e-6}) {
+                    glm::dvec3 there = n;
+                    there[axis] += off;
+                    const glm::ivec2 at = cell_of(there, side);
+                    found.insert({at.x, at.y});
+                }
+        }
+        return found;
+    };
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            map.texels[0] = glm::vec4(glm::vec3(direction_of(x + 0.5, y + 0.5)), 0.06f);
+            std::set<std::pair<int, int>> reached = beside({x, y});
+            for (const auto& [near_x, near_y] : beside({x, y}))
+                reached.merge(beside({near_x, near_y}));
+            const InverseMap inverse = starbow::inverse(map);
+            for (int j = 0; j < side; ++j)
+                for (int i = 0; i < side; ++i)
+                    EXPECT_EQ(inverse.cells[std::size_t(j * side + i)].x != InverseMap::none, reached.contains({i, j}))
+                        << "from " << x << ' ' << y << " to " << i << ' ' << j;
+        }
 }
 
 TEST(InverseMapTest, CellsOutsideThePictureAreEmpty)

@@ -78,6 +78,41 @@ TEST(SphericalMirrorTest, FollowsTheClosedFormAboutOneCentre)
     EXPECT_FALSE(rays.pixel({0, 0, -1}));
 }
 
+TEST(SphericalMirrorTest, TheDomesRimIsLitAndNothingBelowIt)
+{
+    SphericalMirror mirror;
+    mirror.projector_m = {0, 0, 2};
+    mirror.projector = Planar{30};
+    mirror.mirror_radius_m = 0.5;
+    mirror.dome_m = {0, 0, 0};
+    mirror.dome_radius_m = 3;
+    int lit = 0, rounded_below = 0;
+    for (const double aperture_deg : {120.0, 165.0, 180.0, 200.0})
+        for (const double tilt_deg : {0.0, 17.0})
+            for (const glm::dvec3& eye : {glm::dvec3(0), glm::dvec3(0.3, -0.2, 0.5)}) {
+                mirror.dome_aperture_deg = aperture_deg, mirror.dome_tilt_deg = tilt_deg;
+                const PictureRays rays(Picture{mirror, {1000, 1000}, eye});
+                // The zenith is tilted forward, to -z.
+                const double tilt = tilt_deg * pi / 180, half = aperture_deg / 2 * pi / 180;
+                const glm::dvec3 zenith(0, std::cos(tilt), -std::sin(tilt)), right(1, 0, 0), back = glm::cross(right, zenith);
+                for (double way = 0; way < 6.28; way += 0.01) {
+                    const auto at = [&](double from_zenith) {
+                        return 3. * (std::cos(from_zenith) * zenith
+                                   + std::sin(from_zenith) * (std::cos(way) * right + std::sin(way) * back)) - eye;
+                    };
+                    // Above the rim the mirror alone decides; the rim itself is no darker.
+                    if (!rays.pixel(at(half - 1e-9)))
+                        continue;
+                    ++lit;
+                    rounded_below += glm::dot(at(half) + eye, zenith) < 3 * std::cos(half);
+                    EXPECT_TRUE(rays.pixel(at(half))) << aperture_deg << ' ' << tilt_deg << ' ' << way;
+                    EXPECT_FALSE(rays.pixel(at(half + 1e-6))) << aperture_deg << ' ' << tilt_deg << ' ' << way;
+                }
+            }
+    EXPECT_GT(lit, 1000);
+    EXPECT_GT(rounded_below, 100) << "rounding leads below the rim in about every second direction";
+}
+
 TEST(SphericalMirrorTest, ReflectsLevelLightStraightUp)
 {
     // Level light at 1 / sqrt(2) of the radius above the mirror's middle goes straight up to the dome. Two eyes see that

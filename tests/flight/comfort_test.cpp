@@ -140,6 +140,17 @@ TEST(ComfortTest, TheWayHomeEndsAtTheLevelStartToTheBit)
         }
 }
 
+TEST(ComfortTest, ACockpitKeepsItsHeadingAtThePole)
+{
+    for (double heading = -3; heading <= 3; heading += 0.25)
+        for (const double pitch : {-pi / 2, -pi / 2 + 1e-8, -1.0, 0.3, pi / 2 - 1e-8, pi / 2}) {
+            const Aim aim = aim_of(level_cockpit({heading, pitch}));
+            // 1e-8 radians before the pole the nose leaves 8 digits of the heading, and the right axis has all.
+            EXPECT_NEAR(std::remainder(aim.heading - heading, 2 * pi), 0, 1e-7) << heading << ' ' << pitch;
+            EXPECT_NEAR(aim.pitch, pitch, 2e-8) << heading << ' ' << pitch;
+        }
+}
+
 TEST(ComfortTest, APitchEndsSoftlyBeforeThePole)
 {
     // The limits of the shipped headset: its stick stops the turn long after it is let go.

@@ -305,6 +305,29 @@ TEST(Flight, UndoGoesBackTenSecondsEachTime)
     EXPECT_EQ(History().back(flight).ship.position.total(), flight.ship.position.total());
 }
 
+TEST(Flight, UndoLeavesTheSwitchesAndTheClock)
+{
+    const Flying rules = with(FlightMode::guided);
+    History history;
+    Flight flight = flight_at(start(), rules);
+    for (int i = 0; i < 120; ++i)
+        flight = flown(flight, history, controls_with(Steering{.lever = 0.3}), 100 * ms, rules, 1, start());
+    flight.mode = FlightMode::free, flight.frozen = true, flight.slowness = 2;
+    flight.effects.doppler = !flight.effects.doppler;
+    flight.exposure_ev = -3, flight.hud = !flight.hud, flight.vignette = 0.5, flight.left_ns = 7;
+    const Flight back = history.back(flight);
+    EXPECT_LT(back.ship.distance.total(), 0.5 * flight.ship.distance.total());
+    EXPECT_EQ(back.mode, flight.mode);
+    EXPECT_EQ(back.frozen, flight.frozen);
+    EXPECT_EQ(back.slowness, flight.slowness);
+    EXPECT_EQ(back.effects.doppler, flight.effects.doppler);
+    EXPECT_EQ(back.exposure_ev, flight.exposure_ev);
+    EXPECT_EQ(back.hud, flight.hud);
+    EXPECT_EQ(back.vignette, flight.vignette);
+    EXPECT_EQ(back.ticks, flight.ticks);
+    EXPECT_EQ(back.left_ns, flight.left_ns);
+}
+
 namespace {
 
 /// A start past things at half the speed of light, looking across the motion.

@@ -336,7 +336,7 @@ Flight record_random(const std::filesystem::path& file, std::mt19937_64& random,
 // every 10 s.
 TEST(Record, AReplayIsTheSameToTheBit)
 {
-    const int length = all_cases() ? 100'000 : 20'000;
+    const int length = all_cases() ? 100'000 : 10'000;
     std::mt19937_64 random(2);
     const std::filesystem::path file = fresh("flight.jsonl");
     const Flight flight = record_random(file, random, length, [&](RecordEntry& entry, const Flight& now) {

@@ -1,6 +1,7 @@
 // The head-up display is parallel to a flat screen that shows it, and faces the visitor on all other screens.
 #include "displays/projections/views.h"
 #include "runtime/hud/hud_place.h"
+#include "tests/support/view.h"
 #include <gtest/gtest.h>
 
 namespace hud_place_test {
@@ -82,6 +83,35 @@ TEST(HudPlaceTest, ElsewhereItFacesTheVisitor)
         EXPECT_GT(panel_point(panel, towards(azimuth + 5, elevation)).x, 0);
         EXPECT_GT(panel_point(panel, towards(azimuth, elevation + 5)).y, 0);
     }
+}
+
+TEST(HudPlaceTest, TheBoxHoldsThePanelsPixelsAndFewOthers)
+{
+    for (const auto& [projection, size] : {std::pair<Projection, glm::ivec2>(Planar{60}, {400, 300}),
+             {Fisheye{180, 30}, {300, 300}}, {Equirectangular{}, {400, 200}}})
+        for (const HudPlacement& hud : {HudPlacement{0, -15, 30}, {10, 5, 12}})
+            for (const glm::dvec2& shape : {glm::dvec2(1, 0.2), {0.2, 1}, {1, 1}}) {
+                const CompiledView view = starbow::testing::view_of(projection, size);
+                const glm::dmat3 panel = placed(hud, {projection});
+                const glm::dvec2 half = shape * std::tan(glm::radians(hud.width_deg) / 2);
+                glm::ivec2 low = size, high(0); // around the pixels whose centres the panel covers
+                for (int y = 0; y < size.y; ++y)
+                    for (int x = 0; x < size.x; ++x) {
+                        const auto way = direction(view.view.picture, {x + 0.5, y + 0.5});
+                        if (!way || (panel * *way).z <= 0)
+                            continue;
+                        const glm::dvec2 at = panel_point(panel, *way);
+                        if (std::abs(at.x) < half.x && std::abs(at.y) < half.y)
+                            low = glm::min(low, glm::ivec2(x, y)), high = glm::max(high, glm::ivec2(x, y) + 1);
+                    }
+                const PixelBox box = panel_box(*view.cones, panel, half);
+                EXPECT_TRUE(glm::all(glm::lessThanEqual(box.low, low)) && glm::all(glm::greaterThanEqual(box.high, high)))
+                    << hud.azimuth_deg << ' ' << shape.x << ' ' << shape.y;
+                // Squares of pixels are in it as a whole.
+                EXPECT_TRUE(glm::all(glm::greaterThanEqual(box.low, low - 17)) && glm::all(glm::lessThanEqual(box.high, high + 17)))
+                    << hud.azimuth_deg << ' ' << shape.x << ' ' << shape.y << ": " << low.x - box.low.x << ' '
+                    << low.y - box.low.y << ' ' << box.high.x - high.x << ' ' << box.high.y - high.y;
+            }
 }
 
 } // namespace hud_place_test

@@ -46,7 +46,7 @@ void expect_slices_parse_back(const std::string& text)
     // Each search takes time in proportion to the file, so only some values of a long one are checked, unless all
     // cases are wanted.
     std::size_t index = 0;
-    const std::size_t step = all_cases() ? 1 : 1 + text.size() / 4096;
+    const std::size_t step = all_cases() ? 1 : 1 + text.size() / 1024;
     each(root(d), [&](const Place& place) {
         if (index++ % step != 0)
             return;

@@ -130,11 +130,19 @@ TEST(CalibrationTest, AnAxisWithoutASpringHasItsMiddleBetweenItsEnds)
     EXPECT_EQ(is.rests, Rest::anywhere);
     EXPECT_EQ(is.middle, 505);
     EXPECT_EQ(is.noise, 1);
-    // A slider's usage says so, even if it was put back to its first place.
-    SeenAxis slider = seen({100}, {0, 1000}, {100});
-    slider.usage = 0x36;
-    EXPECT_EQ(measured(slider, thousand).rests, Rest::anywhere);
-    EXPECT_EQ(measured(slider, thousand).middle, 500);
+    // The usages of a slider, a dial and a throttle say so, even if it was put back to its first place; those of a stick's
+    // axis and of a pedal do not.
+    const auto rests = [](std::uint16_t page, std::uint16_t usage) {
+        SeenAxis axis = seen({100}, {0, 1000}, {100});
+        axis.page = page, axis.usage = usage;
+        return measured(axis, thousand);
+    };
+    for (const auto& [page, usage] : {std::pair(1, 0x36), {1, 0x37}, {2, 0xbb}}) {
+        EXPECT_EQ(rests(std::uint16_t(page), std::uint16_t(usage)).rests, Rest::anywhere) << usage;
+        EXPECT_EQ(rests(std::uint16_t(page), std::uint16_t(usage)).middle, 500) << usage;
+    }
+    for (const auto& [page, usage] : {std::pair(1, 0x35), {1, 0x38}, {2, 0x36}, {2, 0xc4}})
+        EXPECT_NE(rests(std::uint16_t(page), std::uint16_t(usage)).rests, Rest::anywhere) << usage;
 }
 
 TEST(CalibrationTest, AnAxisThatRestsAtAnEndIsAPedal)

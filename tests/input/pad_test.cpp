@@ -168,6 +168,28 @@ TEST(PadTest, ALeftHandHasTheOtherSideOfThePad)
     EXPECT_FALSE(controls.held);
 }
 
+TEST(PadTest, WhatIsOnBothSidesChangesSidesAndNothingElse)
+{
+    const std::array<std::pair<int, int>, 2> buttons{
+        {{GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER},
+            {GLFW_GAMEPAD_BUTTON_LEFT_THUMB, GLFW_GAMEPAD_BUTTON_RIGHT_THUMB}}};
+    for (int button = 0; button <= GLFW_GAMEPAD_BUTTON_LAST; ++button) {
+        int other = button;
+        for (const auto& [left, right] : buttons)
+            other = button == left ? right : button == right ? left : other;
+        GLFWgamepadstate pad = at_rest();
+        pad.buttons[button] = GLFW_PRESS;
+        const GLFWgamepadstate seen = mirrored(pad);
+        for (int i = 0; i <= GLFW_GAMEPAD_BUTTON_LAST; ++i)
+            EXPECT_EQ(seen.buttons[i] == GLFW_PRESS, i == other) << button << ' ' << i;
+    }
+    GLFWgamepadstate pad = at_rest();
+    pad.axes[GLFW_GAMEPAD_AXIS_LEFT_Y] = 0.5f, pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] = 0.25f;
+    const GLFWgamepadstate twice = mirrored(mirrored(pad));
+    for (int i = 0; i <= GLFW_GAMEPAD_AXIS_LAST; ++i)
+        EXPECT_EQ(twice.axes[i], pad.axes[i]) << i;
+}
+
 // Lines of SDL's public list of gamepads (gamecontrollerdb.txt, Linux), with the numbers that the USB ID list gives.
 TEST(PadTest, GuidsNameTheDevice)
 {

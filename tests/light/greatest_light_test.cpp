@@ -83,6 +83,23 @@ TEST(GreatestLight, BelowTheDarkNothingShowsAndNotFarAboveSomethingDoes)
     }
 }
 
+TEST(GreatestLight, TheDarkEndsWithinOneRowOfItsTruePlace)
+{
+    // Light of any colour that is as strong at every D: alone the headlight effect's D^3 makes it dark.
+    const GreatestLight constant{-20, 8, std::vector<double>(160, 0.0)};
+    for (double least = 1e-12; least < 0.9; least *= 1.1) {
+        const double dark = dark_below(constant, true, true, 1, least), truth = std::cbrt(least);
+        EXPECT_LE(dark, truth * (1 + 1e-12)) << least;
+        EXPECT_GT(dark, truth / std::exp2(1.01 / 8)) << least;
+    }
+    // Light that doubles from row to row, without that effect.
+    GreatestLight rising{-20, 8, {}};
+    for (int row = 0; row < 160; ++row)
+        rising.log2_of_row.push_back(row - 160);
+    for (int row = 1; row < 160; ++row)
+        EXPECT_NEAR(dark_below(rising, true, false, 1, std::exp2(row - 160 - 0.5)), std::exp2(-20 + row / 8.0), 1e-12) << row;
+}
+
 TEST(GreatestLight, SunlightIsDarkBelowAQuarter)
 {
     // Wien's law for the Sun's 5772 K: light that arrives at 700 nm left at 170 nm, e^-10 of that at 550 nm. The eye has a

@@ -109,6 +109,14 @@ TEST(RangeCurve, EmptyStopsTakeHardlyAnyRange)
     EXPECT_LT(curve.at(1) - curve.at(-56), 0.25 * (range_top - range_bottom));
 }
 
+TEST(RangeCurve, ItsScaleEndsWhereNearlyAllLightDoes)
+{
+    // A ten-thousandth of this view is a stop / 1000 wide: 0.002 of it lie below `low`, 0.001 above `high`.
+    const RangeCurve curve = *range_curve(even(-4, 6, 10000), {}, 0);
+    EXPECT_NEAR(curve.low, -4 + 0.002 * 10, 0.002);
+    EXPECT_NEAR(curve.high, 6 - 0.001 * 10, 0.002);
+}
+
 TEST(RangeCurve, ADarkViewHasNone)
 {
     EXPECT_FALSE(range_curve({}, {}, 0));

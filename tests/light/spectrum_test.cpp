@@ -73,6 +73,17 @@ TEST(SpectrumTest, AShiftedBlackBodyIsABlackBody)
         }
 }
 
+TEST(SpectrumTest, ATableOfLightHoldsAtBothOfItsEndsAndIsDarkBeyond)
+{
+    // A table per wavelength; the result is per frequency, times the square of the wavelength.
+    const Spectrum light = spectrum_of(SpectralTable{{{400, 3}, {500, 1}, {600, 4}}});
+    const double unit = light(500) / (500 * 500);
+    for (const auto& [nm, value] : {std::pair(400.0, 3.0), {450.0, 2.0}, {550.0, 2.5}, {600.0, 4.0}})
+        EXPECT_NEAR(light(nm) / (nm * nm), value * unit, 1e-12 * unit) << nm;
+    for (const double nm : {1.0, 399.999, 600.001, 1e6})
+        EXPECT_EQ(light(nm), 0) << nm;
+}
+
 TEST(SpectrumTest, EmissionsAreExact)
 {
     const std::vector<double> kelvins = {1000, 2856, 5772, 40000};

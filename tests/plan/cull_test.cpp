@@ -1,6 +1,7 @@
 // Culling and levels of detail: nothing that a pixel could see is left out, and coarser surfaces stay close to the full one.
 #include "config/model/angles.h"
 #include "runtime/plan/cull.h"
+#include "runtime/plan/painters_order.h"
 #include "runtime/world/detail.h"
 #include "runtime/world/eye_event.h"
 #include "tests/support/boxes.h"
@@ -167,7 +168,7 @@ TEST(Cull, KeepsEveryTriangleWhoseFrontAnImagesDirectionMeets)
                 for (std::uint32_t k = 0; draw.image == i && k < draw.count; ++k)
                     for (std::uint32_t index = 0; index < draw.index_count; index += 3, ++drawn)
                         kept[list.visible[draw.first + k]][(draw.first_index - ball.first_index + index) / 3] = true;
-            for (int ray = 0; ray < 300; ++ray) {
+            for (int ray = 0; ray < 1500; ++ray) {
                 const glm::dvec2 at
                     = images[i].low + glm::dvec2(part(random), part(random)) * (images[i].high - images[i].low);
                 if (std::max(std::abs(at.x), std::abs(at.y)) < images[i].clip_hole)
@@ -199,6 +200,80 @@ TEST(Cull, KeepsEveryTriangleWhoseFrontAnImagesDirectionMeets)
         EXPECT_LT(
             double(drawn), (mirrored ? 0.5 : 0.3) * double(images.size() * world.instances.size() * ball.index_count / 3));
     }
+}
+
+// A ray from the eye that meets two boxes meets the one that is drawn first behind the other one.
+TEST(Cull, BlendedBoxesAreDrawnFromBehind)
+{
+    std::mt19937 random(4);
+    const auto any = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+    const auto any_way = [&] { return glm::normalize(glm::dvec3(any(-1, 1), any(-1, 1), any(-1, 1)) + 1e-9); };
+    using Box = DrawList::OrientedBox;
+    // The distances at which a ray from the origin enters and leaves a box.
+    const auto met = [](const Box& box, const glm::dvec3& way) {
+        glm::dvec2 range(0, 1e300);
+        for (const glm::dvec3& half : box.half) {
+            const double size = glm::length(half), at = glm::dot(box.centre, half) / size, rate = glm::dot(way, half) / size;
+            const double one = (at - size) / rate, other = (at + size) / rate;
+            range = {std::max(range.x, std::min(one, other)), std::min(range.y, std::max(one, other))};
+        }
+        return range;
+    };
+    long pairs = 0, wrong = 0, nearer_middle = 0;
+    for (int turn = 0; turn < 400; ++turn) {
+        // Panes and blocks in the cells of a grid, which are long and short. The eye is among them, in one, or outside.
+        const glm::dmat3 axes(glm::mat3_cast(glm::angleAxis(any(0, 6), any_way())));
+        const glm::dvec3 origin = any_way() * any(0, 3);
+        double middles[3][3], halves[3][3]; // by axis
+        for (int k = 0; k < 3; ++k) {
+            double at = -4;
+            for (int i = 0; i < 3; ++i) {
+                halves[k][i] = std::exp2(any(-4, 2));
+                middles[k][i] = at + halves[k][i];
+                at += 2 * halves[k][i];
+            }
+        }
+        DrawList list;
+        for (int cell = 0; cell < 27; ++cell) {
+            const int at[] = {cell % 3, cell / 3 % 3, cell / 9};
+            Box box{};
+            box.centre = origin;
+            const int flat = int(any(0, 4)); // 3: none is
+            for (int k = 0; k < 3; ++k) {
+                box.centre += axes[k] * middles[k][at[k]];
+                box.half[k] = axes[k] * (halves[k][at[k]] * (k == flat ? 0.001 : any(0.3, 1)));
+            }
+            list.boxes.push_back(box);
+        }
+        std::vector<Draw> draws;
+        for (std::uint32_t i = 0; i < list.boxes.size(); ++i) {
+            list.visible.push_back(i);
+            Draw draw{};
+            draw.first = i, draw.count = 1, draw.blended = true;
+            draws.push_back(draw);
+        }
+        std::shuffle(draws.begin(), draws.end(), random);
+        sort_from_behind(draws, list);
+        for (int ray = 0; ray < 1500; ++ray) {
+            const glm::dvec3 way = any_way();
+            double last = 1e300, last_middle = 1e300;
+            for (const Draw& draw : draws) {
+                const Box& box = list.boxes[draw.first];
+                const glm::dvec2 range = met(box, way);
+                if (range.x >= range.y)
+                    continue;
+                pairs += last < 1e300;
+                wrong += range.x > last + 1e-9;
+                nearer_middle += glm::length(box.centre) > last_middle;
+                last = range.x, last_middle = glm::length(box.centre);
+            }
+        }
+    }
+    EXPECT_GT(pairs, 10000);
+    EXPECT_GT(nearer_middle, 100) << "the order of the middles alone is not the right one";
+    // Neighbours are compared alone, and two boxes that no ray meets both have an order, too: that order can keep a third box from
+    // its place. Measured: 1 of 29,899.
+    EXPECT_LE(wrong, pairs / 10000) << "of " << pairs;
 }
 
 TEST(Detail, CoarserSurfacesStayWithinTheirError)

@@ -44,7 +44,7 @@ glm::dquat turn(int i)
     return glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
 }
 
-/// Calls check(plan, place in a tile, angle of the pixel in the world, image or null) for every pixel centre.
+/// Calls check(plan, place in a tile, angle of the pixel in the world, image or null) for every ray of every pixel.
 /// cockpit_axes: the cube map has the cockpit's axes, not the motion's.
 template <class Check>
 void each_pixel(const Case& c, double gamma, int turned, const Quality& quality, Check&& check, bool cockpit_axes = false)
@@ -74,13 +74,16 @@ void each_pixel(const Case& c, double gamma, int turned, const Quality& quality,
     };
     for (int y = 0; y < c.size.y; ++y)
         for (int x = 0; x < c.size.x; ++x) {
-            glm::dvec2 pixel(x + 0.5, y + 0.5);
-            auto n = direction(view.view.picture, pixel);
-            if (!n)
-                continue;
-            auto ray = physics::world_from_camera(motion_from_cockpit * *n, E, 1 / E);
-            TilePlace place = tile_of(cube_from_motion * ray.n, plan.finest_clip_level[0]);
-            check(plan, place, ray.D * pixel_angle(view.view.picture, pixel), image(place));
+            const glm::dvec2 pixel(x + 0.5, y + 0.5);
+            const int rays = quality.pixel_rays;
+            for (int i = 0; i < rays * rays; ++i) {
+                auto n = direction(view.view.picture, glm::dvec2(x, y) + (glm::dvec2(i % rays, i / rays) + 0.5) / double(rays));
+                if (!n)
+                    continue;
+                auto ray = physics::world_from_camera(motion_from_cockpit * *n, E, 1 / E);
+                TilePlace place = tile_of(cube_from_motion * ray.n, plan.finest_clip_level[0]);
+                check(plan, place, ray.D * pixel_angle(view.view.picture, pixel), image(place));
+            }
         }
 }
 
@@ -88,13 +91,13 @@ void each_pixel(const Case& c, double gamma, int turned, const Quality& quality,
 
 namespace {
 
-void expect_every_texel_drawn(const Case& c, std::span<const double> speeds, bool cockpit_axes)
+void expect_every_texel_drawn(const Case& c, std::span<const double> speeds, bool cockpit_axes, int rays = 1)
 {
     for (double gamma : speeds)
         for (int turned = 0; turned < (all_cases() ? 5 : 3); ++turned) {
             long missing = 0, outside = 0, pixels = 0;
             each_pixel(
-                c, gamma, turned, {.texels_per_pixel = 1, .max_texels_per_pixel = 6},
+                c, gamma, turned, {.texels_per_pixel = 1, .max_texels_per_pixel = 6, .pixel_rays = rays},
                 [&](const CubeMapPlan&, const TilePlace& place, double world_angle, const PlannedImage* image) {
                     ++pixels;
                     if (!image)
@@ -123,6 +126,9 @@ TEST(CubeMapPlan, EveryTexelThatAnyPixelReadsWasDrawn)
         expect_every_texel_drawn(c, gammas, false);
         expect_every_texel_drawn(c, std::span(slow_gammas).last(all_cases() ? 3 : 1), true);
     }
+    // One pixel's rays may be spread over the whole sky.
+    for (const Case& c : {cases[1], cases[4], cases[5]})
+        expect_every_texel_drawn(c, std::span(gammas).last(3), false, 3);
 }
 
 TEST(CubeMapPlan, ImagesLieApartInTheAtlas)
@@ -393,6 +399,27 @@ TEST(CubeMapPlan, IsReusedForRequestsThatItCovers)
     coarse.images[0].texels_per_unit *= 0.5;
     EXPECT_FALSE(can_reuse(coarse, plan));
     EXPECT_TRUE(can_reuse(plan, coarse));
+    // Each image must hold all that a wanted one holds: the extent on every side, the levels, what is not left out.
+    const auto lesser = [&](auto&& change) {
+        for (std::size_t i = 0; i < plan.images.size(); ++i) {
+            CubeMapPlan less = plan;
+            change(less.images[i]);
+            EXPECT_FALSE(can_reuse(less, plan)) << i;
+            EXPECT_TRUE(can_reuse(plan, less)) << i;
+        }
+    };
+    lesser([](PlannedImage& image) { image.low.x += 0.01; });
+    lesser([](PlannedImage& image) { image.low.y += 0.01; });
+    lesser([](PlannedImage& image) { image.high.x -= 0.01; });
+    lesser([](PlannedImage& image) { image.high.y -= 0.01; });
+    lesser([](PlannedImage& image) { image.clip_hole += 0.01; });
+    lesser([](PlannedImage& image) { --image.levels; });
+    lesser([](PlannedImage& image) { image.needed = false; });
+    lesser([](PlannedImage& image) { image.texels_per_unit *= 0.7; });
+    CubeMapPlan fewer = plan;
+    fewer.images.pop_back();
+    EXPECT_FALSE(can_reuse(fewer, plan));
+    EXPECT_TRUE(can_reuse(plan, fewer));
 }
 
 } // namespace plan_test

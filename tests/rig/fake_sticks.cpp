@@ -94,7 +94,10 @@ struct Stick {
     {
         // A pseudo-terminal stands in for the device: if one end closes, the other hangs up, as when a cable is pulled.
         char terminal[128];
-        openpty(&master, &slave, terminal, nullptr, nullptr);
+        if (openpty(&master, &slave, terminal, nullptr, nullptr) != 0) {
+            std::perror("fake_sticks: a pseudo-terminal (/dev/pts) is missing");
+            std::exit(2);
+        }
         termios raw;
         tcgetattr(slave, &raw);
         cfmakeraw(&raw);

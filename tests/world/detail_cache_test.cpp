@@ -88,7 +88,7 @@ TEST_F(DetailCacheTest, ADamagedFileIsMadeAnew)
     std::ifstream stream(file, std::ios::binary);
     const std::string whole((std::istreambuf_iterator<char>(stream)), {});
     std::mt19937 random(4);
-    for (int n = 0; n < (starbow::testing::all_cases() ? 60 : 18); ++n) {
+    for (int n = 0; n < (starbow::testing::all_cases() ? 60 : 9); ++n) {
         std::string damaged = whole;
         if (n % 3 == 0)
             damaged.resize(random() % whole.size());

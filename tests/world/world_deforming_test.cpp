@@ -114,6 +114,11 @@ TEST_F(WorldDeforming, WeightsOfMorphTargetsChange)
     EXPECT_LT(glm::distance(at(5, 2), dvec3(7, 2.5, 0)), 1e-6);
     EXPECT_LT(glm::distance(at(14, 2), dvec3(7, 1 + 0.6 * 3, 0)), 1e-6);
     EXPECT_LT(glm::distance(at(34, 2), at(14, 2)), 1e-9);
+    const auto normal_at = [&](double time, std::uint32_t corner) {
+        Shape shape(world, world.instances[0], time);
+        return shape.vertex(std::uint32_t(world.primitives[world.instances[0].primitive].vertex_offset) + corner).normal;
+    };
+    const dvec3 normal = normal_at(5, 0);
     world = load(morphed("STEP"));
     EXPECT_LT(glm::distance(at(9, 2), dvec3(7, 1, 0)), 1e-6);
     EXPECT_LT(glm::distance(at(11, 2), dvec3(7, 4, 0)), 1e-6);
@@ -131,6 +136,8 @@ TEST_F(WorldDeforming, WeightsOfMorphTargetsChange)
     EXPECT_EQ(world.deformations[0].weights.size(), 2u);
     EXPECT_LT(glm::distance(at(5, 2), dvec3(7, 1 + 1.5 * 3, 0)), 1e-6);
     EXPECT_LT(glm::distance(at(5, 1), dvec3(5, 1.5, 0)), 1e-6);
+    EXPECT_GT(std::hypot(normal.y, normal.z), 0.1);
+    EXPECT_LT(glm::distance(normal_at(5, 0), dvec3(-normal.x, normal.y, normal.z)), 1e-6) << "seen in a mirror";
 }
 
 TEST_F(WorldDeforming, NoVertexIsOutsideTheWindow)

@@ -45,6 +45,22 @@ TEST_F(WorldMaterialTest, BaseColourAndTextureAreRead)
     EXPECT_EQ(world.vertices[1].uv, glm::vec2(1, 0));
 }
 
+TEST(ShrinkTest, LightIsAveragedAsLightAndNumbersAsNumbers)
+{
+    // Black beside white is half of all light, which sRGB stores as 188. 100 and 200 are 0.1274 and 0.5776 of white, their
+    // mean 0.3525 is stored as 160.
+    const Bytes rgba{0, 255, 100, 255, 255, 255, 200, 55};
+    const Pixels four{rgba.data(), {2, 1}, 4};
+    EXPECT_EQ(shrunk(four, {1, 1}, false), (Bytes{188, 255, 160, 155}));
+    EXPECT_EQ(shrunk(four, {1, 1}, true), (Bytes{128, 255, 150, 155}));
+    // Grey, grey with a cover, and colours without one.
+    const Bytes grey{100, 200}, covered{100, 0, 200, 200}, colours{0, 255, 100, 255, 255, 200};
+    EXPECT_EQ(shrunk({grey.data(), {1, 2}, 1}, {1, 1}, true), (Bytes{150, 150, 150, 255}));
+    EXPECT_EQ(shrunk({grey.data(), {1, 2}, 1}, {1, 1}, false), (Bytes{160, 160, 160, 255}));
+    EXPECT_EQ(shrunk({covered.data(), {1, 2}, 2}, {1, 1}, true), (Bytes{150, 150, 150, 100}));
+    EXPECT_EQ(shrunk({colours.data(), {2, 1}, 3}, {1, 1}, true), (Bytes{128, 255, 150, 255}));
+}
+
 TEST_F(WorldMaterialTest, ImagesComeFromBufferViewsAndFiles)
 {
     Doc doc = painted(textured);
