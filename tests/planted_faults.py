@@ -18,10 +18,12 @@ all of tests/ROOM, then all the others (not with --own-room). A fault is
 The results are a JSON file; a fault that has one there is not tried again unless --again is given. Exit status 1 if a fault
 survived or is stale."""
 import argparse
+import fcntl
 import fnmatch
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -89,7 +91,7 @@ FAULTS = [
     ("plan", "runtime/plan/cube_map_plan.cpp", '&& same->levels >= image.levels && same->needed', '&& same->needed', "CubeMapPlan.*"),
     ("plan", "runtime/plan/demand.cpp", 'radius < 1.57 ? std::sin(radius)', 'radius < 3.14 ? std::sin(radius)', "CubeMapPlan.*"),
     ("plan", "runtime/plan/lit_pixels.cpp", 'lit = away + reach <= lit_angle;', 'lit = away <= lit_angle;', "LitPixels.*"),
-    ("plan", "runtime/plan/painters_order.cpp", 'return face <= 0 ? 1 : -1;', 'return face < 0 ? 1 : -1;', "Cull.*"),
+    ("plan", "runtime/plan/painters_order.cpp", 'return side < 0;', 'return side > 0;', "Cull.*"),
 
     ("flight", "runtime/flight/boundary.cpp", 'glm::length(from) > edge * boundary.radius && glm::dot',
      'glm::length(from) > boundary.radius && glm::dot', "BoundaryTest.*"),
@@ -249,6 +251,8 @@ def main():
     parser.add_argument("--copy", metavar="FOLDER", help="the copy of the tree, kept; made if it is not there")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="compilers at once (one for each core)")
     given = parser.parse_args()
+    for end in (signal.SIGINT, signal.SIGTERM):  # both also where it runs in the background: the fault is taken back
+        signal.signal(end, lambda number, frame: sys.exit("interrupted"))
     chosen = [n for n, fault in enumerate(FAULTS) if (not given.only or n in given.only) and (not given.room or fault[0] == given.room)]
     if given.list:
         for n in chosen:
@@ -274,6 +278,15 @@ def main():
         if left:
             if made:
                 subprocess.run(["git", "-C", root, "worktree", "add", "--quiet", "--force", "--detach", folder, "HEAD"], check=True)
+            # Two runs would plant their faults in each other's builds.
+            lock = open(os.path.join(folder, ".git"), encoding="utf-8")
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                sys.exit("another run uses the copy in %s" % folder)
+            if not made:  # it may be of an older commit, and hold the fault of a run that was killed
+                head = subprocess.run(["git", "-C", root, "rev-parse", "HEAD"], check=True, capture_output=True, text=True).stdout.strip()
+                subprocess.run(["git", "-C", folder, "checkout", "--quiet", "--force", "--detach", head], check=True)
             copy = Copy(folder, given.jobs)
             print("Building the copy in %s" % folder, flush=True)
             problem = copy.build()
