@@ -70,6 +70,23 @@ TEST(Challenges, TheClockThatAlmostStandsStill)
     EXPECT_NEAR(finding.found, std::sqrt((1 - beta) / (1 + beta)), 1e-3);
 }
 
+TEST(Challenges, TheFirstLineThatSolvesOneStays)
+{
+    LabFlight lab("avenue", "start");
+    lab.log();
+    lab.faster(0.115);
+    lab.wait(4);
+    for (int i = 0; i < 3; ++i)
+        lab.log();
+    std::vector<LabLine> lines = lab.lines();
+    ASSERT_EQ(lines.size(), 4u);
+    const auto look = [&] { return named("red-to-green").look(lines).value_or(Finding{}); };
+    EXPECT_TRUE(look().solved);
+    EXPECT_EQ(look().line, 3u) << "line 1 names the columns, and line 2 is at rest";
+    std::reverse(lines.begin() + 1, lines.end());
+    EXPECT_EQ(look().line, 5u) << "the first one of the list, whichever is nearest";
+}
+
 TEST(Challenges, ItsOwnColourInFlight)
 {
     LabFlight lab("avenue", "avenue-gamma4");

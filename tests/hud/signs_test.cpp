@@ -60,6 +60,17 @@ TEST(Signs, NothingIsSaidThatIsNotSo)
     EXPECT_FALSE(sign(shot, behind)) << "the visitor looks back";
 }
 
+// cos 92 degrees is -0.035 and cos 94 degrees -0.070, on this and on that side of a twentieth behind abeam.
+TEST(Signs, AbeamIsNotBehindAtAnySpeed)
+{
+    for (const double E : {7.0, 10.0, 30.0})
+        for (const double degrees : {92.0, 94.0}) {
+            const double world = glm::radians(degrees);
+            const glm::dvec3 middle = 10.0 * glm::dvec3(std::sin(world), 0, -std::cos(world));
+            EXPECT_EQ(sign(ahead_at(E), {box_at(middle, E / 10)}).has_value(), degrees > 93) << E << ' ' << degrees;
+        }
+}
+
 TEST(Signs, AThingInTheDarkHasNoSign)
 {
     // Seen at 20 degrees: at E = 100 its D is 0.33 where straight ahead it is 100, and 3.6e-8 of the light is left.

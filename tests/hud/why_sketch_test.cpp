@@ -1,6 +1,7 @@
 // The sketches of the pages that explain the picture are computed: their angles, crests and lengths obey the formulas.
 #include "runtime/hud/hud.h"
 #include "runtime/hud/why_sketch.h"
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -48,6 +49,30 @@ TEST(WhySketch, CrestsAreAsFarApartAsTheyArrive)
         ++checked;
     }
     EXPECT_GT(checked, 40);
+}
+
+TEST(WhySketch, CrestsMoveToTheShip)
+{
+    // A twentieth of a second later each crest is nearer by the way of light, 0.35 of the square's half side in a second.
+    constexpr double begin_s = 1.3, step_s = 0.05, way = 0.35 * step_s;
+    const auto crests = [](double t_s) {
+        std::vector<glm::dvec2> middles;
+        for (const Stroke& s : why_sketch(Why::doppler, 0.4, t_s))
+            if (std::abs(length(s) - 0.1) < 1e-9)
+                middles.push_back(0.5 * (s.from + s.to));
+        return middles;
+    };
+    const std::vector<glm::dvec2> later = crests(begin_s + step_s);
+    int found = 0;
+    for (const glm::dvec2& crest : crests(begin_s)) {
+        const glm::dvec2 nearer = crest * (1 - way / glm::length(crest));
+        if (glm::length(nearer) < 0.21) // it arrives
+            continue;
+        EXPECT_TRUE(std::any_of(later.begin(), later.end(), [&](const glm::dvec2& one) { return glm::distance(one, nearer) < 1e-9; }))
+            << crest.x << ' ' << crest.y;
+        ++found;
+    }
+    EXPECT_GT(found, 40);
 }
 
 TEST(WhySketch, AThingIsSeenWhereItsLightLeft)
