@@ -297,6 +297,7 @@ void main()
     if (!UNLIT) {
         vec3 n = normalize(gl_FrontFacing ? normal : -normal);
         float daylight = SHADOWS == 0 ? 1.0 : ambient_part(place, n);
+        vec3 above = push.surface.y * n; // to a place that is on the lit side of the full surface, or on it
 #ifdef MAPPED
         Glossy at = glossy_at(place, n, gl_FrontFacing);
         at.occlusion *= daylight;
@@ -312,7 +313,7 @@ void main()
         for (int i = 0; i < LIGHTS; ++i) {
             float lit = 1.0;
             if ((SHADOWS & 1 << i) != 0)
-                lit = (SHADOWS & 256 << i) != 0 ? reached_from_near(cube.shadows[i], place) : reached_from_afar(cube.shadows[i], place);
+                lit = (SHADOWS & 256 << i) != 0 ? reached_from_near(cube.shadows[i], place, above) : reached_from_afar(cube.shadows[i], place, above);
             add_lamp(coefficients, light, cube.lights[int(cube.first.w) + i], at, base.rgb, lit);
         }
     }

@@ -133,5 +133,5 @@ void main()
     out_colour = colour * push.base_colour;
     if (CLOCK || FINITE_EXISTENCE || BLINK)
         out_instance = visible[gl_InstanceIndex];
-    gl_Position = vec4(dot(push.clip_row0, place), dot(push.clip_row1, place), dot(push.clip_row2, place), dot(push.clip_row3, place));
+    gl_Position = vec4(dot(push.clip_x, place), dot(push.clip_y, place), push.surface.x, dot(push.clip_w, place));
 }

@@ -13,7 +13,8 @@ float reached(ShadowEntry map, vec2 at, vec2 part, float layer, vec4 depths)
 }
 
 // The same of nine texels around, by a quadratic B-spline, about as wide as the Sun's own blur. depth: the surface's own at
-// the place; slope: its change per texel.
+// the place; slope: its change per texel. A ground that is far larger than the things on it lies beyond the maps' depth, and
+// has the number 0 there, whatever its slope.
 float reached_smoothly(ShadowEntry map, vec2 at, float layer, float depth, vec2 slope)
 {
     vec2 middle = floor(at) + 0.5, off = at - middle;
@@ -25,7 +26,7 @@ float reached_smoothly(ShadowEntry map, vec2 at, float layer, float depth, vec2 
         vec2 first = 2.0 * corner - 1.0 - off; // from the place to the block's lowest texel
         vec4 x = first.x + vec4(0.0, 1.0, 1.0, 0.0), y = first.y + vec4(1.0, 1.0, 0.0, 0.0);
         vec2 a = (k & 1) == 0 ? vec2(low.x, here.x) : vec2(high.x, 0.0), b = k < 2 ? vec2(low.y, here.y) : vec2(high.y, 0.0);
-        lit += dot(a.xyyx * b.yyxx, vec4(lessThanEqual(nearest, depth + slope.x * x + slope.y * y)));
+        lit += dot(a.xyyx * b.yyxx, vec4(lessThanEqual(nearest, max(depth + slope.x * x + slope.y * y, 0.0) + map.map.w)));
     }
     return lit;
 }
@@ -33,10 +34,12 @@ float reached_smoothly(ShadowEntry map, vec2 at, float layer, float depth, vec2 
 vec3 rows(vec4 u, vec4 v, vec4 w, vec3 at) { return vec3(dot(u.xyz, at), dot(v.xyz, at), dot(w.xyz, at)); }
 
 // The part of a directional lamp's light that reaches a place. The triangle's own plane tells the depth at each texel, so that
-// it does not shade itself and yet is shaded by things that touch it.
-float reached_from_afar(ShadowEntry map, vec3 place)
+// it does not shade itself and yet is shaded by things that touch it. The maps hold the full surface; above: from the drawn one
+// to its lit side.
+float reached_from_afar(ShadowEntry map, vec3 place, vec3 above)
 {
     vec3 from_eye = rows(map.u, map.v, map.depth, place), at = from_eye + vec3(map.u.w, map.v.w, map.depth.w);
+    at += rows(map.u, map.v, map.depth, above);
     vec3 x = dFdx(from_eye), y = dFdy(from_eye); // without the offset, beside which near steps would be rounded away
     float area = x.x * y.y - x.y * y.x;
     vec2 slope = vec2(x.z * y.y - y.z * x.y, y.z * x.x - x.z * y.x) / (abs(area) > 0.0 ? area : 1e-30);
@@ -46,8 +49,7 @@ float reached_from_afar(ShadowEntry map, vec3 place)
     vec4 scale = fine ? vec4(1.0, 1.0, 0.0, 0.0) : map.coarse;
     vec2 texel = at.xy * scale.xy + scale.zw;
     slope /= scale.xy;
-    // A ground that is far larger than the things on it lies beyond the maps' depth, and has the number 0 there.
-    float lit = reached_smoothly(map, texel, map.map.x + (fine ? 0.0 : 1.0), max(at.z, 0.0) + map.map.w, slope);
+    float lit = reached_smoothly(map, texel, map.map.x + (fine ? 0.0 : 1.0), at.z, slope);
     return all(lessThan(abs(texel - half_), vec2(half_))) ? lit : 1.0;
 }
 
@@ -58,9 +60,10 @@ vec3 cube_direction(vec2 side, bool x, bool y, float sign_)
 }
 
 // The same for a resting point lamp.
-float reached_from_near(ShadowEntry map, vec3 place)
+float reached_from_near(ShadowEntry map, vec3 place, vec3 above)
 {
     vec3 from_eye = rows(map.u, map.v, map.depth, place), way = from_eye + vec3(map.u.w, map.v.w, map.depth.w);
+    way += rows(map.u, map.v, map.depth, above);
     vec3 facet = cross(dFdx(from_eye), dFdy(from_eye)), size = abs(way);
     bool x = size.x >= size.y && size.x >= size.z, y = !x && size.y >= size.z;
     float along = x ? way.x : y ? way.y : way.z, sign_ = along < 0.0 ? -1.0 : 1.0;
@@ -70,7 +73,8 @@ float reached_from_near(ShadowEntry map, vec3 place)
     facet *= sign(to_plane);
     vec4 depths;
     for (int k = 0; k < 4; ++k) {
-        vec2 middle = 2.0 * (first + vec2(k == 1 || k == 2, k < 2)) * map.map.y - 1.0;
+        // At the face's border the nearest texel is read.
+        vec2 middle = clamp(2.0 * (first + vec2(k == 1 || k == 2, k < 2)) * map.map.y - 1.0, map.map.y - 1.0, 1.0 - map.map.y);
         float cosine = dot(facet, normalize(cube_direction(middle, x, y, sign_)));
         float there = cosine > 0.0 ? min(abs(to_plane) / cosine, 2.0 * distance_) : distance_;
         depths[k] = max(there * map.coarse.x + map.coarse.y, 0.0) + map.map.w;

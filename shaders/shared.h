@@ -156,7 +156,10 @@ struct TimeEntry {
 
 // Push constants of the cube pass.
 struct CubePush {
-    vec4 clip_row0, clip_row1, clip_row2, clip_row3; // rows of clip_from_cube
+    vec4 clip_x, clip_y, clip_w; // rows of clip_from_cube. In the sky: the directions of the image's low corner, and from
+                                 // there to its other two
+    vec4 surface; // x: z in clip space of all vertices, as z is reversed and the far plane infinite; y: how far
+                  // the drawn surface may lie below the full one, scene units
     vec4 base_colour;
     vec4 emissive; // pre-exposed; w: alpha cut-off
     vec4 beyond; // reflectance in the ultraviolet and the infrared, below 0: the colour's mean; z: index of the matrices;

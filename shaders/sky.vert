@@ -9,6 +9,6 @@ layout(location = 0) out vec3 way;
 void main()
 {
     vec2 corner = vec2(gl_VertexIndex == 1 ? 2.0 : 0.0, gl_VertexIndex == 2 ? 2.0 : 0.0);
-    way = push.clip_row0.xyz + corner.x * push.clip_row1.xyz + corner.y * push.clip_row2.xyz;
+    way = push.clip_x.xyz + corner.x * push.clip_y.xyz + corner.y * push.clip_w.xyz;
     gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
 }

@@ -340,6 +340,7 @@ void add_piece_draws(const World& world, const Primitive& primitive, const Insta
             continue;
         const DetailLevel& level = piece.triangles;
         draw.first_index = level.first_index, draw.index_count = level.index_count, draw.farthest = own.farthest;
+        draw.apart = piece.own.apart * own.scale;
         if (moves || level.clusters.count == 0)
             draws.push_back(draw);
         else
@@ -397,12 +398,14 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
                 // Nearest first, so that hidden instances fail the depth test before they are shaded.
                 std::sort(seen.begin(), seen.end(), [&](auto a, auto b) { return boxes[a].distance < boxes[b].distance; });
                 const DetailLevel detail = level == 0
-                    ? DetailLevel{primitive.first_index, primitive.index_count, 0, 0, primitive.clusters}
+                    ? DetailLevel{primitive.first_index, primitive.index_count, 0, 0, 0, primitive.clusters}
                     : primitive.coarser[level - 1];
                 Draw draw{i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()), detail.first_index,
                     detail.index_count, kind.first, kind.second, primitive.deforming >= 0};
                 list.visible.insert(list.visible.end(), seen.begin(), seen.end());
                 draw.farthest = boxes[seen.front()].farthest;
+                for (std::uint32_t own : seen)
+                    draw.apart = std::max(draw.apart, detail.apart * boxes[own].scale);
                 if (world.materials[std::size_t(primitive.material)].blended) {
                     draw.blended = true, draw.count = 1;
                     for (std::size_t k = 0; k < seen.size(); ++k, ++draw.first) {

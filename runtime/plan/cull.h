@@ -14,6 +14,7 @@ struct Draw {
     bool deforms = false;
     bool blended = false; ///< one instance of a blended surface
     double farthest = 0; ///< from the eye to the box of its first instance, or of its piece, at most
+    double apart = 0; ///< of its instances' full surfaces from the drawn ones, at most; scene units
 };
 
 /// The draws of one eye's cube pass.

@@ -123,8 +123,9 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
         glm::dmat4 clip = clip_from_cube(image, near_distance);
         clip[2] *= contractions_[std::size_t(image.rest_frame)];
         clip = glm::scale(glm::dmat4(1), glm::dvec3(1 / guard_of(image), 1 / guard_of(image), 1)) * clip;
-        shared::CubePush push{
-            shared::row(clip, 0), shared::row(clip, 1), shared::row(clip, 2), shared::row(clip, 3), {}, {}, {}, {}};
+        shared::CubePush push{};
+        push.clip_x = shared::row(clip, 0), push.clip_y = shared::row(clip, 1), push.clip_w = shared::row(clip, 3);
+        push.surface.x = near_distance;
         // A mirrored pair of face axes turns a surface's front round.
         glm::dvec3 a = face_direction(image.face, {1, 0}) - face_direction(image.face, {0, 0});
         glm::dvec3 b = face_direction(image.face, {0, 1}) - face_direction(image.face, {0, 0});
@@ -147,9 +148,18 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
             if (pipeline != bound)
                 commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
         };
-        const auto put_material = [&](int index) {
-            if (index == material)
+        const auto push_constants = [&] {
+            commands.pushConstants<shared::CubePush>(*pipelines_.layouts.surface_layout, stages, 0, push);
+        };
+        // The material of a draw's surface, and its distance from the full surface.
+        const auto put_surface = [&](const Draw& one) {
+            const int index = world.primitives[one.primitive].material;
+            const float apart = float(one.apart);
+            if (index == material && apart == push.surface.y)
                 return;
+            push.surface.y = apart;
+            if (index == material)
+                return push_constants();
             material = index;
             const Material& m = world.materials[material];
             commands.bindDescriptorSets(
@@ -160,7 +170,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
             push.emissive = glm::vec4(m.emissive * float(surface.emission * pre_exposure_), m.alpha_cutoff);
             push.beyond = surface.beyond;
             push.own = glm::vec4(surface.own * pre_exposure_);
-            commands.pushConstants<shared::CubePush>(*pipelines_.layouts.surface_layout, stages, 0, push);
+            push_constants();
         };
         const auto draw_one = [&](const Draw& one) {
             commands.drawIndexed(
@@ -168,7 +178,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
         };
         for (; draw != list_.draws.end() && draw->image == i && !draw->blended; ++draw) {
             bind(pipelines_.surface(variant_of(*draw, use_.light), kind));
-            put_material(world.primitives[draw->primitive].material);
+            put_surface(*draw);
             draw_one(*draw);
         }
         const shared::CubePush surfaces_push = push;
@@ -179,10 +189,10 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
             commands.bindDescriptorSets(
                 vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.surface_layout, 1, *world_.materials.back(), {});
             glm::dvec3 origin = face_direction(image.face, image.low);
-            push.clip_row0 = glm::vec4(origin, 0);
-            push.clip_row1 = glm::vec4(a * (image.high.x - image.low.x), 0);
-            push.clip_row2 = glm::vec4(b * (image.high.y - image.low.y), 0);
-            commands.pushConstants<shared::CubePush>(*pipelines_.layouts.surface_layout, stages, 0, push);
+            push.clip_x = glm::vec4(origin, 0);
+            push.clip_y = glm::vec4(a * (image.high.x - image.low.x), 0);
+            push.clip_w = glm::vec4(b * (image.high.y - image.low.y), 0);
+            push_constants();
             commands.draw(3, 1, 0, 0);
             push = surfaces_push, material = -1;
             set_guarded_area(commands, image);
@@ -191,7 +201,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
         // their backs.
         for (; draw != list_.draws.end() && draw->image == i; ++draw) {
             SurfaceVariant variant = variant_of(*draw, use_.light);
-            put_material(world.primitives[draw->primitive].material);
+            put_surface(*draw);
             const bool both = world.materials[std::size_t(material)].double_sided;
             for (const vk::CullModeFlagBits culled : {vk::CullModeFlagBits::eFront, vk::CullModeFlagBits::eBack}) {
                 if (culled == vk::CullModeFlagBits::eFront && !both)

@@ -13,7 +13,7 @@ namespace starbow {
 namespace {
 
 /// Another way of making levels has another number.
-constexpr std::uint64_t version = 2;
+constexpr std::uint64_t version = 3;
 
 struct Header {
     char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'D'};
@@ -27,7 +27,7 @@ struct KeptPrimitive {
     std::uint32_t levels, first_cluster, clusters, first_piece, pieces;
 };
 struct KeptGroup {
-    double low[3], high[3], error, shading;
+    double low[3], high[3], error, shading, apart;
 };
 struct KeptPiece {
     double low[3], high[3];
@@ -35,11 +35,11 @@ struct KeptPiece {
     KeptGroup own, coarser;
 };
 struct KeptLevel {
-    double error, shading;
+    double error, shading, apart;
     std::uint32_t first_index, indices, first_cluster, clusters;
 };
 static_assert(
-    std::has_unique_object_representations_v<KeptPrimitive> && sizeof(KeptLevel) == 32 && sizeof(KeptPiece) == 192);
+    std::has_unique_object_representations_v<KeptPrimitive> && sizeof(KeptLevel) == 40 && sizeof(KeptPiece) == 208);
 static_assert(std::is_trivially_copyable_v<Cluster> && sizeof(Cluster) == 40);
 
 template <class T> std::span<const unsigned char> bytes_of(const std::vector<T>& values)
@@ -122,14 +122,15 @@ void take(Kept&& kept, World& world)
         for (std::uint32_t k = 0; k < from.levels; ++k) {
             const KeptLevel& level = kept.levels[next++];
             primitive.coarser.push_back(
-                {level.first_index, level.indices, level.error, level.shading, {level.first_cluster, level.clusters}});
+                {level.first_index, level.indices, level.error, level.shading, level.apart, {level.first_cluster, level.clusters}});
         }
     }
     const auto vec = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
-    const auto group = [&](const KeptGroup& g) { return PieceGroup{vec(g.low), vec(g.high), g.error, g.shading}; };
+    const auto group = [&](const KeptGroup& g) { return PieceGroup{vec(g.low), vec(g.high), g.error, g.shading, g.apart}; };
     for (const KeptPiece& from : kept.pieces)
         world.pieces.push_back({vec(from.low), vec(from.high),
-            {from.first_index, from.indices, from.own.error, from.own.shading, {from.first_cluster, from.clusters}},
+            {from.first_index, from.indices, from.own.error, from.own.shading, from.own.apart,
+                {from.first_cluster, from.clusters}},
             group(from.own), group(from.coarser)});
 }
 
@@ -137,14 +138,14 @@ Kept kept_of(const World& world)
 {
     Kept kept;
     const auto group = [](const PieceGroup& g) {
-        return KeptGroup{{g.low.x, g.low.y, g.low.z}, {g.high.x, g.high.y, g.high.z}, g.error, g.shading};
+        return KeptGroup{{g.low.x, g.low.y, g.low.z}, {g.high.x, g.high.y, g.high.z}, g.error, g.shading, g.apart};
     };
     for (const Primitive& primitive : world.primitives) {
         kept.primitives.push_back({std::uint32_t(primitive.coarser.size()), primitive.clusters.first,
             primitive.clusters.count, primitive.pieces.first, primitive.pieces.count});
         for (const DetailLevel& level : primitive.coarser)
-            kept.levels.push_back({level.error, level.shading, level.first_index, level.index_count, level.clusters.first,
-                level.clusters.count});
+            kept.levels.push_back({level.error, level.shading, level.apart, level.first_index, level.index_count,
+                level.clusters.first, level.clusters.count});
     }
     for (const DetailPiece& piece : world.pieces) {
         const DetailLevel& level = piece.triangles;

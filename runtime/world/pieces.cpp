@@ -112,11 +112,13 @@ void simplify(const World& world, const Primitive& primitive, bool whole, Group&
         group.made.high = glm::max(group.made.high, piece.own.high);
         group.made.error = std::max(group.made.error, piece.own.error);
         group.made.shading = std::max(group.made.shading, piece.own.shading);
+        group.made.apart = std::max(group.made.apart, piece.own.apart);
     }
-    Simplifier simplifier(world, primitive, corners, !whole, group.made.error, group.made.shading);
+    Simplifier simplifier(world, primitive, corners, !whole, group.made);
     if (!simplifier.coherent() || !simplifier.halve())
         return;
-    group.made.error = simplifier.level().error, group.made.shading = simplifier.level().shading;
+    const DetailLevel& level = simplifier.level();
+    group.made.error = level.error, group.made.shading = level.shading, group.made.apart = level.apart;
     group.parts = parts_of(world, primitive, simplifier.corners(), piece_triangles);
 }
 
@@ -124,8 +126,9 @@ void simplify(const World& world, const Primitive& primitive, bool whole, Group&
 void add_piece(World& world, const Part& part, std::uint32_t first_index, const PieceGroup& own)
 {
     constexpr double never = std::numeric_limits<double>::infinity();
-    world.pieces.push_back({part.low, part.high, {first_index, std::uint32_t(part.corners.size()), own.error, own.shading},
-        own, {own.low, own.high, never, never}});
+    world.pieces.push_back({part.low, part.high,
+        {first_index, std::uint32_t(part.corners.size()), own.error, own.shading, own.apart}, own,
+        {own.low, own.high, never, never, never}});
 }
 
 } // namespace

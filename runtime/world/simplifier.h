@@ -18,9 +18,9 @@ CompactSurface compact(const World& world, const Primitive& primitive, std::span
 class Simplifier {
 public:
     /// from: the corners of the surface to begin with, from the primitive's vertex_offset. locked: its border stays as it
-    /// is. error, shading: those of the beginning, which is itself a level of a finer surface.
+    /// is. errors: those of the beginning, which is itself a level of a finer surface.
     Simplifier(const World& world, const Primitive& primitive, std::span<const std::uint32_t> from, bool locked = false,
-        double error = 0, double shading = 0);
+        const PieceGroup& errors = {});
 
     /// False for a cloud of small things (stars, leaves), which can't be simplified: each of them would shrink or vanish.
     bool coherent() const;
@@ -37,7 +37,7 @@ private:
     std::vector<Vertex> first_; ///< the beginning's
     bool locked_;
     DetailLevel level_;
-    double first_shading_;
+    double first_shading_, first_apart_;
 };
 
 } // namespace starbow

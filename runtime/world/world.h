@@ -133,15 +133,16 @@ struct ClusterRange {
 /// The same surface in fewer triangles.
 struct DetailLevel {
     std::uint32_t first_index, index_count;
-    double error; ///< greatest distance from the full surface, local units
+    double error; ///< distance from the full surface, local units; a mean over planes, which decides how far away it is used
     double shading = 0; ///< width over which its shading differs, local units; less where it differs little
+    double apart = 0; ///< greatest distance of the full surface from it, local units: how deep it may lie below that surface
     ClusterRange clusters{}; ///< in the order of the indices
 };
 
 /// A box and the errors of the surfaces made for it: the same in all pieces that were made together.
 struct PieceGroup {
     glm::dvec3 low{0}, high{0}; ///< local units; around those of the groups of which it was made
-    double error = 0, shading = 0; ///< as DetailLevel's; infinite where nothing coarser was made
+    double error = 0, shading = 0, apart = 0; ///< as DetailLevel's; infinite where nothing coarser was made
 };
 
 /// A part of a large surface at some level. It is drawn where its own group is fine enough and the coarser one, into which

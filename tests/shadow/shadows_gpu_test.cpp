@@ -2,7 +2,6 @@
 #include "runtime/images/picture_errors.h"
 #include "runtime/reference/reference.h"
 #include "runtime/render/render_context.h"
-#include "runtime/shadow/add_shadows.h"
 #include "runtime/world/shadows.h"
 #include "tests/support/small_world.h"
 
@@ -11,18 +10,6 @@ namespace {
 
 const Json sun = {{"type", "directional"}, {"towards", {1, 1, 0}}, {"radiance", {0.6, 0.6, 0.6}}};
 const Json matt = {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}};
-
-GpuWorld shaded_world(const std::string& name, const Doc& doc, Json scene)
-{
-    testing::write_text(name + ".gltf", doc.text());
-    scene["gltf"] = name + ".gltf";
-    scene["unit_m"] = 299792458;
-    scene["shadows"] = true;
-    const SceneFile file = load_scene_file(testing::write_text(name + ".json", scene.dump()));
-    World world = load_world(file);
-    add_shadows(world, file);
-    return upload(device(), pipelines(), std::move(world), file);
-}
 
 /// A white ground of 20 by 20, and above it a roof of 2 by 2 at height 2.
 Doc roofed()

@@ -1,4 +1,5 @@
 #include "small_world.h"
+#include "runtime/shadow/add_shadows.h"
 #include "runtime/world/detail.h"
 
 namespace starbow::gpu_test {
@@ -65,12 +66,20 @@ GpuWorld open_world(const std::string& name, const Doc& doc, Json scene)
 {
     testing::write_text(name + ".gltf", doc.text());
     scene["gltf"] = name + ".gltf";
-    scene["unit_m"] = 1;
+    scene.emplace("unit_m", 1);
     const SceneFile file = load_scene_file(testing::write_text(name + ".json", scene.dump()));
     World world = load_world(file);
     add_detail_levels(world);
+    add_shadows(world, file);
     return upload(
         device(), pipelines(), std::move(world), file, file.stars ? stars_in_depth(*file.stars) : std::vector<Star>());
+}
+
+GpuWorld shaded_world(const std::string& name, const Doc& doc, Json scene)
+{
+    scene["unit_m"] = 299792458;
+    scene["shadows"] = true;
+    return open_world(name, doc, std::move(scene));
 }
 
 const Json smooth_sky = {{"zenith", {0.25, 0.45, 0.80}}, {"horizon", {0.70, 0.60, 0.40}}, {"nadir", {0.30, 0.20, 0.55}}};

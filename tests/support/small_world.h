@@ -26,8 +26,10 @@ dvec3 direction_of(const Numbers& numbers, int colour);
 Json numbers_of(const dvec3& v);
 Json velocity_of(const dvec3& u);
 
-/// Opens a scene file and its glTF as `starbow` does. One unit is a metre.
+/// Opens a scene file and its glTF as `starbow` does. One unit is a metre, if the scene does not say.
 GpuWorld open_world(const std::string& name, const Doc& doc, Json scene = Json::object());
+/// The same with shadows. One unit is a light-second.
+GpuWorld shaded_world(const std::string& name, const Doc& doc, Json scene);
 
 extern const Json smooth_sky;
 

@@ -29,6 +29,7 @@ void expect_equal(const World& a, const World& b)
             ASSERT_EQ(level.index_count, same.index_count);
             ASSERT_EQ(level.error, same.error);
             ASSERT_EQ(level.shading, same.shading);
+            ASSERT_EQ(level.apart, same.apart);
             ASSERT_EQ(level.clusters.first, same.clusters.first);
             ASSERT_EQ(level.clusters.count, same.clusters.count);
         }
