@@ -257,9 +257,15 @@ void add_reflected(inout vec4 coefficients[MAX_GROUPS + 1], vec3 light[KEPT], ve
 
 void write(vec4 coefficients[MAX_GROUPS + 1], float alpha)
 {
-    // 60000 is below fp16's greatest number: a light very close to a surface must not become infinite.
+    // 60000 is below fp16's greatest number: a light very close to a surface must not become infinite, nor change its colour.
+    float most = 60000.0;
+    for (int group = 0; group < GROUPS; ++group) {
+        coefficients[group] = clamp(coefficients[group], vec4(-1e30), vec4(1e30));
+        vec4 size = abs(coefficients[group]);
+        most = max(most, max(max(size.x, size.y), max(size.z, size.w)));
+    }
     for (int group = 0; group < GROUPS; ++group)
-        coefficients[group] = clamp(coefficients[group], vec4(-60000.0), vec4(60000.0));
+        coefficients[group] *= 60000.0 / most;
     if (SEVERAL_REST_FRAMES) // a texel's samples are averaged: its coverage, and the sum of its depths
         coefficients[GROUPS] = vec4(1.0, gl_FragCoord.z, 0.0, 0.0);
     for (int group = 0; group < MAX_GROUPS + 1 && BLENDED > 0; ++group)

@@ -118,9 +118,30 @@ void note_large_images(const GpuWorld& gpu, World& world)
     }
 }
 
-/// The greatest radiance that a surface of this world can send, before any lamp comes closer than its distance.
+/// The light of a highlight, or near a lamp, that counts in the range of stored light: over that of a matt surface at the lamp's
+/// distance. Of what is brighter the size is cut, and not the colour.
+constexpr double most_highlight = 1024;
+
+/// The greatest light that a surface reflects, over a white matt one's that faces the lamp. Of a highlight: the peak of GGX's
+/// distribution is 1 / (pi alpha^2), and a quarter of it is reflected, by metal in its colour, by all else in white, at a flat
+/// angle more than at right angles.
+double reflected(const Material& material)
+{
+    const glm::dvec3 base(material.base_colour);
+    const double matt = std::max({base.x, base.y, base.z});
+    if (!material.gloss)
+        return matt;
+    const Gloss& gloss = *material.gloss;
+    const bool maps = gloss.metallic_roughness.texture >= 0;
+    const double alpha = maps ? 0 : gloss.roughness * gloss.roughness, white = std::max(gloss.dielectric, 0.25);
+    return matt + std::min(most_highlight, (matt * gloss.metallic + white) / std::max(4 * alpha * alpha, 1e-6));
+}
+
+/// The greatest radiance that a surface of this world can send.
 double brightest(const World& world, const SceneFile& scene)
 {
+    const bool near_lamps
+        = std::ranges::any_of(scene.lights, [](const Light& lamp) { return !std::holds_alternative<DirectionalLight>(lamp); });
     auto peak = [](const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); };
     double light = peak(scene.ambient);
     for (const Light& lamp : scene.lights)
@@ -128,8 +149,9 @@ double brightest(const World& world, const SceneFile& scene)
     const Sky& sky = scene.sky;
     double most = std::max({light, std::max({peak(sky.zenith), peak(sky.horizon), peak(sky.nadir)}) + scene.milky_way()});
     for (const Material& material : world.materials)
-        most = std::max(
-            most, peak(glm::dvec3(material.emissive)) + peak(glm::dvec3(material.base_colour)) * std::max(light, 1.0));
+        most = std::max(most,
+            peak(glm::dvec3(material.emissive))
+                + (near_lamps && !material.unlit ? most_highlight : reflected(material)) * std::max(light, 1.0));
     return most;
 }
 

@@ -28,7 +28,7 @@ enum class StoredLight { coefficients, unshifted, plain };
 struct GpuWorld {
     World world; ///< instances in drawing order
     SceneFile scene;
-    double brightest = 1; ///< the greatest radiance of any surface, before any lamp comes closer than its distance
+    double brightest = 1; ///< the greatest radiance of any surface that counts in the range of stored light
 
     Buffer vertices, indices;
     Buffer deforming; ///< World::deforming; of one row without

@@ -30,6 +30,63 @@ Shot flown(double gamma, double exposure_ev = 0)
 
 double luminance(const dvec3& c) { return glm::dot(c, {0.2126, 0.7152, 0.0722}); }
 
+// ---------------------------------------------------------------- light far brighter than a matt surface at its lamp's distance
+
+/// A white wall at z = -4, and a lamp of orange light before it, at rest. lamp_z: its place.
+GpuWorld wall_and_lamp(double lamp_z, double strength)
+{
+    Doc doc;
+    doc.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}}};
+    quad(doc, {0, 0, -4}, {3, 0, 0}, {0, 3, 0}, 0);
+    const Json lamp = {{"type", "point"}, {"position", {0, 0, lamp_z}}, {"distance", 1},
+        {"radiance", {strength, 0.5 * strength, 0.1 * strength}}};
+    return open_world("lamp", doc, {{"lights", {lamp}}});
+}
+
+// Up to a thousand times white the numbers are the light of the inverse square.
+TEST(BrightLight, OfALampCloseToAWallIsWhole)
+{
+    const GpuWorld world = wall_and_lamp(-3.7, 60);
+    OffscreenRenderer live = renderer(world, one_view(Planar{.fov_y_deg = 50}, {240, 180}), true);
+    for (const double ev : {0.0, -6.0}) {
+        Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
+        shot.exposure_ev = ev;
+        const Numbers numbers(live, shot);
+        double most = 0;
+        for (int i = 0; i < numbers.count(); ++i) {
+            const dvec3 place = numbers.world(i) * numbers.depth(i), to = dvec3(0, 0, -3.7) - place;
+            const double square = glm::dot(to, to), right = 60 / square * to.z / std::sqrt(square);
+            if (right < 0.5)
+                continue;
+            EXPECT_NEAR(numbers.light(i).r / right, 1, 0.01) << place.x << ' ' << place.y;
+            EXPECT_NEAR(numbers.light(i).g / right, 0.5, 0.005) << place.x << ' ' << place.y;
+            EXPECT_NEAR(numbers.light(i).b / right, 0.1, 0.001) << place.x << ' ' << place.y;
+            most = std::max(most, right);
+        }
+        EXPECT_GT(most, 600);
+    }
+}
+
+// Of light beyond all bounds the size is cut, and the colour stays.
+TEST(BrightLight, KeepsItsColourHoweverBrightItIs)
+{
+    const GpuWorld world = wall_and_lamp(-3.99999, 1000);
+    OffscreenRenderer live = renderer(world, one_view(Planar{.fov_y_deg = 2}, {64, 64}), true);
+    Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
+    shot.exposure_ev = -8;
+    const Numbers numbers(live, shot);
+    double most = 0;
+    for (int i = 0; i < numbers.count(); ++i) {
+        const dvec3 light = numbers.light(i);
+        most = std::max(most, light.r);
+        if (light.r > 1) {
+            EXPECT_NEAR(light.g / light.r, 0.5, 0.005) << i;
+            EXPECT_NEAR(light.b / light.r, 0.1, 0.001) << i;
+        }
+    }
+    EXPECT_GT(most, 1000);
+}
+
 // ---------------------------------------------------------------- means of the sky's light
 
 // Over the camera's whole sky the means of D^2, D^3 and D^4 are 1, gamma and gamma^2 (1 + beta^2 / 3). The pixels hold D^3;
