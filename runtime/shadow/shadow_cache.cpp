@@ -8,7 +8,7 @@
 namespace starbow {
 namespace {
 
-constexpr std::uint64_t version = 8; // another computation has another number
+constexpr std::uint64_t version = 9; // another computation has another number
 
 struct Header {
     char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'S'};
@@ -39,6 +39,7 @@ std::uint64_t content_of(const Shadows& shadows)
     hash.add(shadows.sky.data(), shadows.sky.size());
     hash.add(&shadows.low, sizeof shadows.low);
     hash.add(&shadows.cell, sizeof shadows.cell);
+    hash.add(&shadows.cells, sizeof shadows.cells);
     return hash.value();
 }
 
@@ -87,12 +88,13 @@ bool read_kept_shadows(const std::filesystem::path& path, std::uint64_t key, Sha
         || file.size()
             != sizeof header + header.texels * sizeof(std::uint16_t) + header.sky + sizeof shadows.low + sizeof shadows.cell)
         return false;
-    shadows.texels.resize(header.texels), shadows.sky.resize(header.sky);
-    if (!read(shadows.texels.data(), header.texels * sizeof(std::uint16_t)) || !read(shadows.sky.data(), header.sky)
-        || !read(&shadows.low, sizeof shadows.low) || !read(&shadows.cell, sizeof shadows.cell)
-        || content_of(shadows) != header.content)
+    Shadows kept = shadows; // nothing of a damaged file remains
+    kept.cells = glm::ivec3(int(header.cells[0]), int(header.cells[1]), int(header.cells[2]));
+    kept.texels.resize(header.texels), kept.sky.resize(header.sky);
+    if (!read(kept.texels.data(), header.texels * sizeof(std::uint16_t)) || !read(kept.sky.data(), header.sky)
+        || !read(&kept.low, sizeof kept.low) || !read(&kept.cell, sizeof kept.cell) || content_of(kept) != header.content)
         return false;
-    shadows.cells = glm::ivec3(int(header.cells[0]), int(header.cells[1]), int(header.cells[2]));
+    shadows = std::move(kept);
     return true;
 }
 

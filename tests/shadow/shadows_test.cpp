@@ -1,6 +1,7 @@
 // Shadows and daylight of still things, against places and parts of the sky known in closed form.
 #include "runtime/shadow/add_shadows.h"
 #include "runtime/shadow/occluders.h"
+#include "runtime/shadow/shadow_cache.h"
 #include "runtime/shadow/still_things.h"
 #include "runtime/world/shadows.h"
 #include "runtime/world/worldline.h"
@@ -241,6 +242,10 @@ TEST_F(ShadowsTest, KeptShadowsAreReadAgainAndDamagedOnesAreNot)
     World third = load_world(scene);
     EXPECT_TRUE(add_shadows(third, scene, kept));
     EXPECT_EQ(third.shadows->texels, first.shadows->texels);
+    EXPECT_EQ(third.shadows->sky, first.shadows->sky);
+    EXPECT_EQ(third.shadows->cells, first.shadows->cells);
+    EXPECT_EQ(third.shadows->low, first.shadows->low);
+    EXPECT_EQ(third.shadows->cell, first.shadows->cell);
     std::filesystem::resize_file(file, 50);
     World fourth = load_world(scene);
     EXPECT_TRUE(add_shadows(fourth, scene, kept));
@@ -253,6 +258,46 @@ TEST_F(ShadowsTest, KeptShadowsAreReadAgainAndDamagedOnesAreNot)
     World without = load_world(scene);
     EXPECT_FALSE(add_shadows(without, scene, kept));
     EXPECT_FALSE(without.shadows);
+}
+
+TEST_F(ShadowsTest, NothingOfADamagedFileRemainsWhicheverBitIsWrong)
+{
+    Shadows made;
+    made.size = 4, made.maps.resize(1);
+    for (int i = 0; i < 2 * 4 * 4; ++i)
+        made.texels.push_back(std::uint16_t(1000 * i));
+    made.cells = {2, 3, 2}, made.low = {1, 2, 3}, made.cell = 0.5;
+    for (int i = 0; i < 8 * 2 * 3 * 2; ++i)
+        made.sky.push_back(std::uint8_t(2 * i));
+    const std::filesystem::path file = folder / "one.shadow";
+    ASSERT_TRUE(write_kept_shadows(file, 77, made));
+    const auto read = [&](Shadows& to) {
+        to.size = made.size, to.maps = made.maps;
+        return read_kept_shadows(file, 77, to);
+    };
+    Shadows kept;
+    ASSERT_TRUE(read(kept));
+    EXPECT_EQ(kept.texels, made.texels);
+    EXPECT_EQ(kept.sky, made.sky);
+    EXPECT_EQ(kept.cells, made.cells);
+    std::ifstream stream(file, std::ios::binary);
+    const std::string whole((std::istreambuf_iterator<char>(stream)), {});
+    const auto expect_refused = [&](const std::string& bytes, std::size_t at) {
+        std::ofstream(file, std::ios::binary | std::ios::trunc).write(bytes.data(), std::streamsize(bytes.size()));
+        Shadows damaged;
+        EXPECT_FALSE(read(damaged)) << at;
+        EXPECT_TRUE(damaged.texels.empty() && damaged.sky.empty() && damaged.cells == glm::ivec3(0)) << at;
+        EXPECT_EQ(damaged.low, glm::dvec3(0)) << at;
+        EXPECT_EQ(damaged.cell, 1) << at;
+    };
+    for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
+        std::string damaged = whole;
+        damaged[bit / 8] ^= char(1 << bit % 8);
+        expect_refused(damaged, bit);
+    }
+    for (std::size_t length = 0; length < whole.size(); ++length)
+        expect_refused(whole.substr(0, length), length);
+    expect_refused(whole + '0', whole.size() + 1);
 }
 
 } // namespace
