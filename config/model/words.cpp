@@ -56,6 +56,8 @@ const std::vector<Known> known{
     {"say.colours"},
     {"say.beam"},
     {"say.limit"},
+    {"say.aside"},
+    {"say.aside_colours"},
     {"say.back"},
     {"say.back_colours"},
     {"say.no_aberration"},

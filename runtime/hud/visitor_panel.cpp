@@ -141,6 +141,7 @@ std::string shown_percent(double beta_deficit, const Words& words)
 
 std::string plain_sentence(const Readings& r, const Words& words)
 {
+    constexpr double back_cosine = -0.5; // of 120 degrees from the motion; within 60 degrees a visitor looks ahead
     const double beta = 1 - r.beta_deficit;
     const Effects& on = r.effects;
     if (on.comparison != Comparison::none)
@@ -153,11 +154,15 @@ std::string plain_sentence(const Readings& r, const Words& words)
         return words("say.rest");
     if (beta < 0.25)
         return words("say.slow");
-    const bool colours = on.doppler || on.headlight;
     if (!on.aberration)
-        return words(colours ? "say.no_aberration" : "say.no_effects");
-    if (r.doppler_ahead < 0.9) // the nose does not point the way
+        return words(on.doppler || on.headlight ? "say.no_aberration" : "say.no_effects");
+    const bool colours = on.doppler && on.headlight; // what is said of them names both
+    // The nose's angle from the motion, on board: D = 1 / (gamma (1 - beta cos)).
+    const double cosine = (1 - 1 / (r.gamma * r.doppler_ahead)) / beta;
+    if (cosine < back_cosine)
         return words(colours ? "say.back_colours" : "say.back");
+    if (cosine < -back_cosine)
+        return words(colours ? "say.aside_colours" : "say.aside");
     if (r.beta_deficit < 1e-4)
         return words("say.limit");
     if (beta > 0.94)

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
+#include <random>
 #include <set>
 
 namespace visitor_panel_test {
@@ -17,12 +18,13 @@ using namespace starbow::testing;
 
 namespace {
 
-Readings at_rapidity(double rapidity, bool ahead = true)
+/// degrees: of the nose from the motion, on board.
+Readings at_rapidity(double rapidity, double degrees = 0)
 {
     Readings r{};
     r.beta_deficit = 2 / (std::exp(2 * rapidity) + 1);
     r.gamma = std::cosh(rapidity);
-    r.doppler_ahead = std::exp(ahead ? rapidity : -rapidity);
+    r.doppler_ahead = 1 / (std::cosh(rapidity) - std::sinh(rapidity) * std::cos(degrees * std::acos(-1.0) / 180));
     r.light_speed_m_s = 299792458;
     r.information = Information::visitor;
     return r;
@@ -33,9 +35,9 @@ std::vector<Readings> all_states()
 {
     std::vector<Readings> all;
     for (const double rapidity : {0.0, 0.1, 0.5, 1.0, 1.5, 2.2, 4.0, 14.5})
-        for (int bits = 0; bits < 64; ++bits)
+        for (int bits = 0; bits < 128; ++bits)
             for (const Comparison comparison : {Comparison::none, Comparison::galilean, Comparison::no_light_delay}) {
-                Readings r = at_rapidity(rapidity, bits & 1);
+                Readings r = at_rapidity(rapidity, bits & 64 ? 90 : bits & 1 ? 0 : 180);
                 r.effects = {.aberration = (bits & 2) != 0, .doppler = (bits & 4) != 0, .headlight = (bits & 8) != 0};
                 r.effects.false_colours = (bits & 16) != 0;
                 r.effects.comparison = comparison;
@@ -86,6 +88,38 @@ TEST(VisitorPanel, EverySentenceIsSaidInSomeState)
         if (key.starts_with("say.") && !others.contains(key)) {
             EXPECT_TRUE(said.contains(text)) << key;
         }
+}
+
+// Each sentence about the way to look against the picture's own numbers: the sine and cosine of an angle on board, and D.
+TEST(VisitorPanel, WhereOneLooksIsSaidByTheAngle)
+{
+    const auto said = [](double rapidity, double degrees, bool colours) {
+        Readings r = at_rapidity(rapidity, degrees);
+        r.effects.doppler = r.effects.headlight = colours;
+        return plain_sentence(r, words());
+    };
+    std::mt19937 random(3);
+    for (int i = 0; i < 2000; ++i) {
+        const double rapidity = std::uniform_real_distribution(0.26, 9.0)(random), degrees = std::uniform_real_distribution(0.0, 180.0)(random);
+        for (const bool colours : {false, true}) {
+            const std::string text = said(rapidity, degrees, colours);
+            EXPECT_EQ(text.starts_with("You look back"), degrees > 120) << rapidity << ' ' << degrees;
+            EXPECT_EQ(text.starts_with("You look to the side"), degrees > 60 && degrees < 120) << rapidity << ' ' << degrees;
+            const auto D = [&](double at) { return at_rapidity(rapidity, at).doppler_ahead; };
+            if (text.find("redder and dimmer") != text.npos || text.find("larger and nearer") != text.npos) {
+                EXPECT_LT(D(degrees), 1) << rapidity << ' ' << degrees; // sizes are 1 / D
+            }
+            if (text.find("towards your way light is bluer") != text.npos) {
+                EXPECT_GT(D(degrees - 10), D(degrees)) << rapidity << ' ' << degrees;
+            }
+            if (text.find("ahead it turns bluer") != text.npos) {
+                EXPECT_GT(D(0), 1) << rapidity;
+            }
+        }
+    }
+    Readings one = at_rapidity(1, 150);
+    one.effects.doppler = true, one.effects.headlight = false;
+    EXPECT_EQ(plain_sentence(one, words()).find("dimmer"), std::string::npos) << "without the headlight effect nothing is dimmer";
 }
 
 TEST(VisitorPanel, VisitorsReadNoFormula)
