@@ -245,6 +245,13 @@ private:
         field.logical_min = globals_.logical_min.as_signed();
         field.is_signed = field.logical_min < 0;
         field.logical_max = field.is_signed ? globals_.logical_max.as_signed() : std::int64_t(globals_.logical_max.bits);
+        // Limits beyond the field's bits are cut to them, as Linux does; a range without width is that of the bits.
+        const std::int64_t values = std::int64_t(1) << field.bits;
+        const std::int64_t least = field.is_signed ? -values / 2 : 0, most = least + values - 1;
+        field.logical_min = std::clamp(field.logical_min, least, most);
+        field.logical_max = std::clamp(field.logical_max, least, most);
+        if (field.logical_max <= field.logical_min)
+            field.logical_min = least, field.logical_max = most;
         field.relative = flags & 4;
         field.null_state = flags & 64;
         std::size_t in_range = 0;
@@ -287,6 +294,8 @@ private:
 } // namespace
 
 Descriptor parse_descriptor(std::span<const std::uint8_t> bytes) { return Parser().read(bytes); }
+
+bool is_button(const Field& field) { return field.usage.page == 9 && field.array.empty() && !field.relative; }
 
 std::int64_t raw_value(const Field& field, std::span<const std::uint8_t> payload)
 {

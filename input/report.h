@@ -44,6 +44,9 @@ struct Descriptor {
 /// Parses any bytes; of damaged ones it returns the part before the damage. Limited to 4096 fields and reports of 16 KiB.
 Descriptor parse_descriptor(std::span<const std::uint8_t> bytes);
 
+/// True for a button's value: 0 where it is up. Some devices spend eight bits on it.
+bool is_button(const Field& field);
+
 /// The field's number in a report's payload (after the report's number); bits beyond a short report are 0.
 std::int64_t raw_value(const Field& field, std::span<const std::uint8_t> payload);
 

@@ -351,7 +351,7 @@ std::vector<int> down(const Watched& device, const DeviceState& state)
     std::vector<int> numbers;
     for (std::size_t i = 0; i < std::min(state.raw.size(), device.descriptor.fields.size()); ++i) {
         const Field& field = device.descriptor.fields[i];
-        if (field.usage.page == 9 && field.bits == 1 && field.array.empty() && state.raw[i].value_or(0) != 0
+        if (is_button(field) && state.raw[i].value_or(0) != 0
             && field.usage.id >= 1 && field.usage.id <= most_buttons)
             numbers.push_back(field.usage.id);
     }

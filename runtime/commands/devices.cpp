@@ -116,7 +116,7 @@ void draw_controls(const Hid::Connected& device)
     for (std::size_t i = 0; i < device.descriptor.fields.size(); ++i) {
         const Field& field = device.descriptor.fields[i];
         const std::optional<std::int64_t> raw = device.state.raw.at(i);
-        if (field.usage.page == 9 && field.bits == 1) {
+        if (is_button(field)) {
             if (raw.value_or(0))
                 buttons += " " + std::to_string(field.usage.id);
         } else if (field.bits > 1 && field.usage.page <= 2 && field.array.empty()) {
