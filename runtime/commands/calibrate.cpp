@@ -10,11 +10,11 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <poll.h>
 #include <termios.h>
 #include <thread>
-#include <cstring>
 #include <unistd.h>
 
 namespace starbow {
@@ -351,8 +351,7 @@ std::vector<int> down(const Watched& device, const DeviceState& state)
     std::vector<int> numbers;
     for (std::size_t i = 0; i < std::min(state.raw.size(), device.descriptor.fields.size()); ++i) {
         const Field& field = device.descriptor.fields[i];
-        if (is_button(field) && state.raw[i].value_or(0) != 0
-            && field.usage.id >= 1 && field.usage.id <= most_buttons)
+        if (is_button(field) && state.raw[i].value_or(0) != 0 && field.usage.id >= 1 && field.usage.id <= most_buttons)
             numbers.push_back(field.usage.id);
     }
     return numbers;

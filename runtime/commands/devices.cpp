@@ -160,7 +160,8 @@ void add_devices(Subcommand& app, std::function<int()>& chosen)
     auto options = std::make_shared<DevicesOptions>();
     Subcommand* command
         = app.add_subcommand("devices", "List sticks, throttles, pads and space mice, with their axes and buttons.");
-    command->add_option("--seconds", options->seconds, "Show them live for this many seconds")->check(number_between(0.0, 1e9));
+    command->add_option("--seconds", options->seconds, "Show them live for this many seconds")
+        ->check(number_between(0.0, 1e9));
     command->add_option("--describe", options->describe,
         "Instead: print a report descriptor's declarations as JSON. A file of raw bytes, of hexadecimal text, or JSON with "
         "\"descriptor_hex\"");

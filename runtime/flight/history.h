@@ -10,8 +10,8 @@ public:
     /// Keeps the flight; call it after each step.
     void keep(const Flight& flight);
 
-    /// The flight of ten seconds ago, or the oldest kept one. The mode, the switches, slow motion, the exposure and the clock
-    /// stay as they are. The states in between are dropped, so that a second call leads further back.
+    /// The flight of ten seconds ago, or the oldest kept one. The mode, the switches, slow motion, the exposure and the
+    /// clock stay as they are. The states in between are dropped, so that a second call leads further back.
     Flight back(const Flight& now);
 
     bool empty() const { return kept_.empty(); }

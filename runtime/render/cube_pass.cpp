@@ -148,9 +148,8 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
             if (pipeline != bound)
                 commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
         };
-        const auto push_constants = [&] {
-            commands.pushConstants<shared::CubePush>(*pipelines_.layouts.surface_layout, stages, 0, push);
-        };
+        const auto push_constants
+            = [&] { commands.pushConstants<shared::CubePush>(*pipelines_.layouts.surface_layout, stages, 0, push); };
         // The material of a draw's surface, and its distance from the full surface.
         const auto put_surface = [&](const Draw& one) {
             const int index = world.primitives[one.primitive].material;

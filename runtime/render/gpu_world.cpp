@@ -118,13 +118,13 @@ void note_large_images(const GpuWorld& gpu, World& world)
     }
 }
 
-/// The light of a highlight, or near a lamp, that counts in the range of stored light: over that of a matt surface at the lamp's
-/// distance. Of what is brighter the size is cut, and not the colour.
+/// The light of a highlight, or near a lamp, that counts in the range of stored light: over that of a matt surface at the
+/// lamp's distance. Of what is brighter the size is cut, and not the colour.
 constexpr double most_highlight = 1024;
 
-/// The greatest light that a surface reflects, over a white matt one's that faces the lamp. Of a highlight: the peak of GGX's
-/// distribution is 1 / (pi alpha^2), and a quarter of it is reflected, by metal in its colour, by all else in white, at a flat
-/// angle more than at right angles.
+/// The greatest light that a surface reflects, over a white matt one's that faces the lamp. Of a highlight: the peak of
+/// GGX's distribution is 1 / (pi alpha^2), and a quarter of it is reflected, by metal in its colour, by all else in white,
+/// at a flat angle more than at right angles.
 double reflected(const Material& material)
 {
     const glm::dvec3 base(material.base_colour);
@@ -140,8 +140,8 @@ double reflected(const Material& material)
 /// The greatest radiance that a surface of this world can send.
 double brightest(const World& world, const SceneFile& scene)
 {
-    const bool near_lamps
-        = std::ranges::any_of(scene.lights, [](const Light& lamp) { return !std::holds_alternative<DirectionalLight>(lamp); });
+    const bool near_lamps = std::ranges::any_of(
+        scene.lights, [](const Light& lamp) { return !std::holds_alternative<DirectionalLight>(lamp); });
     auto peak = [](const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); };
     double light = peak(scene.ambient);
     for (const Light& lamp : scene.lights)

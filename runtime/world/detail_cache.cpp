@@ -121,8 +121,8 @@ void take(Kept&& kept, World& world)
         primitive.pieces = {from.first_piece, from.pieces};
         for (std::uint32_t k = 0; k < from.levels; ++k) {
             const KeptLevel& level = kept.levels[next++];
-            primitive.coarser.push_back(
-                {level.first_index, level.indices, level.error, level.shading, level.apart, {level.first_cluster, level.clusters}});
+            primitive.coarser.push_back({level.first_index, level.indices, level.error, level.shading, level.apart,
+                {level.first_cluster, level.clusters}});
         }
     }
     const auto vec = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };

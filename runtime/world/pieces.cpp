@@ -126,9 +126,9 @@ void simplify(const World& world, const Primitive& primitive, bool whole, Group&
 void add_piece(World& world, const Part& part, std::uint32_t first_index, const PieceGroup& own)
 {
     constexpr double never = std::numeric_limits<double>::infinity();
-    world.pieces.push_back({part.low, part.high,
-        {first_index, std::uint32_t(part.corners.size()), own.error, own.shading, own.apart}, own,
-        {own.low, own.high, never, never, never}});
+    world.pieces.push_back(
+        {part.low, part.high, {first_index, std::uint32_t(part.corners.size()), own.error, own.shading, own.apart}, own,
+            {own.low, own.high, never, never, never}});
 }
 
 } // namespace

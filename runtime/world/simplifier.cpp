@@ -118,8 +118,8 @@ Differences differences(const std::vector<Vertex>& full, const std::vector<Verte
     return most;
 }
 
-/// How far a smooth surface with the vertices' normals may bulge from its triangles: over an edge by an eighth of its length times
-/// the angle between the normals, as a circle does, and over an even triangle's middle by a sixth.
+/// How far a smooth surface with the vertices' normals may bulge from its triangles: over an edge by an eighth of its length
+/// times the angle between the normals, as a circle does, and over an even triangle's middle by a sixth.
 double bulge(const std::vector<Vertex>& vertices, const std::vector<std::uint32_t>& level)
 {
     float most = 0;

@@ -67,8 +67,9 @@ TEST(InverseMapTest, APixelReachesTwoCellsFarAlsoOverTheNetsEdges)
     ASSERT_EQ(side, 14);
     const auto direction_of = [&](double x, double y) { // of a place of the net, in cells
         const double a = 2 * x / side - 1, b = 2 * y / side - 1, z = 1 - std::abs(a) - std::abs(b);
-        return glm::normalize(z >= 0 ? glm::dvec3(a, b, z)
-                                     : glm::dvec3((a < 0 ? -1 : 1) * (1 - std::abs(b)), (b < 0 ? -1 : 1) * (1 - std::abs(a)), z));
+        return glm::normalize(z >= 0
+                ? glm::dvec3(a, b, z)
+                : glm::dvec3((a < 0 ? -1 : 1) * (1 - std::abs(b)), (b < 0 ? -1 : 1) * (1 - std::abs(a)), z));
     };
     // The cells that share a side with a cell: those of directions a little off the middles of its sides.
     const auto beside = [&](glm::ivec2 cell) {

@@ -94,11 +94,14 @@ TEST(SphericalMirrorTest, TheDomesRimIsLitAndNothingBelowIt)
                 const PictureRays rays(Picture{mirror, {1000, 1000}, eye});
                 // The zenith is tilted forward, to -z.
                 const double tilt = tilt_deg * pi / 180, half = aperture_deg / 2 * pi / 180;
-                const glm::dvec3 zenith(0, std::cos(tilt), -std::sin(tilt)), right(1, 0, 0), back = glm::cross(right, zenith);
+                const glm::dvec3 zenith(0, std::cos(tilt), -std::sin(tilt)), right(1, 0, 0),
+                    back = glm::cross(right, zenith);
                 for (double way = 0; way < 6.28; way += 0.01) {
                     const auto at = [&](double from_zenith) {
-                        return 3. * (std::cos(from_zenith) * zenith
-                                   + std::sin(from_zenith) * (std::cos(way) * right + std::sin(way) * back)) - eye;
+                        return 3.
+                            * (std::cos(from_zenith) * zenith
+                                + std::sin(from_zenith) * (std::cos(way) * right + std::sin(way) * back))
+                            - eye;
                     };
                     // Above the rim the mirror alone decides; the rim itself is no darker.
                     if (!rays.pixel(at(half - 1e-9)))

@@ -332,8 +332,8 @@ Flight record_random(const std::filesystem::path& file, std::mt19937_64& random,
     return flight;
 }
 
-// Random controls pass through the file, with every case 100,000 frames of them. The flight is the same to the bit, with a check
-// every 10 s.
+// Random controls pass through the file, with every case 100,000 frames of them. The flight is the same to the bit, with a
+// check every 10 s.
 TEST(Record, AReplayIsTheSameToTheBit)
 {
     const int length = all_cases() ? 100'000 : 10'000;
@@ -575,7 +575,8 @@ TEST(Record, FindsItsSceneAndLayoutAgain)
     ASSERT_EQ(lines.size(), 1u);
     EXPECT_NE(lines[0].find("has changed since"), std::string::npos);
     write_text("scene.json", R"({ "gltf": "w.glb", "unit_m": 10, "light_speed_m_s": 4 })");
-    EXPECT_NE(complaint([&] { reopen(header); }).find("a.jsonl:1: /seconds_per_time_unit: 2 no longer matches"), std::string::npos);
+    EXPECT_NE(complaint([&] { reopen(header); }).find("a.jsonl:1: /seconds_per_time_unit: 2 no longer matches"),
+        std::string::npos);
 }
 
 // A replay shows each frame at its own time, by a clock that the test turns. It does not wait for time that a stall
@@ -602,7 +603,8 @@ TEST(Record, IsReplayedAtItsOwnPace)
         record_replay.keep(entry, flight);
     }
     EXPECT_EQ(frames, 3);
-    EXPECT_EQ(now - ReplayTime::Clock::time_point(1h), 30ms) << "two frames, of which the first follows a frame that is late";
+    EXPECT_EQ(now - ReplayTime::Clock::time_point(1h), 30ms)
+        << "two frames, of which the first follows a frame that is late";
     EXPECT_EQ(entry.controls.time_ns, 3 * 3'600'030'000'000);
 }
 

@@ -108,7 +108,8 @@ TEST(HudPlaceTest, TheBoxHoldsThePanelsPixelsAndFewOthers)
                 EXPECT_TRUE(glm::all(glm::lessThanEqual(box.low, low)) && glm::all(glm::greaterThanEqual(box.high, high)))
                     << hud.azimuth_deg << ' ' << shape.x << ' ' << shape.y;
                 // Squares of pixels are in it as a whole.
-                EXPECT_TRUE(glm::all(glm::greaterThanEqual(box.low, low - 17)) && glm::all(glm::lessThanEqual(box.high, high + 17)))
+                EXPECT_TRUE(
+                    glm::all(glm::greaterThanEqual(box.low, low - 17)) && glm::all(glm::lessThanEqual(box.high, high + 17)))
                     << hud.azimuth_deg << ' ' << shape.x << ' ' << shape.y << ": " << low.x - box.low.x << ' '
                     << low.y - box.low.y << ' ' << box.high.x - high.x << ' ' << box.high.y - high.y;
             }

@@ -100,7 +100,8 @@ TEST(VisitorPanel, WhereOneLooksIsSaidByTheAngle)
     };
     std::mt19937 random(3);
     for (int i = 0; i < 2000; ++i) {
-        const double rapidity = std::uniform_real_distribution(0.26, 9.0)(random), degrees = std::uniform_real_distribution(0.0, 180.0)(random);
+        const double rapidity = std::uniform_real_distribution(0.26, 9.0)(random),
+                     degrees = std::uniform_real_distribution(0.0, 180.0)(random);
         for (const bool colours : {false, true}) {
             const std::string text = said(rapidity, degrees, colours);
             EXPECT_EQ(text.starts_with("You look back"), degrees > 120) << rapidity << ' ' << degrees;
@@ -119,7 +120,8 @@ TEST(VisitorPanel, WhereOneLooksIsSaidByTheAngle)
     }
     Readings one = at_rapidity(1, 150);
     one.effects.doppler = true, one.effects.headlight = false;
-    EXPECT_EQ(plain_sentence(one, words()).find("dimmer"), std::string::npos) << "without the headlight effect nothing is dimmer";
+    EXPECT_EQ(plain_sentence(one, words()).find("dimmer"), std::string::npos)
+        << "without the headlight effect nothing is dimmer";
 }
 
 TEST(VisitorPanel, VisitorsReadNoFormula)

@@ -68,7 +68,8 @@ TEST(WhySketch, CrestsMoveToTheShip)
         const glm::dvec2 nearer = crest * (1 - way / glm::length(crest));
         if (glm::length(nearer) < 0.21) // it arrives
             continue;
-        EXPECT_TRUE(std::any_of(later.begin(), later.end(), [&](const glm::dvec2& one) { return glm::distance(one, nearer) < 1e-9; }))
+        EXPECT_TRUE(std::any_of(
+            later.begin(), later.end(), [&](const glm::dvec2& one) { return glm::distance(one, nearer) < 1e-9; }))
             << crest.x << ' ' << crest.y;
         ++found;
     }

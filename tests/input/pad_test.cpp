@@ -170,9 +170,8 @@ TEST(PadTest, ALeftHandHasTheOtherSideOfThePad)
 
 TEST(PadTest, WhatIsOnBothSidesChangesSidesAndNothingElse)
 {
-    const std::array<std::pair<int, int>, 2> buttons{
-        {{GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER},
-            {GLFW_GAMEPAD_BUTTON_LEFT_THUMB, GLFW_GAMEPAD_BUTTON_RIGHT_THUMB}}};
+    const std::array<std::pair<int, int>, 2> buttons{{{GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER},
+        {GLFW_GAMEPAD_BUTTON_LEFT_THUMB, GLFW_GAMEPAD_BUTTON_RIGHT_THUMB}}};
     for (int button = 0; button <= GLFW_GAMEPAD_BUTTON_LAST; ++button) {
         int other = button;
         for (const auto& [left, right] : buttons)

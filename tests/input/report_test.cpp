@@ -100,7 +100,8 @@ TEST(ReportTest, DevicesDeclareTheirFields)
         for (std::size_t i = 0; i < found.fields.size(); ++i) {
             json declared = device["fields"][i]; // a Sony DualShock 4 declares 0 to 127 of six bits
             if (!declared["signed"].get<bool>())
-                declared["logical_max"] = std::min(declared["logical_max"].get<std::int64_t>(), (std::int64_t(1) << declared["bits"].get<int>()) - 1);
+                declared["logical_max"] = std::min(
+                    declared["logical_max"].get<std::int64_t>(), (std::int64_t(1) << declared["bits"].get<int>()) - 1);
             EXPECT_EQ(json_of(found.fields[i]), declared) << i;
         }
         json bits = json::object();
@@ -161,7 +162,8 @@ TEST(ReportTest, RareCasesOfTheStandardAreRead)
     EXPECT_EQ(d.fields.at(0).logical_max, 255);
     d = parsed({0x05, 1, 0x09, 0x30, 0x25, 0xff, 0x15, 0x81, 0x75, 8, 0x95, 1, 0x81, 2}); // in the other order
     EXPECT_EQ(d.fields.at(0).logical_max, -1);
-    // Limits beyond the bits are cut to them: 0 to 65535 and -32768 to 32767 of eight bits. Without a maximum, all of the bits count.
+    // Limits beyond the bits are cut to them: 0 to 65535 and -32768 to 32767 of eight bits. Without a maximum, all of the
+    // bits count.
     d = parsed({0x05, 1, 0x09, 0x30, 0x15, 0, 0x27, 0xff, 0xff, 0, 0, 0x75, 8, 0x95, 1, 0x81, 2});
     EXPECT_EQ(d.fields.at(0).logical_max, 255);
     EXPECT_NEAR(centred(d.fields[0], 127), 0, 0.01);

@@ -97,7 +97,8 @@ TEST(GreatestLight, TheDarkEndsWithinOneRowOfItsTruePlace)
     for (int row = 0; row < 160; ++row)
         rising.log2_of_row.push_back(row - 160);
     for (int row = 1; row < 160; ++row)
-        EXPECT_NEAR(dark_below(rising, true, false, 1, std::exp2(row - 160 - 0.5)), std::exp2(-20 + row / 8.0), 1e-12) << row;
+        EXPECT_NEAR(dark_below(rising, true, false, 1, std::exp2(row - 160 - 0.5)), std::exp2(-20 + row / 8.0), 1e-12)
+            << row;
 }
 
 TEST(GreatestLight, SunlightIsDarkBelowAQuarter)

@@ -275,8 +275,8 @@ TEST(Cull, BlendedBoxesAreDrawnFromBehind)
     }
     EXPECT_GT(pairs, 10000);
     EXPECT_GT(nearer_middle, 100) << "the order of the middles alone is not the right one";
-    // Neighbours are compared alone, and two boxes that no ray meets both have an order, too: that order can keep a third box from
-    // its place. Measured: 1 of 29,899.
+    // Neighbours are compared alone, and two boxes that no ray meets both have an order, too: that order can keep a third
+    // box from its place. Measured: 1 of 29,899.
     EXPECT_LE(wrong, pairs / 10000) << "of " << pairs;
 }
 

@@ -21,8 +21,8 @@ struct Case {
     Projection projection;
     glm::ivec2 size;
 };
-const Case cases[] = {{Planar{60}, {400, 300}}, {Planar{150}, {301, 97}}, {Planar{140}, {300, 260}}, {Fisheye{180, 30}, {256, 256}},
-    {Fisheye{360, 0}, {255, 255}}, {Equirectangular{}, {320, 160}}, {Planar{60}, {7, 5}}};
+const Case cases[] = {{Planar{60}, {400, 300}}, {Planar{150}, {301, 97}}, {Planar{140}, {300, 260}},
+    {Fisheye{180, 30}, {256, 256}}, {Fisheye{360, 0}, {255, 255}}, {Equirectangular{}, {320, 160}}, {Planar{60}, {7, 5}}};
 
 glm::dquat turn(int i)
 {

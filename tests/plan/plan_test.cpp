@@ -77,7 +77,8 @@ void each_pixel(const Case& c, double gamma, int turned, const Quality& quality,
             const glm::dvec2 pixel(x + 0.5, y + 0.5);
             const int rays = quality.pixel_rays;
             for (int i = 0; i < rays * rays; ++i) {
-                auto n = direction(view.view.picture, glm::dvec2(x, y) + (glm::dvec2(i % rays, i / rays) + 0.5) / double(rays));
+                auto n
+                    = direction(view.view.picture, glm::dvec2(x, y) + (glm::dvec2(i % rays, i / rays) + 0.5) / double(rays));
                 if (!n)
                     continue;
                 auto ray = physics::world_from_camera(motion_from_cockpit * *n, E, 1 / E);

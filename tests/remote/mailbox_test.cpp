@@ -31,7 +31,8 @@ TEST(Mailbox, AFullOneRefusesAndKeepsTheLetter)
 
 TEST(Mailbox, AllLettersArriveInOrderBetweenTwoThreads)
 {
-    const int count = starbow::testing::all_cases() ? 200'000 : 20'000; // each waits for the other thread, on a busy machine for long
+    const int count
+        = starbow::testing::all_cases() ? 200'000 : 20'000; // each waits for the other thread, on a busy machine for long
     Mailbox<std::vector<int>, 8> box; // with memory of its own, so that a sanitizer sees a letter that is read too early
     std::size_t refused = 0;
     std::thread putter([&] {

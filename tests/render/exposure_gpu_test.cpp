@@ -30,7 +30,8 @@ Shot flown(double gamma, double exposure_ev = 0)
 
 double luminance(const dvec3& c) { return glm::dot(c, {0.2126, 0.7152, 0.0722}); }
 
-// ---------------------------------------------------------------- light far brighter than a matt surface at its lamp's distance
+// ---------------------------------------------------------------- light far brighter than a matt surface at its lamp's
+// distance
 
 /// A white wall at z = -4, and a lamp of orange light before it, at rest. lamp_z: its place.
 GpuWorld wall_and_lamp(double lamp_z, double strength)

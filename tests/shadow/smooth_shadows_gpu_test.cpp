@@ -24,21 +24,25 @@ void ball(Doc& doc, const dvec3& centre, double radius, int n)
             const std::uint32_t a = std::uint32_t(j * (n + 1) + i), c = a + std::uint32_t(n) + 1;
             indices.insert(indices.end(), {a, a + 1, c, a + 1, c + 1, c});
         }
-    const Json primitive = {{"attributes", {{"POSITION", doc.accessor(positions, "VEC3")}, {"NORMAL", doc.accessor(normals, "VEC3")}}},
-        {"indices", doc.accessor(indices, "SCALAR")}, {"material", 0}};
-    const Json node = {{"mesh", doc.put("meshes", {{"primitives", {primitive}}})}, {"translation", {centre.x, centre.y, centre.z}}};
+    const Json primitive
+        = {{"attributes", {{"POSITION", doc.accessor(positions, "VEC3")}, {"NORMAL", doc.accessor(normals, "VEC3")}}},
+            {"indices", doc.accessor(indices, "SCALAR")}, {"material", 0}};
+    const Json node
+        = {{"mesh", doc.put("meshes", {{"primitives", {primitive}}})}, {"translation", {centre.x, centre.y, centre.z}}};
     doc.json["scenes"][0]["nodes"].push_back(doc.put("nodes", node));
 }
 
-// The light of white balls and of the ground under them, in closed form: no ball shades itself where its normal faces the lamp,
-// and each shades the ground around the line from the lamp through its middle. Balls of many triangles are drawn in fewer.
+// The light of white balls and of the ground under them, in closed form: no ball shades itself where its normal faces the
+// lamp, and each shades the ground around the line from the lamp through its middle. Balls of many triangles are drawn in
+// fewer.
 TEST(SmoothShadows, ASmoothBallHasTheLightOfItsNormalsAndTheGroundBelowHasNone)
 {
     const Json lamp = {{"type", "point"}, {"position", {3, 9, 3}}, {"distance", 9}, {"radiance", {0.8, 0.8, 0.8}}};
     const Json low_sun = {{"type", "directional"}, {"towards", {0.9, 0.25, 0.35}}, {"radiance", {0.6, 0.6, 0.6}}};
     const std::vector<dvec3> centres{{0, 1, 0}, {0, 4, -6}}; // one stands, one floats
     long balls = 0, lit = 0, dark = 0;
-    for (const auto& [name, light, ground] : {std::tuple("sun", sun, 20.0), {"wide", sun, 200.0}, {"low", low_sun, 20.0}, {"lamp", lamp, 20.0}})
+    for (const auto& [name, light, ground] :
+        {std::tuple("sun", sun, 20.0), {"wide", sun, 200.0}, {"low", low_sun, 20.0}, {"lamp", lamp, 20.0}})
         for (const int n : {24, 48, 128}) {
             const bool sample = name == std::string("wide") ? n == 48 : name != std::string("low") && n == 128;
             if (!testing::all_cases() && !sample)
@@ -65,7 +69,9 @@ TEST(SmoothShadows, ASmoothBallHasTheLightOfItsNormalsAndTheGroundBelowHasNone)
                         if (std::isinf(numbers.depth(at)))
                             return -2;
                         const dvec3 place = place_of(at);
-                        int own = std::abs(place.y) < 0.02 && glm::length(place) < 12 ? -1 : -2; // places are known to a part of their distance
+                        int own = std::abs(place.y) < 0.02 && glm::length(place) < 12
+                            ? -1
+                            : -2; // places are known to a part of their distance
                         for (std::size_t k = 0; k < centres.size(); ++k)
                             own = std::abs(glm::distance(place, centres[k]) - 1) < 0.03 && place.y > 0.05 ? int(k) : own;
                         if (own == -2 || (thing != -3 && own != thing))
@@ -86,7 +92,8 @@ TEST(SmoothShadows, ASmoothBallHasTheLightOfItsNormalsAndTheGroundBelowHasNone)
                         const dvec3 to = dvec3(3, 9, 3) - place;
                         way = glm::normalize(to), strength = 0.8 * 81 / glm::dot(to, to);
                     } else {
-                        way = glm::normalize(dvec3(light["towards"][0], light["towards"][1], light["towards"][2])), strength = 0.6;
+                        way = glm::normalize(dvec3(light["towards"][0], light["towards"][1], light["towards"][2])),
+                        strength = 0.6;
                     }
                     double clear = 10; // from the way to the lamp to the balls' surfaces
                     for (std::size_t k = 0; k < centres.size(); ++k)
@@ -97,12 +104,15 @@ TEST(SmoothShadows, ASmoothBallHasTheLightOfItsNormalsAndTheGroundBelowHasNone)
                     const double seen = numbers.light(i).g;
                     if (thing >= 0 && clear > 0.2 && facing > 0.15) {
                         sum += seen, right += expected, ++balls;
-                        ASSERT_NEAR(seen, expected, 0.1 * strength) << name << ' ' << n << " away " << away << ": " << facing;
+                        ASSERT_NEAR(seen, expected, 0.1 * strength)
+                            << name << ' ' << n << " away " << away << ": " << facing;
                     } else if (thing == -1 && clear > 0.2) {
-                        ASSERT_NEAR(seen / expected, 1, 0.01) << name << ' ' << n << " away " << away << ": " << place.x << ' ' << place.z;
+                        ASSERT_NEAR(seen / expected, 1, 0.01)
+                            << name << ' ' << n << " away " << away << ": " << place.x << ' ' << place.z;
                         ++lit;
                     } else if (thing == -1 && clear < -0.2) {
-                        ASSERT_LT(seen, 0.01 * strength) << name << ' ' << n << " away " << away << ": " << place.x << ' ' << place.z;
+                        ASSERT_LT(seen, 0.01 * strength)
+                            << name << ' ' << n << " away " << away << ": " << place.x << ' ' << place.z;
                         ++dark;
                     }
                 }
