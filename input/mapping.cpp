@@ -8,7 +8,7 @@
 namespace starbow {
 namespace {
 
-// HID Usage Tables 1.4: generic desktop, simulation controls, buttons.
+// HID Usage Tables 1.4: generic desktop, simulation controls.
 constexpr std::uint16_t desktop = 1, simulation = 2;
 constexpr std::uint16_t axis_x = 0x30, axis_y = 0x31, axis_z = 0x32, axis_rx = 0x33, axis_ry = 0x34, axis_rz = 0x35,
                         slider = 0x36, dial = 0x37, hat_switch = 0x39;
@@ -91,6 +91,7 @@ void press(ButtonRole role, std::size_t& waiting, bool down, Controls& controls)
 }
 
 bool is_hat(const Field& field) { return field.usage == Usage{desktop, hat_switch}; }
+
 /// False for other fields.
 bool is_down(const Field& field, std::int64_t raw)
 {

@@ -141,7 +141,7 @@ std::string shown_percent(double beta_deficit, const Words& words)
 
 std::string plain_sentence(const Readings& r, const Words& words)
 {
-    constexpr double back_cosine = -0.5; // of 120 degrees from the motion; within 60 degrees a visitor looks ahead
+    constexpr double ahead_cosine = 0.5; // within 60 degrees of the motion a visitor looks ahead, beyond 120 back
     const double beta = 1 - r.beta_deficit;
     const Effects& on = r.effects;
     if (on.comparison != Comparison::none)
@@ -159,9 +159,9 @@ std::string plain_sentence(const Readings& r, const Words& words)
     const bool colours = on.doppler && on.headlight; // what is said of them names both
     // The nose's angle from the motion, on board: D = 1 / (gamma (1 - beta cos)).
     const double cosine = (1 - 1 / (r.gamma * r.doppler_ahead)) / beta;
-    if (cosine < back_cosine)
+    if (cosine < -ahead_cosine)
         return words(colours ? "say.back_colours" : "say.back");
-    if (cosine < -back_cosine)
+    if (cosine < ahead_cosine)
         return words(colours ? "say.aside_colours" : "say.aside");
     if (r.beta_deficit < 1e-4)
         return words("say.limit");

@@ -14,7 +14,7 @@ struct Draw {
     bool deforms = false;
     bool blended = false; ///< one instance of a blended surface
     double farthest = 0; ///< from the eye to the box of its first instance, or of its piece, at most
-    double apart = 0; ///< of its instances' full surfaces from the drawn ones, at most; scene units
+    double apart = 0; ///< greatest distance between the drawn surfaces and the full ones, scene units
 };
 
 /// The draws of one eye's cube pass.

@@ -150,10 +150,10 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
         };
         const auto push_constants
             = [&] { commands.pushConstants<shared::CubePush>(*pipelines_.layouts.surface_layout, stages, 0, push); };
-        // The material of a draw's surface, and its distance from the full surface.
+        // The material of a draw's surface, and for shadows its distance from the full surface.
         const auto put_surface = [&](const Draw& one) {
             const int index = world.primitives[one.primitive].material;
-            const float apart = float(one.apart);
+            const float apart = world_.shadows ? float(one.apart) : 0;
             if (index == material && apart == push.surface.y)
                 return;
             push.surface.y = apart;

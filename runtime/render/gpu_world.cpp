@@ -118,13 +118,13 @@ void note_large_images(const GpuWorld& gpu, World& world)
     }
 }
 
-/// The light of a highlight, or near a lamp, that counts in the range of stored light: over that of a matt surface at the
-/// lamp's distance. Of what is brighter the size is cut, and not the colour.
+/// The greatest factor by which a highlight, or a surface near a lamp, may outshine a matt surface at the lamp's distance
+/// and still be stored whole. The shader scales brighter light down, all channels alike, so that it keeps its colour.
 constexpr double most_highlight = 1024;
 
-/// The greatest light that a surface reflects, over a white matt one's that faces the lamp. Of a highlight: the peak of
-/// GGX's distribution is 1 / (pi alpha^2), and a quarter of it is reflected, by metal in its colour, by all else in white,
-/// at a flat angle more than at right angles.
+/// The greatest light that a surface reflects, over that of a white matt surface that faces the lamp. The peak of GGX's
+/// distribution is 1 / (pi alpha^2), and a highlight reflects a quarter of it: metal in its own colour, other surfaces in
+/// white, and more at flat angles than at right angles.
 double reflected(const Material& material)
 {
     const glm::dvec3 base(material.base_colour);

@@ -58,15 +58,15 @@ glm::vec3 colour_of(const Vertex& vertex)
     return glm::vec3(vertex.colour & 255, vertex.colour >> 8 & 255, vertex.colour >> 16 & 255) / 255.0f;
 }
 
-/// Of a level against the full surface.
+/// The differences between a level and the full surface, local units.
 struct Differences {
     double shading = 0; ///< DetailLevel's
-    double apart = 0; ///< greatest distance of the tested vertices
+    double apart = 0; ///< greatest distance between the tested vertices and the level
 };
 
 /// The width over which a level's shading and colours differ from the full surface's, where its shape does not. A removed
-/// vertex loses its normal up to the next remaining vertex; a small difference counts as a small part of that way. And the
-/// distance between the two. Only some vertices are tested, so that it takes milliseconds.
+/// vertex loses its normal up to the next remaining vertex; a small difference counts as a small part of that way. The
+/// greatest distance is that of the full surface's vertices. Only some vertices are tested, so that it takes milliseconds.
 Differences differences(const std::vector<Vertex>& full, const std::vector<Vertex>& vertices,
     const std::vector<std::uint32_t>& level, float extent)
 {

@@ -168,7 +168,7 @@ TEST(Cull, KeepsEveryTriangleWhoseFrontAnImagesDirectionMeets)
                 for (std::uint32_t k = 0; draw.image == i && k < draw.count; ++k)
                     for (std::uint32_t index = 0; index < draw.index_count; index += 3, ++drawn)
                         kept[list.visible[draw.first + k]][(draw.first_index - ball.first_index + index) / 3] = true;
-            for (int ray = 0; ray < 1500; ++ray) {
+            for (int ray = 0; ray < 300; ++ray) {
                 const glm::dvec2 at
                     = images[i].low + glm::dvec2(part(random), part(random)) * (images[i].high - images[i].low);
                 if (std::max(std::abs(at.x), std::abs(at.y)) < images[i].clip_hole)

@@ -30,8 +30,7 @@ Shot flown(double gamma, double exposure_ev = 0)
 
 double luminance(const dvec3& c) { return glm::dot(c, {0.2126, 0.7152, 0.0722}); }
 
-// ---------------------------------------------------------------- light far brighter than a matt surface at its lamp's
-// distance
+// ---------------------------------------------------------------- light close to a lamp
 
 /// A white wall at z = -4, and a lamp of orange light before it, at rest. lamp_z: its place.
 GpuWorld wall_and_lamp(double lamp_z, double strength)
@@ -68,7 +67,7 @@ TEST(BrightLight, OfALampCloseToAWallIsWhole)
     }
 }
 
-// Of light beyond all bounds the size is cut, and the colour stays.
+// Light above the greatest number that a cube map stores is scaled down in all channels alike.
 TEST(BrightLight, KeepsItsColourHoweverBrightItIs)
 {
     const GpuWorld world = wall_and_lamp(-3.99999, 1000);

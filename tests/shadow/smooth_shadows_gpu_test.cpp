@@ -69,9 +69,8 @@ TEST(SmoothShadows, ASmoothBallHasTheLightOfItsNormalsAndTheGroundBelowHasNone)
                         if (std::isinf(numbers.depth(at)))
                             return -2;
                         const dvec3 place = place_of(at);
-                        int own = std::abs(place.y) < 0.02 && glm::length(place) < 12
-                            ? -1
-                            : -2; // places are known to a part of their distance
+                        // Places are known to a part of their distance.
+                        int own = std::abs(place.y) < 0.02 && glm::length(place) < 12 ? -1 : -2;
                         for (std::size_t k = 0; k < centres.size(); ++k)
                             own = std::abs(glm::distance(place, centres[k]) - 1) < 0.03 && place.y > 0.05 ? int(k) : own;
                         if (own == -2 || (thing != -3 && own != thing))
