@@ -29,9 +29,10 @@ layout(constant_id = 15) const bool UNSHIFTED = false; // light is stored as its
 
 layout(constant_id = 20) const int SHADOWS = 0; // bits: lamps with maps; from the 8th on: point lamps; the 16th: daylight
 
-layout(constant_id = 21) const int BLENDED = 0; // 1: the part of what is behind that shows through; 2: the own light's part
+layout(constant_id = 21) const bool BLENDED = false; // over what is behind it, by its alpha
 // constant_id 22 is cube.vert's
 layout(constant_id = 23) const bool CONES = false; // some lamps shine in cones
+layout(constant_id = 24) const bool WITH_ALPHA = false; // some of the world's surfaces are blended
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // Spectra::columns
@@ -51,7 +52,7 @@ layout(location = 2) out vec4 coefficients2;
 layout(location = 3) out vec4 coefficients3;
 layout(location = 4) out vec4 coefficients4;
 
-const int GROUPS = UNSHIFTED ? 1 : (REFLECTED + OWN + 3) / 4;
+const int GROUPS = UNSHIFTED ? 1 : GROUP_COUNT(REFLECTED + OWN, WITH_ALPHA);
 const int KEPT = LAMPS_MOVE ? 1 : KINDS; // kinds of light that are summed before they illuminate
 const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
 
@@ -62,6 +63,13 @@ const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
 #ifdef MAPPED
 #include "gloss.glsl"
 #endif
+
+// Adds to a coefficient.
+void add_to(inout vec4 coefficients[MAX_GROUPS + 1], int k, float light)
+{
+    int place = PLACE_IN_GROUPS(k, WITH_ALPHA);
+    coefficients[place / 4][place % 4] += light;
+}
 
 float mean(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
 
@@ -100,8 +108,8 @@ void add_white(inout vec4 coefficients[MAX_GROUPS + 1], int kind, vec3 light)
     }
     coefficients[0].rgb += light;
     if (REFLECTED == 5) {
-        coefficients[0].a += mean(light);
-        coefficients[1].r += mean(light);
+        add_to(coefficients, 3, mean(light));
+        add_to(coefficients, 4, mean(light));
     }
 }
 #endif
@@ -250,8 +258,8 @@ void add_reflected(inout vec4 coefficients[MAX_GROUPS + 1], vec3 light[KEPT], ve
     coefficients[0].rgb = lit + emitted;
     if (REFLECTED == 5) {
         vec2 beyond = beyond_visible(lit, light[0]) + mean(emitted);
-        coefficients[0].a = beyond.x;
-        coefficients[1].r = beyond.y;
+        add_to(coefficients, 3, beyond.x);
+        add_to(coefficients, 4, beyond.y);
     }
 }
 
@@ -268,8 +276,8 @@ void write(vec4 coefficients[MAX_GROUPS + 1], float alpha)
         coefficients[group] *= 60000.0 / most;
     if (SEVERAL_REST_FRAMES) // a texel's samples are averaged: its coverage, and the sum of its depths
         coefficients[GROUPS] = vec4(1.0, gl_FragCoord.z, 0.0, 0.0);
-    for (int group = 0; group < MAX_GROUPS + 1 && BLENDED > 0; ++group)
-        coefficients[group] = BLENDED == 1 ? vec4(1.0 - alpha) : coefficients[group] * alpha;
+    for (int group = 0; group < MAX_GROUPS + 1 && BLENDED; ++group)
+        coefficients[group] = alpha * vec4(coefficients[group].rgb, 1.0);
     const int outputs = SEVERAL_REST_FRAMES ? GROUPS + 1 : GROUPS;
     coefficients0 = coefficients[0];
     if (outputs > 1)
@@ -289,7 +297,7 @@ void main()
         base *= texture(base_texture, uv);
     float ink, lit_part;
     apply_time(base, ink, lit_part);
-    if (MASKED && base.a < push.emissive.w)
+    if (MASKED && (base.a < push.emissive.w) != BLENDED)
         discard;
     vec3 emitted = emitted_light(ink, lit_part);
 
@@ -335,7 +343,7 @@ void main()
         if (UNSHIFTED)
             coefficients[0] += columns[i] * own;
         else
-            coefficients[(REFLECTED + i) / 4][(REFLECTED + i) % 4] += own;
+            add_to(coefficients, REFLECTED + i, own);
     }
     write(coefficients, clamp(base.a, 0.0, 1.0));
 }

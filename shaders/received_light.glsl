@@ -37,17 +37,18 @@ layout(constant_id = 24) const bool MILKY_WAY = false; // the sky has a panorama
 #endif
 layout(constant_id = 19) const int CUBE_SAMPLES = 1; // of each texel
 layout(constant_id = 20) const bool UNALIGNED = false; // some cube map has other axes than the motion's
+layout(constant_id = 27) const bool WITH_ALPHA = false; // a group has three coefficients
 
-const int GROUPS = (REFLECTED + OWN + 3) / 4;
+const int GROUPS = GROUP_COUNT(REFLECTED + OWN, WITH_ALPHA);
 
 layout(push_constant) uniform Push { ViewPush view; };
 
-layout(set = 0, binding = 1) uniform sampler2D atlas; // four coefficients of the light
+layout(set = 0, binding = 1) uniform sampler2D atlas; // the first group of the light's coefficients
 layout(set = 0, binding = 2) uniform samplerBuffer tiles; // TileTable
 layout(set = 0, binding = 3) uniform usamplerBuffer response; // Response's rows
 layout(set = 0, binding = 4) uniform sampler2D depth_atlas; // near / distance along the face's normal, 0 at infinity
 layout(set = 0, binding = 5) uniform sampler2D stars_picture; // pixel for pixel the target's; exposed light
-layout(set = 0, binding = 7) uniform sampler2D atlas1; // four more coefficients, and so on
+layout(set = 0, binding = 7) uniform sampler2D atlas1; // the second group, and so on
 layout(set = 0, binding = 8) uniform sampler2D atlas2;
 layout(set = 0, binding = 9) uniform sampler2D atlas3;
 layout(set = 0, binding = 10) uniform Own { vec4 own_rows[MOST_OWN_ROWS]; };
@@ -176,6 +177,21 @@ float halves(uint word, float part)
     return pair.x + part * pair.y;
 }
 
+float coefficient(vec4 coefficients[MAX_GROUPS], int k)
+{
+    int place = PLACE_IN_GROUPS(k, WITH_ALPHA);
+    return coefficients[place / 4][place % 4];
+}
+
+// The four coefficients from the k-th on.
+vec4 four_from(vec4 coefficients[MAX_GROUPS], int k)
+{
+    if (!WITH_ALPHA)
+        return coefficients[k / 4];
+    return vec4(coefficient(coefficients, k), k + 1 < REFLECTED ? coefficient(coefficients, k + 1) : 0.0,
+        k + 2 < REFLECTED ? coefficient(coefficients, k + 2) : 0.0, k + 3 < REFLECTED ? coefficient(coefficients, k + 3) : 0.0);
+}
+
 // The colour of light that is shifted by D; the same as response.cpp's seen.
 vec3 shifted(vec4 coefficients[MAX_GROUPS], float D)
 {
@@ -186,16 +202,16 @@ vec3 shifted(vec4 coefficients[MAX_GROUPS], float D)
     int row = int(at) * RESPONSE_TEXELS(REFLECTED);
     vec3 light = vec3(0.0);
     // The parts of four coefficients in three colours take three texels.
-    for (int group = 0; group < (REFLECTED + 3) / 4; ++group) {
-        vec4 own = coefficients[group];
-        uvec4 first = texelFetch(response, row + 3 * group), second = texelFetch(response, row + 3 * group + 1);
-        uvec4 third = texelFetch(response, row + 3 * group + 2);
+    for (int four = 0; four < (REFLECTED + 3) / 4; ++four) {
+        vec4 own = four_from(coefficients, 4 * four);
+        uvec4 first = texelFetch(response, row + 3 * four), second = texelFetch(response, row + 3 * four + 1);
+        uvec4 third = texelFetch(response, row + 3 * four + 2);
         light += own.x * vec3(halves(first.x, part), halves(first.y, part), halves(first.z, part));
-        if (4 * group + 1 < REFLECTED)
+        if (4 * four + 1 < REFLECTED)
             light += own.y * vec3(halves(first.w, part), halves(second.x, part), halves(second.y, part));
-        if (4 * group + 2 < REFLECTED)
+        if (4 * four + 2 < REFLECTED)
             light += own.z * vec3(halves(second.z, part), halves(second.w, part), halves(third.x, part));
-        if (4 * group + 3 < REFLECTED)
+        if (4 * four + 3 < REFLECTED)
             light += own.w * vec3(halves(third.y, part), halves(third.z, part), halves(third.w, part));
     }
     const int scale = 3 * REFLECTED;
@@ -207,7 +223,7 @@ vec3 shifted(vec4 coefficients[MAX_GROUPS], float D)
         int j = int(own_at) * OWN;
         for (int k = 0; k < OWN; ++k) {
             vec4 own = mix(own_rows[j + k], own_rows[j + OWN + k], fract(own_at));
-            light += own.rgb * (exp2(own.w) * coefficients[(REFLECTED + k) / 4][(REFLECTED + k) % 4]);
+            light += own.rgb * (exp2(own.w) * coefficient(coefficients, REFLECTED + k));
         }
     }
     // Beyond the table every tail falls as 1 / D^2.

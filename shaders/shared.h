@@ -28,7 +28,10 @@
 #define MAX_REST_FRAMES 16 // velocities of moving bodies, and rest
 #define MOST_REFLECTED 12 // basis coefficients of reflected sunlight
 #define MAX_OWN 4 // emission basis spectra of a scene, each with one coefficient
-#define MAX_GROUPS 4 // groups of four coefficients: one image of the cube map for each
+#define MAX_GROUPS 4 // groups of coefficients: one image of the cube map for each
+// A group has four coefficients; three in worlds with blended surfaces, whose alpha blends its image as the fourth number.
+#define GROUP_COUNT(coefficients, with_alpha) ((with_alpha) ? ((coefficients) + 2) / 3 : ((coefficients) + 3) / 4)
+#define PLACE_IN_GROUPS(k, with_alpha) ((with_alpha) ? (k) + (k) / 3 : (k)) // group = place / 4
 #define MAX_MATRICES 4096 // columns of a group: 64 KiB, a uniform buffer's size on present devices
 #define RESPONSE_ROWS 2048 // over log2 D; see response.h
 #define RESPONSE_TEXELS(reflected) ((3 * (reflected) + 5) / 4) // of a row

@@ -1,5 +1,6 @@
 #include "cull.h"
 #include "painters_order.h"
+#include "runtime/world/blended.h"
 #include "runtime/world/instances.h"
 #include "runtime/world/moving.h"
 #include "runtime/world/shape.h"
@@ -354,6 +355,7 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
     const Quality& quality, DrawList before)
 {
     DrawList list = std::move(before);
+    list.sorted_indices.clear(), list.sorted_surfaces.clear();
     list.instances.clear(), list.first_pose.clear(), list.first.clear(), list.visible.clear(), list.draws.clear();
     list.boxes.clear();
     for (const EyeEvent& eye_event : eye_events) {
@@ -368,6 +370,8 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
             list.boxes.back().shows = may_show(world, instance, eye_event, own.box);
         }
     }
+    if (!world.blended_triangles.empty())
+        list.sorted_surfaces.resize(list.instances.size());
     add_poses(world, eye_events, list);
     const std::vector<Box>& boxes = list.boxes;
     std::vector<std::vector<std::uint32_t>>& by_level = list.by_level;
@@ -406,12 +410,19 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
                 draw.farthest = boxes[seen.front()].farthest;
                 for (std::uint32_t own : seen)
                     draw.apart = std::max(draw.apart, detail.apart * boxes[own].scale);
-                if (world.materials[std::size_t(primitive.material)].blended) {
-                    draw.blended = true, draw.count = 1;
-                    for (std::size_t k = 0; k < seen.size(); ++k, ++draw.first) {
-                        draw.farthest = boxes[seen[k]].farthest;
-                        list.draws.push_back(draw);
+                const Material& material = world.materials[std::size_t(primitive.material)];
+                if (material.blended) {
+                    const std::span<const BlendedTriangle> triangles = blended_triangles(world, primitive, level);
+                    Draw own = draw;
+                    own.blended = true, own.count = 1, own.index_count = 3 * std::uint32_t(triangles.size());
+                    for (std::size_t k = 0; k < seen.size(); ++k, ++own.first) {
+                        own.farthest = boxes[seen[k]].farthest;
+                        own.first_index = sorted_from_behind(list, seen[k], level, triangles);
+                        list.draws.push_back(own);
                     }
+                }
+                if (material.blended && material.alpha_cutoff <= 0) {
+                    // nothing of it is opaque
                 } else if (primitive.pieces.count > 0) {
                     draw.count = 1;
                     for (std::uint32_t own : seen) {
@@ -447,6 +458,7 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
         sort_from_behind(std::span(blended, list.draws.end()), list);
     }
     reserve_headroom(list.draws);
+    reserve_headroom(list.sorted_indices);
     reserve_headroom(list.visible);
     return list;
 }

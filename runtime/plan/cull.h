@@ -12,7 +12,8 @@ struct Draw {
     bool finite_existence = false; ///< its instances need the existence test
     bool moves = false; ///< animated
     bool deforms = false;
-    bool blended = false; ///< one instance of a blended surface
+    bool blended = false; ///< one instance of a blended surface, what of it is not opaque: its indices are in
+                          ///< DrawList::sorted_indices
     double farthest = 0; ///< from the eye to the box of its first instance, or of its piece, at most
     double apart = 0; ///< greatest distance between the drawn surfaces and the full ones, scene units
 };
@@ -24,6 +25,7 @@ struct DrawList {
     std::vector<std::uint32_t> first_pose; ///< by rest frame, in `instances`
     std::vector<std::uint32_t> first; ///< by rest frame, in `instances`
     std::vector<std::uint32_t> visible; ///< indices into `instances`
+    std::vector<std::uint32_t> sorted_indices; ///< of blended surfaces, each one's triangles from behind
     std::vector<Draw> draws; ///< by image, then from the nearest: hidden surfaces fail the depth test unshaded. After them
                              ///< the blended ones, from behind
 
@@ -37,6 +39,12 @@ struct DrawList {
     };
     std::vector<OrientedBox> boxes; ///< as `instances`, without the poses
     std::vector<std::vector<std::uint32_t>> by_level;
+    struct SortedSurface {
+        int level = -1; ///< that is sorted; 0: the full surface; -1: none yet
+        std::uint32_t first_index = 0; ///< in `sorted_indices`
+    };
+    std::vector<SortedSurface> sorted_surfaces; ///< as `instances`, without the poses; empty without blended surfaces
+    std::vector<std::pair<float, std::uint32_t>> distances; ///< of the triangles of one surface
 };
 
 /// Transforms each rest frame's instances relative to its eye event, in double precision, rounded to float only at the

@@ -54,4 +54,26 @@ void sort_from_behind(std::span<Draw> draws, const DrawList& list)
             std::swap(draws[k], draws[k - 1]);
 }
 
+std::uint32_t sorted_from_behind(
+    DrawList& list, std::uint32_t instance, std::size_t level, std::span<const BlendedTriangle> triangles)
+{
+    // Several images of one eye show the same surface, mostly at one level.
+    DrawList::SortedSurface& sorted = list.sorted_surfaces[instance];
+    if (sorted.level == int(level))
+        return sorted.first_index;
+    sorted = {int(level), std::uint32_t(list.sorted_indices.size())};
+    const shared::InstanceEntry& at = list.instances[instance];
+    list.distances.clear();
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        const glm::vec4 middle(triangles[i].middle, 1);
+        const glm::vec3 place(glm::dot(at.row0, middle), glm::dot(at.row1, middle), glm::dot(at.row2, middle));
+        list.distances.emplace_back(glm::dot(place, place), i);
+    }
+    std::sort(list.distances.begin(), list.distances.end(), std::greater());
+    for (const auto& [distance, triangle] : list.distances)
+        list.sorted_indices.insert(
+            list.sorted_indices.end(), triangles[triangle].corners.begin(), triangles[triangle].corners.end());
+    return sorted.first_index;
+}
+
 } // namespace starbow

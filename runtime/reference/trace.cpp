@@ -226,7 +226,8 @@ struct Tracer::Scene {
         const Material& material = world.materials[std::size_t(world.primitives[instance.primitive].material)];
         if (!met.front && !material.double_sided)
             return false;
-        return material.alpha_cutoff <= 0 || base_of(world, pictures, met).a >= double(material.alpha_cutoff);
+        return material.blended || material.alpha_cutoff <= 0
+            || base_of(world, pictures, met).a >= double(material.alpha_cutoff);
     }
 
     void meet(std::uint32_t index, Query& query, float& farthest) const

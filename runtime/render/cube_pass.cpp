@@ -95,6 +95,7 @@ SurfaceVariant CubePass::variant_of(const Draw& draw, StoredLight light) const
     const bool plain = light == StoredLight::plain;
     variant.finite_existence = draw.finite_existence && !plain;
     variant.several_rest_frames = use_.several_rest_frames;
+    variant.blended = draw.blended;
     // A deforming instance has no transform of its own beside its poses.
     variant.deforms = draw.deforms, variant.moves = draw.moves && (!plain || draw.deforms);
     if (!plain && !variant.unlit && !draw.moves && images_[draw.image].rest_frame == 0)
@@ -196,23 +197,17 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
             push = surfaces_push, material = -1;
             set_guarded_area(commands, image);
         }
-        // Blended surfaces, from behind: each takes its part from what is there, then adds its own; first those that show
-        // their backs.
+        // Blended surfaces, from behind.
+        const auto first_blended = draw;
         for (; draw != list_.draws.end() && draw->image == i; ++draw) {
-            SurfaceVariant variant = variant_of(*draw, use_.light);
+            if (draw == first_blended)
+                commands.bindIndexBuffer(uploads_.sorted_indices(), 0, vk::IndexType::eUint32);
+            bind(pipelines_.surface(variant_of(*draw, use_.light), kind));
             put_surface(*draw);
-            const bool both = world.materials[std::size_t(material)].double_sided;
-            for (const vk::CullModeFlagBits culled : {vk::CullModeFlagBits::eFront, vk::CullModeFlagBits::eBack}) {
-                if (culled == vk::CullModeFlagBits::eFront && !both)
-                    continue;
-                commands.setCullMode(culled);
-                for (variant.blend = 1; variant.blend <= 2; ++variant.blend) {
-                    bind(pipelines_.surface(variant, kind));
-                    draw_one(*draw);
-                }
-            }
-            material = -1; // its sides are to be culled anew
+            draw_one(*draw);
         }
+        if (draw != first_blended)
+            commands.bindIndexBuffer(*world_.indices.buffer, 0, vk::IndexType::eUint32);
         if (device_.keeper)
             device_.keeper->hold(commands); // a scene ends whenever its memory is full
     }

@@ -42,13 +42,15 @@ CubeUploads::CubeUploads(Device& device, const Pipelines& pipelines, const GpuWo
 
 void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_events, StoredLight light, double pre_exposure)
 {
-    auto put = [&](Buffer& buffer, const auto& data) {
-        grow(device_, buffer, data.size() * sizeof(data[0]), vk::BufferUsageFlagBits::eStorageBuffer);
+    auto put = [&](Buffer& buffer, const auto& data, vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer) {
+        grow(device_, buffer, data.size() * sizeof(data[0]), usage);
         if (!data.empty())
             std::memcpy(buffer.mapped, data.data(), data.size() * sizeof(data[0]));
     };
     put(instances_, list.instances);
     put(visible_, list.visible);
+    if (!list.sorted_indices.empty())
+        put(sorted_indices_, list.sorted_indices, vk::BufferUsageFlagBits::eIndexBuffer);
     std::vector<shared::TimeEntry>& times = time_writes_;
     times.clear();
     for (std::size_t rest_frame = 0; rest_frame < eye_events.size(); ++rest_frame) {

@@ -18,6 +18,9 @@ public:
     /// Binds the set with the constants of one rest frame.
     void bind(vk::CommandBuffer commands, int rest_frame) const;
 
+    /// Of DrawList::sorted_indices.
+    vk::Buffer sorted_indices() const { return *sorted_indices_.buffer; }
+
     vk::BufferView tiles() const { return *tiles_view_; } ///< TileTable, as texels
     std::uint64_t tiles_serial() const { return tiles_.serial; }
 
@@ -31,7 +34,7 @@ private:
     const GpuWorld& world_;
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::DescriptorSet set_ = nullptr;
-    Buffer constants_, instances_, visible_, tiles_, times_; ///< times_: null without any
+    Buffer constants_, instances_, visible_, tiles_, times_, sorted_indices_; ///< the last two: null without any
     vk::raii::BufferView tiles_view_ = nullptr;
     vk::DeviceSize stride_; ///< bytes from one rest frame's constants to the next
     std::vector<shared::TimeEntry> time_writes_; ///< a member so that its memory is reused

@@ -4,6 +4,7 @@
 #include "mip_chain.h"
 #include "runtime/light/gloss.h"
 #include "runtime/light/srgb.h"
+#include "runtime/world/blended.h"
 #include "runtime/world/fastest_motion.h"
 #include "runtime/world/instances.h"
 #include "runtime/world/moving.h"
@@ -383,6 +384,7 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
     check_speeds(world, scene);
     place_bodies(world, scene);
     sort_instances(world);
+    add_blended_triangles(world);
     gpu.scene = scene;
     gpu.brightest = brightest(world, scene);
     gpu.vertices

@@ -73,8 +73,12 @@ struct GpuWorld {
     /// The numbers that a texel of the cube map holds.
     CoefficientCounts coefficients(StoredLight light) const
     {
-        return light == StoredLight::coefficients ? CoefficientCounts{spectra.basis.reflected, int(spectra.basis.own.size())}
-                                                  : CoefficientCounts{};
+        CoefficientCounts counts;
+        if (light == StoredLight::coefficients) {
+            counts.reflected = spectra.basis.reflected, counts.own = int(spectra.basis.own.size());
+            counts.with_alpha = spectra.with_alpha && counts.reflected + counts.own > 3;
+        }
+        return counts;
     }
     SurfaceVariant variant(int material, StoredLight light) const;
 };

@@ -62,7 +62,7 @@ using Spirv = std::span<const std::uint32_t>;
 
 /// A pass's way to combine its light with that in its target: none replaces it, over covers it by alpha, premultiplied, add
 /// adds to it, and multiply multiplies it.
-enum class Blending { none, over, add, multiply };
+enum class Blending { none, over, add };
 
 /// One pass's pipeline. What is not its name, its constants or its target is the same in every pipeline of that name.
 struct Pipelines::Pass {
@@ -84,7 +84,8 @@ SpecializationConstants constants(const WarpVariant& v)
     return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
         of_the_pass, std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), v.by_table,
         v.several_rest_frames, v.galilean, v.single, std::uint32_t(v.rays), v.cut, std::uint32_t(v.cube_samples),
-        v.unaligned, v.layered, v.world_alone, std::uint32_t(v.rest_frames), v.milky_way, v.range, std::uint32_t(v.globes)};
+        v.unaligned, v.layered, v.world_alone, std::uint32_t(v.rest_frames), v.milky_way, v.range, std::uint32_t(v.globes),
+        v.coefficients.with_alpha};
 }
 
 /// A shader that reads the cube map, in its builds (received_light.glsl).
@@ -178,13 +179,10 @@ vk::raii::Pipeline Pipelines::make(const Pass& pass) const
     vk::PipelineColorBlendAttachmentState blend;
     blend.colorWriteMask = vk::FlagTraits<vk::ColorComponentFlagBits>::allFlags;
     using Factor = vk::BlendFactor;
-    const bool multiplies = pass.blending == Blending::multiply;
     blend.blendEnable = pass.blending != Blending::none;
-    blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = multiplies ? Factor::eZero : Factor::eOne;
+    blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = Factor::eOne;
     blend.dstColorBlendFactor = blend.dstAlphaBlendFactor
         = pass.blending == Blending::add ? Factor::eOne : Factor::eOneMinusSrcAlpha;
-    if (multiplies)
-        blend.dstColorBlendFactor = Factor::eSrcColor, blend.dstAlphaBlendFactor = Factor::eSrcAlpha;
     std::vector<vk::PipelineColorBlendAttachmentState> blends(pass.target.colours.size(), blend);
     vk::PipelineColorBlendStateCreateInfo blending({}, false, {}, blends);
     std::vector<vk::DynamicState> dynamic = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
@@ -214,14 +212,12 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
         .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
             std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), std::uint32_t(v.kinds), v.matrices,
             v.clock, v.finite_existence, v.several_rest_frames, v.lamps_move, v.blink, v.moves, v.unshifted, v.matt,
-            v.roughness_map, v.normal_map, v.occlusion_map, std::uint32_t(v.shadows), std::uint32_t(v.blend), v.deforms,
-            v.cones},
+            v.roughness_map, v.normal_map, v.occlusion_map, std::uint32_t(v.shadows), v.blended, v.deforms, v.cones,
+            v.coefficients.with_alpha},
         .depth = true,
         .vertices = true,
         .maps = v.mapped,
-        .blending = v.blend == 0 ? Blending::none
-            : v.blend == 1       ? Blending::multiply
-                                 : Blending::add});
+        .blending = v.blended ? Blending::over : Blending::none});
 }
 
 vk::Pipeline Pipelines::sky(bool milky_way, const TargetKind& target)

@@ -43,16 +43,17 @@ struct Formats {
 /// Counts of the basis coefficients that represent light: constants of the passes that write and read the cube map.
 struct CoefficientCounts {
     int reflected = 3, own = 0;
-    /// Formats of the images that hold them, four coefficients each.
+    bool with_alpha = false; ///< each image leaves its fourth number to the alpha of blended surfaces
+    /// Formats of the images that hold them, one group of coefficients each.
     Formats formats(bool half_floats) const
     {
         const int all = reflected + own;
         Formats formats;
-        for (int first = 0; first < all; first += 4)
+        for (int group = 0; group < GROUP_COUNT(all, with_alpha); ++group)
             formats.push_back(half_floats ? light_format : exact_format);
-        if (all > 4 && all % 4 == 1)
+        if (!with_alpha && all > 4 && all % 4 == 1)
             formats[formats.size() - 1] = half_floats ? vk::Format::eR16Sfloat : vk::Format::eR32Sfloat;
-        if (all > 4 && all % 4 == 2)
+        if (!with_alpha && all > 4 && all % 4 == 2)
             formats[formats.size() - 1] = half_floats ? vk::Format::eR16G16Sfloat : vk::Format::eR32G32Sfloat;
         return formats;
     }
@@ -76,7 +77,7 @@ struct SurfaceVariant {
     bool deforms = false;
     bool unshifted = false; ///< light is stored as its colour at D = 1
     int shadows = 0; ///< constant_id 20 of cube.frag
-    int blend = 0; ///< of a blended surface: 1: takes its part from what is behind it; 2: adds its own light
+    bool blended = false; ///< drawn over what is behind it, by its alpha
     bool mapped = false; ///< gloss, or maps with coordinates of their own; the following hold for it alone
     bool matt = false, roughness_map = false, normal_map = false, occlusion_map = false;
     auto operator<=>(const SurfaceVariant&) const = default;
@@ -124,7 +125,7 @@ struct TargetKind {
 
 /// The specialization constants of a pass; constant_id is the index. On the stack, as Formats.
 struct SpecializationConstants {
-    std::array<std::uint32_t, 27> list{};
+    std::array<std::uint32_t, 28> list{};
     std::size_t count = 0;
 
     SpecializationConstants() = default;

@@ -20,9 +20,10 @@ std::vector<glm::vec4> columns_of(const Spectra& spectra, const Illumination& li
     const std::size_t groups = std::size_t(spectra.groups);
     std::vector<glm::vec4> columns(sets.sets.size() * kinds.size() * groups * columns_of_a_set, glm::vec4(0));
     auto add = [&](std::size_t set, std::size_t kind, const SurfaceReflectance& one, std::size_t k, double coefficient) {
-        glm::vec4* at = &columns[((set * kinds.size() + kind) * groups + k / 4) * columns_of_a_set];
+        const std::size_t place = spectra.place(k);
+        glm::vec4* at = &columns[((set * kinds.size() + kind) * groups + place / 4) * columns_of_a_set];
         for (int c = 0; c < columns_of_a_set; ++c)
-            at[c][int(k % 4)] += float(one.columns[c] * coefficient);
+            at[c][int(place % 4)] += float(one.columns[c] * coefficient);
     };
     const std::size_t count = std::size_t(spectra.basis.reflected);
     for (std::size_t i = 0; i < reflected.size(); ++i)
@@ -79,9 +80,9 @@ void add_sky(Spectra& spectra, const SceneFile& scene)
                 spectra.sky[i][group] += glm::dvec4(columns[c]) * (c < 3 ? rgb[c] : mean);
         }
         if (sky.temperature_K > 0 && i < 3) { // its glow is behind the Milky Way as well
-            const std::size_t k
-                = std::size_t(spectra.basis.reflected) + index_of(spectra.basis, BlackBody{sky.temperature_K});
-            spectra.sky[i][k / 4][int(k % 4)] += 1;
+            const std::size_t place = spectra.place(
+                std::size_t(spectra.basis.reflected) + index_of(spectra.basis, BlackBody{sky.temperature_K}));
+            spectra.sky[i][place / 4][int(place % 4)] += 1;
             spectra.most = std::max(spectra.most, 1.0);
         }
     }
@@ -145,8 +146,12 @@ Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel lev
     const Illumination light = illumination_of(world, scene);
     Spectra spectra;
     spectra.level = level;
-    spectra.basis = spectral_basis(spectra_of(light), reflected_counts[std::size_t(level)], light.own, importance_of(light));
-    spectra.groups = (spectra.basis.size() + 3) / 4;
+    spectra.with_alpha = std::ranges::any_of(world.materials, &Material::blended);
+    int reflected = reflected_counts[std::size_t(level)];
+    if (spectra.with_alpha) // the most that all groups hold
+        reflected = std::min(reflected, 3 * MAX_GROUPS - int(light.own.size()));
+    spectra.basis = spectral_basis(spectra_of(light), reflected, light.own, importance_of(light));
+    spectra.groups = GROUP_COUNT(spectra.basis.size(), spectra.with_alpha);
     spectra.kinds = int(light.light.kinds.size());
     spectra.lamps = light.light.lamps;
     const std::size_t sets = light.sets.sets.size();
@@ -173,7 +178,7 @@ std::optional<Spectra> unshifted(const Spectra& spectra, std::span<const glm::dv
     const auto colour_of = [&](const auto* first, std::size_t step) {
         glm::dvec3 colour(0);
         for (std::size_t k = 0; k < colours.size(); ++k)
-            colour += colours[k] * double(first[k / 4 * step][int(k % 4)]);
+            colour += colours[k] * double(first[spectra.place(k) / 4 * step][int(spectra.place(k) % 4)]);
         return colour;
     };
     Spectra same = spectra;

@@ -30,7 +30,8 @@ NeededLevel needed_level(const World& world, const SceneFile& scene); ///< world
 struct Spectra {
     SpectralLevel level = SpectralLevel::colours;
     SpectralBasis basis;
-    int groups = 1; ///< number of groups of four coefficients
+    bool with_alpha = false; ///< PLACE_IN_GROUPS's: the world has blended surfaces
+    int groups = 1; ///< number of groups of coefficients
     int kinds = 1; ///< number of kinds of spectra that illuminate surfaces; the first is sunlight
     std::vector<std::vector<LampKinds>> lamps; ///< [the scene's light][World::frames]
     bool matrices = false; ///< otherwise the coefficients are the colour itself, and its parts beyond the visible
@@ -49,6 +50,9 @@ struct Spectra {
     /// blue.
     std::array<std::array<glm::dvec4, MAX_GROUPS>, 6> sky;
     double most = 0; ///< the greatest coefficient of the world's own emission spectra
+
+    /// The place of the k-th coefficient: 4 * group + component.
+    std::size_t place(std::size_t k) const { return std::size_t(PLACE_IN_GROUPS(k, with_alpha)); }
 };
 
 /// Computes a world's spectral data. world: after place_bodies. Throws InputError where a world has more emission spectra of

@@ -93,7 +93,8 @@ struct Material {
     glm::vec4 base_colour{1}; ///< Rec. 709 linear, alpha
     glm::vec3 emissive{0}; ///< Rec. 709 linear radiance
     int base_texture = -1, emissive_texture = -1;
-    float alpha_cutoff = 0; ///< above 0: a masked material; anything with less alpha is cut out
+    float alpha_cutoff = 0; ///< above 0: a masked material; anything with less alpha is cut out. Of a blended one: some
+                            ///< places have at least this alpha and are opaque
     bool blended = false; ///< what is behind it shows through by its alpha
     bool double_sided = false;
     bool unlit = false; ///< KHR_materials_unlit: the base colour is the radiance
@@ -130,6 +131,17 @@ struct ClusterRange {
     std::uint32_t first = 0, count = 0;
 };
 
+/// A triangle of a blended surface. Each frame draws a surface's triangles in the order of their distances.
+struct BlendedTriangle {
+    glm::vec3 middle; ///< local units
+    std::array<std::uint32_t, 3> corners; ///< as in World::indices
+};
+
+/// A run of World::blended_triangles.
+struct BlendedRange {
+    std::uint32_t first = 0, count = 0;
+};
+
 /// The same surface in fewer triangles.
 struct DetailLevel {
     std::uint32_t first_index, index_count;
@@ -137,6 +149,7 @@ struct DetailLevel {
     double shading = 0; ///< width over which its shading differs, local units; less where it differs little
     double apart = 0; ///< greatest distance of the full surface from it, local units: how deep it may lie below that surface
     ClusterRange clusters{}; ///< in the order of the indices
+    BlendedRange blended{}; ///< of a blended surface
 };
 
 /// A box and the errors of the surfaces made for it: the same in all pieces that were made together.
@@ -172,6 +185,7 @@ struct Primitive {
     PieceRange pieces{}; ///< a surface with pieces has no coarser levels and no clusters of its own
     int deforming = -1; ///< index into World::deforming of its first DeformingVertex; -1: its shape is rigid
     int displacements = -1; ///< index of its first Displacement there; a vertex has one for each target, one after another
+    BlendedRange blended{}; ///< of the full surface, if it is blended
 };
 
 /// A rest frame of a part of the world. Its axes are the world's, carried by the pure boost.
@@ -235,6 +249,7 @@ struct World {
     std::vector<Primitive> primitives;
     std::vector<DetailPiece> pieces;
     std::vector<Cluster> clusters;
+    std::vector<BlendedTriangle> blended_triangles; ///< empty until add_blended_triangles
     std::vector<Instance> instances;
     std::vector<WorldNode> nodes;
     std::vector<RestFrame> frames{1}; ///< the first is the world's

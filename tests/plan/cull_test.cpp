@@ -2,12 +2,16 @@
 #include "config/model/angles.h"
 #include "runtime/plan/cull.h"
 #include "runtime/plan/painters_order.h"
+#include "runtime/world/blended.h"
 #include "runtime/world/detail.h"
 #include "runtime/world/eye_event.h"
+#include "runtime/world/instances.h"
 #include "tests/support/boxes.h"
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 #include <random>
+#include <set>
 
 namespace cull_test {
 
@@ -278,6 +282,57 @@ TEST(Cull, BlendedBoxesAreDrawnFromBehind)
     // Neighbours are compared alone, and two boxes that no ray meets both have an order, too: that order can keep a third
     // box from its place. Measured: 1 of 29,899.
     EXPECT_LE(wrong, pairs / 10000) << "of " << pairs;
+}
+
+// A blended ball that the eye sees from outside shows its far half first, at every level of detail; opaque places are drawn
+// once more, before all that is blended.
+TEST(Cull, ABlendedSurfacesTrianglesAreDrawnFromBehind)
+{
+    World world = ball_world();
+    world.materials[0].blended = true;
+    world.primitives.push_back(world.primitives[0]); // the same once more, with opaque places
+    world.materials.push_back(world.materials[0]);
+    world.materials[1].alpha_cutoff = 0.998f;
+    world.primitives[1].material = 1;
+    add_blended_triangles(world);
+    std::vector<glm::dvec3> places = {{0, 0, -3}, {1, 2, -9}, {60, -40, 200}, {-0.5, 0.2, 0.1}};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const glm::dmat4 turned = glm::translate(glm::dmat4(1), places[i])
+            * glm::mat4_cast(glm::angleAxis(0.7 * double(i), glm::normalize(glm::dvec3(1, 2, 3))));
+        world.instances.push_back({turned, std::uint32_t(i % 2)});
+    }
+    sort_instances(world);
+    std::vector<PlannedImage> images;
+    for (int face = 0; face < 6; ++face)
+        images.push_back({0, face, {-1, -1}, {1, 1}, {512, 512}, {0, 0}, 256, 1});
+    const EyeEvent eye{};
+    const DrawList list = cull(world, {&eye, 1}, images, {});
+    std::set<std::uint32_t> counts;
+    long blended = 0, solid = 0;
+    for (const Draw& draw : list.draws) {
+        if (!draw.blended) {
+            EXPECT_EQ(draw.primitive, 1u) << "of the other nothing is opaque";
+            ++solid;
+            continue;
+        }
+        ++blended;
+        counts.insert(draw.index_count);
+        ASSERT_LE(draw.first_index + draw.index_count, list.sorted_indices.size());
+        const Instance& instance = world.instances[list.visible[draw.first]];
+        double last = 1e300;
+        for (std::uint32_t i = draw.first_index; i < draw.first_index + draw.index_count; i += 3) {
+            glm::dvec3 middle(0);
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const Vertex& vertex = world.vertices[list.sorted_indices[i + k]];
+                middle += glm::dvec3(instance.frame_from_local * glm::dvec4(vertex.position, 1)) / 3.0;
+            }
+            EXPECT_LE(glm::length(middle), last * (1 + 1e-6));
+            last = glm::length(middle);
+        }
+    }
+    EXPECT_GE(counts.size(), 3u) << "levels of detail";
+    EXPECT_GE(blended, 4);
+    EXPECT_GE(solid, 2);
 }
 
 TEST(Detail, CoarserSurfacesStayWithinTheirError)

@@ -15,6 +15,7 @@
 #include "runtime/commands/options/command_line.h"
 #include "runtime/images/capture.h"
 #include "runtime/shadow/still_things.h"
+#include "runtime/world/blended.h"
 #include "runtime/world/ephemeris.h"
 #include "runtime/world/open_scene.h"
 #include "runtime/world/spectral_errors.h"
@@ -121,6 +122,7 @@ int check_scene(const std::string& name)
         print_globes(scene, *world.globes);
     place_bodies(world, scene);
     note_lacking_shadows(scene, world, world.notes);
+    note_crossing_blended(world, world.notes);
     for (const std::string& note : world.notes)
         std::printf("note: %s\n", note.c_str());
     const NeededLevel needed = needed_level(world, scene);

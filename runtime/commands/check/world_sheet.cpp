@@ -14,6 +14,7 @@
 #include "runtime/render/pass_timer.h"
 #include "runtime/render/render_context.h"
 #include "runtime/shadow/still_things.h"
+#include "runtime/world/blended.h"
 #include "runtime/world/boxes.h"
 #include "runtime/world/open_scene.h"
 #include "runtime/world/outline.h"
@@ -192,6 +193,7 @@ int check_world(const std::string& name, const std::string& page_name, const std
     out << "</table>\n";
     std::vector<std::string> notes = context.world.world.notes;
     note_lacking_shadows(context.world.scene, context.world.world, notes);
+    note_crossing_blended(context.world.world, notes);
     if (!notes.empty()) {
         out << "<h2>Notes</h2>\n<ul>\n";
         for (const std::string& note : notes)

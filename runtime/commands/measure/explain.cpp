@@ -111,7 +111,7 @@ void PartList::add_world()
     const std::size_t clocks = materials_that(world, [](const Material&m) { return m.clock.has_value(); }),
                       blinks = materials_that(world, [](const Material&m) { return m.blink.has_value(); }),
                       base = materials_that(world, [](const Material&m) { return m.base_texture >= 0; }),
-                      masked = materials_that(world, [](const Material&m) { return m.alpha_cutoff > 0; });
+                      masked = materials_that(world, [](const Material&m) { return m.alpha_cutoff > 0 && !m.blended; });
     add("clocks, with light delay", clocks > 0, count(clocks, "dial", "dials") + " in the world", "no surface is a clock",
         [](Made& m) {
             for (Material& material : m.world.materials)

@@ -1,4 +1,5 @@
 #include "parts.h"
+#include "runtime/world/blended.h"
 #include "runtime/world/moving.h"
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
@@ -240,6 +241,7 @@ World load_world(const std::filesystem::path& path)
         throw InputError(file.name, "/scenes", "shows no triangles; a world needs at least one mesh of triangles");
     if (!world.vertex_maps.empty())
         world.vertex_maps.resize(world.vertices.size());
+    find_opaque_places(world);
     return world;
 }
 
