@@ -1,6 +1,7 @@
 // Globes: the Sun, planets and moons, spheroids whose light each output pixel finds by itself along its own ray. They lie before
 // the cube map's sky. Needs received_light.glsl's constants; docs/physics/solar-system.md has the formulas and their sources.
 #include "panorama.glsl"
+#include "physics/eclipse.glsl"
 
 layout(constant_id = 26) const int GLOBES = 0; // of the world
 
@@ -115,19 +116,16 @@ bool ring_hit(GlobeEntry g, GlobeRay ray, out float t, out float radius, out flo
     return t > 0.0;
 }
 
-// The part of the Sun's light that another globe leaves. at: a place; sun: the unit way to it; both in a globe's own axes, radii.
-float left_by_other(GlobeEntry g, vec3 at, vec3 sun)
+// The part of the Sun's light that another globe leaves. at: a place in a globe's own axes, radii.
+float left_by_other(GlobeEntry g, vec3 at)
 {
     if (g.shade.w == 0.0)
         return 1.0;
-    vec3 to = g.shade.xyz - at;
-    float distance = length(to), own = g.shade.w / distance, suns = g.ring.w;
+    vec3 to = g.shade.xyz - at, sun = normalize(g.light.xyz - at * g.lamps.z);
+    float distance = length(to);
     if (dot(to, sun) < 0.0)
         return 1.0;
-    float apart = length(to / distance - sun);
-    float in_part = clamp((suns + own - apart) / (2.0 * min(suns, own)), 0.0, 1.0);
-    float size = min(own / suns, 1.0);
-    return 1.0 - in_part * in_part * (3.0 - 2.0 * in_part) * size * size;
+    return left_of_sun(g.shade.w / (distance * g.ring.w), length(to / distance - sun) / g.ring.w);
 }
 
 // Light, before the headlight effect. light: behind the globe on entry, with it on return. n: unit direction in
@@ -192,7 +190,7 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
                 vec3 at = ray.from + ray.way * (lowest + root * abs(root));
                 float r = length(at), mu = dot(at, sun_scaled) / r, part = exp((1.0 - r) * x) * 2.0 * abs(root) * step_ * x;
                 if (mu > 0.0 || r * r * (1.0 - mu * mu) > 1.0)
-                    scattered += part * left_by_other(g, at * own, g.light.xyz) * globe_colour(column, g.air.z, air_level(air + 0.5 * part + air_above(r, x, mu)));
+                    scattered += part * left_by_other(g, at * own) * globe_colour(column, g.air.z, air_level(air + 0.5 * part + air_above(r, x, mu)));
                 air += part;
             }
             // Rayleigh's phase function over 4, for a sunlit white surface sends a part of 1 / pi.
@@ -209,7 +207,7 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
         vec3 at = nearest * (middle / max(off, 1e-9)) - ray.way * sqrt(max(1.0 - middle * middle, 0.0));
         vec3 normal = normalize(at / own), way = normalize(ray.way * own);
         float mu = max(-dot(normal, way), 0.0), mu_sun = max(dot(normal, g.light.xyz), 0.0);
-        float lit = g.light.w * left_by_other(g, at * own, g.light.xyz);
+        float lit = g.light.w * left_by_other(g, at * own);
         if (g.ring.y > 0.0 && at.z * sun_scaled.z < 0.0) { // its ring's shadow
             vec3 there = at - sun_scaled * (at.z / sun_scaled.z);
             float width = ray.pixel / max(mu, 0.1) * radius_step(there, sun_scaled);

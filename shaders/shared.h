@@ -229,7 +229,7 @@ struct GlobeEntry {
     vec4 air; // x: scale height, 0: no air; y: height of its end; rows z: of light that the air scatters, w: of clouds
     vec4 ring; // x: inner, y: outer radius, 0: none; z: its row; w: the Sun's radius from here as an angle
     vec4 shade; // place of the globe that may hide the Sun from it; w: that one's radius, 0: none
-    vec4 lamps; // x: row of the light of its cities; y: their radiance, over a sunlit white surface's
+    vec4 lamps; // x: row of the light of its cities; y: their radiance, over a sunlit white surface's; z: its radius over the Sun's distance
 };
 
 // The globes before one view's sky, the farthest first.

@@ -174,6 +174,27 @@ double GlobeColours::optical_depth(double nm)
     return depth * std::pow(std::min(nm / 1000 / shortest_um, 1.0), -4);
 }
 
+namespace {
+
+/// The powers of the Sun's limb darkening at a wavelength; of an even disc where the file has none.
+std::array<double, 6> limb_at(const SolarSystem& system, double nm)
+{
+    const std::vector<LimbDarkening>& limb = system.limb;
+    if (limb.empty())
+        return {1};
+    auto after
+        = std::upper_bound(limb.begin(), limb.end(), nm, [](double at, const LimbDarkening& one) { return at < one.nm; });
+    const auto before = after == limb.begin() ? after : after - 1;
+    after = after == limb.end() ? after - 1 : after;
+    const double part = after->nm > before->nm ? (nm - before->nm) / (after->nm - before->nm) : 0;
+    std::array<double, 6> powers;
+    for (std::size_t k = 0; k < 6; ++k)
+        powers[k] = std::lerp(before->powers[k], after->powers[k], part);
+    return powers;
+}
+
+} // namespace
+
 double GlobeColours::spectrum(int index, double nm) const
 {
     static const Spectrum sunlight = sunlit_white();
@@ -186,19 +207,13 @@ double GlobeColours::spectrum(int index, double nm) const
         return light * optical_depth(nm);
     if (index >= first_kind)
         return light * straight(globes_.system.kinds[std::size_t(index - first_kind)].points, nm);
-    const std::vector<LimbDarkening>& limb = globes_.system.limb;
-    if (limb.empty())
+    if (globes_.system.limb.empty())
         return index == sun ? sun_ * light : 0;
-    auto after
-        = std::upper_bound(limb.begin(), limb.end(), nm, [](double at, const LimbDarkening& one) { return at < one.nm; });
-    const auto before = after == limb.begin() ? after : after - 1;
-    after = after == limb.end() ? after - 1 : after;
-    const double part = after->nm > before->nm ? (nm - before->nm) / (after->nm - before->nm) : 0;
+    const std::array<double, 6> powers = limb_at(globes_.system, nm);
     double mean = 0;
     for (std::size_t k = 0; k < 6; ++k)
-        mean += 2 * std::lerp(before->powers[k], after->powers[k], part) / double(k + 2);
-    const std::size_t power = std::size_t(index - sun);
-    return sun_ * light * std::lerp(before->powers[power], after->powers[power], part) / mean;
+        mean += 2 * powers[k] / double(k + 2);
+    return sun_ * light * powers[std::size_t(index - sun)] / mean;
 }
 
 glm::dvec3 GlobeColours::seen(std::span<const Term> terms, double D) const
@@ -240,6 +255,7 @@ GlobeSight::GlobeSight(
     const Globes& globes, const WorldOrigin& origin, const GlobeColours& colours, const EyeAmongGlobes& eye)
     : globes_(globes)
     , sun_radius_m_(globes.system.globes.front().radius_m)
+    , green_limb_(limb_at(globes.system, 550))
 {
     const SolarSystem& system = globes.system;
     /// A globe's place in the world, metres, at a world's time in seconds.
@@ -333,9 +349,24 @@ double GlobeSight::sun_left(const Body& body, const glm::dvec3& place) const
     const double sun_far = glm::length(sun), far = glm::length(other);
     if (far >= sun_far)
         return 1;
-    const double a = sun_radius_m_ / sun_far, b = body.other->radius_m / far, d = glm::length(sun / sun_far - other / far);
-    const double x = std::clamp((a + b - d) / (2 * std::min(a, b)), 0.0, 1.0), size = std::min(b / a, 1.0);
-    return 1 - x * x * (3 - 2 * x) * size * size;
+    const double suns = sun_radius_m_ / sun_far, own = body.other->radius_m / far;
+    const double apart = std::acos(std::clamp(glm::dot(sun, other) / (sun_far * far), -1.0, 1.0));
+    if (apart >= suns + own)
+        return 1;
+    // Rings of the Sun's disc, as wide as even steps of mu make them.
+    constexpr int rings = 100;
+    const std::array<double, 6>& limb = green_limb_;
+    double whole = 0, left = 0;
+    for (int i = 0; i < rings; ++i) {
+        const double mu = (i + 0.5) / rings, r = suns * std::sqrt(1 - mu * mu);
+        double light = 0;
+        for (std::size_t k = 6; k-- > 0;)
+            light = light * mu + limb[k];
+        const double cosine = (r * r + apart * apart - own * own) / (2 * r * std::max(apart, 1e-12));
+        whole += light * mu;
+        left += light * mu * (1 - std::acos(std::clamp(cosine, -1.0, 1.0)) / pi);
+    }
+    return left / whole;
 }
 
 /// Returns the air between the start and the end of the ray.

@@ -90,6 +90,7 @@ private:
 
     const Globes& globes_;
     double sun_radius_m_;
+    std::array<double, 6> green_limb_; ///< LimbDarkening::powers at 550 nm, by which eclipses are computed
     std::vector<Body> bodies_;
 };
 

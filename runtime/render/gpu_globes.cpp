@@ -206,6 +206,8 @@ shared::GlobeConstants GpuGlobes::constants(const Seen& all_seen, double pre_exp
                 ? glm::vec4(0)
                 : glm::vec4(row_of(globes_->system.lamps.front().name), globe.air->brightest_lamps, 0, 0);
         }
+        if (far > 0)
+            entry.lamps.z = float(globe.radius_m / (far * astronomical_unit_m));
         const double suns = far > 0 ? std::asin(std::min(1.0, globes.front().radius_m / (far * astronomical_unit_m))) : 0;
         entry.ring = glm::vec4(0, 0, 0, suns);
         if (globe.ring)

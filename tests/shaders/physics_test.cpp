@@ -920,4 +920,40 @@ TEST(Motion, FloatAgreesWithDouble)
 
 } // namespace
 
+TEST(Physics, AnEclipseLeavesTheSumOverTheRestOfTheDisc)
+{
+    // Neckel and Labs 1994, table 1, at 550 nm between its rows.
+    const std::array<double, 6> powers{0.26444, 1.30550, -1.43067, 1.67079, -1.12347, 0.31323};
+    const auto sum = [&](double disc, double apart) {
+        double whole = 0, left = 0;
+        constexpr int n = 600;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j) {
+                const dvec2 at(2 * (i + 0.5) / n - 1, 2 * (j + 0.5) / n - 1);
+                const double square = glm::dot(at, at);
+                if (square >= 1)
+                    continue;
+                const double mu = std::sqrt(1 - square);
+                double light = 0;
+                for (std::size_t k = 6; k-- > 0;)
+                    light = light * mu + powers[k];
+                whole += light;
+                left += std::hypot(at.x - apart, at.y) >= disc ? light : 0;
+            }
+        return left / whole;
+    };
+    double worst = 0;
+    for (const double disc : {0.27, 0.93, 0.999, 1.0, 1.04, 3.67})
+        for (int i = 0; i <= 24; ++i) {
+            const double apart = (1.02 + disc) * i / 24, expected = sum(disc, apart);
+            worst = std::max(worst, std::abs(pd::left_of_sun(disc, apart) - expected));
+            EXPECT_NEAR(pf::left_of_sun(float(disc), float(apart)), pd::left_of_sun(disc, apart), 2e-4)
+                << disc << ' ' << apart;
+        }
+    std::printf("an eclipse's light is off by at most %.4f\n", worst);
+    EXPECT_LT(worst, 0.004);
+    EXPECT_EQ(pd::left_of_sun(1.04, 0), 0);
+    EXPECT_EQ(pd::left_of_sun(1.04, 2.05), 1);
+}
+
 } // namespace physics_test
