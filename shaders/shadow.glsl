@@ -90,11 +90,15 @@ float ambient_part(vec3 place, vec3 n)
     vec3 cells = rows(cube.sky_cells[0], cube.sky_cells[1], cube.sky_cells[2], place)
         + vec3(cube.sky_cells[0].w, cube.sky_cells[1].w, cube.sky_cells[2].w);
     normal *= inversesqrt(dot(normal, normal));
-    cells = clamp(cells + 0.75 * normal, vec3(0.0), size - 1.001);
+    // A whole cell above the surface: no cell behind a ground or a wall along the axes is read.
+    vec3 above = cells + normal;
+    cells = clamp(above, vec3(0.0), size - 1.001);
     vec2 across = (cells.xy + 0.5) / size.xy;
     float plane = floor(cells.z), part = cells.z - plane;
-    vec3 b = mix(textureLod(sky_cells, vec3(across, 2.0 * plane), 0.0).rgb, textureLod(sky_cells, vec3(across, 2.0 * plane + 2.0), 0.0).rgb, part);
-    vec3 s = mix(textureLod(sky_cells, vec3(across, 2.0 * plane + 1.0), 0.0).rgb, textureLod(sky_cells, vec3(across, 2.0 * plane + 3.0), 0.0).rgb, part);
-    float seen = clamp(dot(b - 0.5, normal) + dot(s, normal * normal), 0.0, 1.0);
-    return mix(HIDDEN_SKY_PART, 1.0, seen);
+    vec4 b = mix(textureLod(sky_cells, vec3(across, 2.0 * plane), 0.0), textureLod(sky_cells, vec3(across, 2.0 * plane + 2.0), 0.0), part);
+    vec4 s = mix(textureLod(sky_cells, vec3(across, 2.0 * plane + 1.0), 0.0), textureLod(sky_cells, vec3(across, 2.0 * plane + 3.0), 0.0), part);
+    float seen = clamp(dot(b.xyz - 0.5, normal) + dot(s.xyz, normal * normal), 0.0, 1.0);
+    // Outside the grid things hide the less of the sky, the farther away they are, and a ground hides what it hides there.
+    float margin = 255.0 * s.w, near = margin / (margin + distance(above, cells)), far = 1.0 - b.w * (0.5 - 0.5 * normal.y);
+    return mix(HIDDEN_SKY_PART, 1.0, mix(far, seen, near * near));
 }

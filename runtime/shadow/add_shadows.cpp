@@ -57,7 +57,7 @@ bool add_shadows(
         for (const ShadowMap& map : shadows->maps)
             fill_map(*shadows, map, occluders, progress, 0.5 * map.layer / layers,
                 0.5 * (map.layer + (map.point ? 6 : 2)) / layers);
-        fill_sky(*shadows, boxes.around_middle, occluders, progress, 0.5);
+        fill_sky(*shadows, boxes, occluders, progress, 0.5);
     }
     const bool written = !known && !folder.empty() && write_kept_shadows(file, key, *shadows);
     world.shadows = std::move(shadows);

@@ -13,8 +13,8 @@ std::vector<ShadowMap> maps_of(const SceneFile& scene, const Boxes& boxes, int& 
 void fill_map(Shadows& shadows, const ShadowMap& map, const Occluders& occluders,
     const std::function<void(double)>& progress, double from, double to);
 
-/// Fills the grid of the sky's visible part, in a box. progress: from `from` to 1.
-void fill_sky(Shadows& shadows, const AlignedBox& box, const Occluders& occluders,
-    const std::function<void(double)>& progress, double from);
+/// Fills the grid of the sky's visible part, around most things. progress: from `from` to 1.
+void fill_sky(Shadows& shadows, const Boxes& boxes, const Occluders& occluders, const std::function<void(double)>& progress,
+    double from);
 
 } // namespace starbow

@@ -8,7 +8,7 @@
 namespace starbow {
 namespace {
 
-constexpr std::uint64_t version = 9; // another computation has another number
+constexpr std::uint64_t version = 10; // another computation has another number
 
 struct Header {
     char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'S'};

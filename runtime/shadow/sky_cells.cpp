@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <span>
 
 namespace starbow {
 namespace {
 
 constexpr int most_cells = 1'000'000, cells_along = 160; // of the grid; along its longest side
-constexpr int sky_rays = 64; // from a cell's middle
+constexpr int sky_rays = 1024; // from a cell's middle
 
 /// A cell of the grid, as Shadows::sky has it; `inside`: the cell is within a body.
 struct Cell {
@@ -53,6 +55,42 @@ Cell cell_at(const Occluders& occluders, const glm::dvec3& place)
     return {0.5 * (plus - minus), 0.5 * (plus + minus), backs > sky_rays / 5};
 }
 
+/// The greatest difference between two cells' visible parts of the sky, along any axis.
+double difference(const Cell& a, const Cell& b)
+{
+    const glm::dvec3 plus = glm::abs(a.b + a.s - b.b - b.s), minus = glm::abs(a.s - a.b - b.s + b.b);
+    return std::max({plus.x, plus.y, plus.z, minus.x, minus.y, minus.z});
+}
+
+/// The mean of some cells that see much the same of the sky; nullopt for others.
+std::optional<Cell> mean_of(std::span<const Cell* const> around)
+{
+    constexpr double alike = 0.02;
+    Cell mean = *around.front();
+    for (const Cell* one : around.subspan(1)) {
+        if (one->inside != mean.inside || difference(*one, *around.front()) > alike)
+            return {};
+        mean.b += one->b, mean.s += one->s;
+    }
+    mean.b /= double(around.size()), mean.s /= double(around.size());
+    return mean;
+}
+
+/// The cells with even indices around another cell, itself among them if it has such.
+std::vector<const Cell*> even_around(const std::vector<Cell>& cells, const glm::ivec3& count, const glm::ivec3& at)
+{
+    std::vector<const Cell*> around;
+    for (int k = 0; k < 8; ++k) {
+        const glm::ivec3 side(k & 1, k >> 1 & 1, k >> 2), odd = at & 1;
+        if (glm::any(glm::greaterThan(side, odd)))
+            continue; // along an even index there is one
+        const glm::ivec3 one = glm::min(at - odd + 2 * side, (count - 1) & ~1);
+        around.push_back(&cells[(std::size_t(one.z) * std::size_t(count.y) + std::size_t(one.y)) * std::size_t(count.x)
+            + std::size_t(one.x)]);
+    }
+    return around;
+}
+
 /// Cells within bodies take the mean of their neighbours, until all have a value.
 void spread(std::vector<Cell>& cells, const glm::ivec3& count)
 {
@@ -85,11 +123,69 @@ void spread(std::vector<Cell>& cells, const glm::ivec3& count)
     }
 }
 
+/// Look-ups are one cell above a surface. Gives each cell the values of surfaces that lie so much lower, by the change from
+/// the cell above them; but not where something parts the two.
+void lower(std::vector<Cell>& cells, const glm::ivec3& count)
+{
+    constexpr double parted = 0.15; // a greater change is not the sky's own
+    const std::vector<Cell> before = cells;
+    const auto index = [&](const glm::ivec3& at) {
+        return (std::size_t(at.z) * std::size_t(count.y) + std::size_t(at.y)) * std::size_t(count.x) + std::size_t(at.x);
+    };
+    for (int z = 0; z < count.z; ++z)
+        for (int y = 0; y < count.y; ++y)
+            for (int x = 0; x < count.x; ++x) {
+                const std::size_t own = index({x, y, z});
+                for (int k = 0; k < 3; ++k) {
+                    double seen[2]; // facing along the axis, and against it
+                    for (int side = 0; side < 2; ++side) {
+                        const double sign = side == 0 ? 1 : -1;
+                        const auto part = [&](const Cell& cell) { return cell.s[k] + sign * cell.b[k]; };
+                        glm::ivec3 at(x, y, z);
+                        at[k] += int(sign);
+                        seen[side] = part(before[own]);
+                        if (at[k] < 0 || at[k] >= count[k])
+                            continue;
+                        const double change = seen[side] - part(before[index(at)]);
+                        if (std::abs(change) < parted)
+                            seen[side] = std::clamp(seen[side] + change, 0.0, 1.0);
+                    }
+                    cells[own].b[k] = 0.5 * (seen[0] - seen[1]), cells[own].s[k] = 0.5 * (seen[0] + seen[1]);
+                }
+            }
+}
+
+/// The part of the lower half of the sky that a ground hides far outside the grid, as high as a row of cells.
+double ground_far_away(const Shadows& shadows, const Occluders& occluders, int y)
+{
+    const glm::dvec3 size = shadows.cell * glm::dvec3(shadows.cells);
+    const double far = 2 * std::max(size.x, size.z);
+    constexpr int places = 8;
+    double hidden = 0;
+    for (int i = 0; i < places; ++i) {
+        const double turn = 2 * std::numbers::pi * (i + 0.5) / places;
+        const glm::dvec3 middle
+            = shadows.low + 0.5 * size,
+            from(middle.x + far * std::cos(turn), shadows.low.y + shadows.cell * y, middle.z + far * std::sin(turn));
+        const Cell cell = cell_at(occluders, from);
+        hidden += 1 - (cell.s.y - cell.b.y);
+    }
+    return hidden / places;
+}
+
+/// The least distance from things to the sides of the box around them.
+double margin_of(const AlignedBox& box, const AlignedBox& things)
+{
+    const glm::dvec3 low = things.low - box.low, high = box.high - things.high;
+    return std::min({low.x, low.z, high.x, high.z});
+}
+
 } // namespace
 
-void fill_sky(Shadows& shadows, const AlignedBox& box, const Occluders& occluders,
-    const std::function<void(double)>& progress, double from)
+void fill_sky(Shadows& shadows, const Boxes& boxes, const Occluders& occluders, const std::function<void(double)>& progress,
+    double from)
 {
+    const AlignedBox &box = boxes.around_middle, &inner = boxes.middle;
     const glm::dvec3 size = box.high - box.low;
     shadows.cell = std::max({size.x, size.y, size.z, 1e-6}) / cells_along;
     const auto cells_of = [&] { return glm::max(glm::ivec3(glm::ceil(size / shadows.cell)) + 2, 2); };
@@ -99,23 +195,37 @@ void fill_sky(Shadows& shadows, const AlignedBox& box, const Occluders& occluder
     shadows.low = 0.5 * (box.low + box.high) - 0.5 * shadows.cell * glm::dvec3(shadows.cells - 1);
     const glm::ivec3& count = shadows.cells;
     std::vector<Cell> cells(std::size_t(count.x) * std::size_t(count.y) * std::size_t(count.z));
-    const auto row = [&](std::size_t line) {
+    // Every second cell along each axis first. Between such cells that see much the same of the sky, the others see it, too.
+    const auto row = [&](std::size_t line, bool even) {
         for (int x = 0; x < count.x; ++x) {
-            const std::size_t y = line % std::size_t(count.y), z = line / std::size_t(count.y);
-            const glm::dvec3 at(x, double(y), double(z));
-            cells[line * std::size_t(count.x) + std::size_t(x)] = cell_at(occluders, shadows.low + shadows.cell * at);
+            const glm::ivec3 at(x, int(line) % count.y, int(line) / count.y);
+            if ((at & 1) == glm::ivec3(0) ? !even : even)
+                continue;
+            const auto mean = even ? std::nullopt : mean_of(even_around(cells, count, at));
+            cells[line * std::size_t(count.x) + std::size_t(x)]
+                = mean ? *mean : cell_at(occluders, shadows.low + shadows.cell * glm::dvec3(at));
         }
     };
-    in_parallel(std::size_t(count.y) * std::size_t(count.z), row, progress, from, 1);
+    const std::size_t lines = std::size_t(count.y) * std::size_t(count.z);
+    const double between = 0.7 * from + 0.3; // an eighth of the cells, and about a third of the others
+    in_parallel(
+        lines, [&](std::size_t line) { row(line, true); }, progress, from, between);
+    in_parallel(
+        lines, [&](std::size_t line) { row(line, false); }, progress, between, 1);
     spread(cells, count);
+    lower(cells, count);
+    std::vector<std::uint8_t> grounds;
     const auto byte = [](double value) { return std::uint8_t(std::lround(255 * std::clamp(value, 0.0, 1.0))); };
+    for (int y = 0; y < count.y; ++y)
+        grounds.push_back(byte(ground_far_away(shadows, occluders, y)));
+    const double margin = std::clamp(std::round(margin_of(box, inner) / shadows.cell), 1.0, 255.0);
     const std::size_t plane = std::size_t(count.x) * std::size_t(count.y);
     for (std::size_t z = 0; z < std::size_t(count.z); ++z)
         for (const bool straight : {true, false})
             for (std::size_t i = z * plane; i < (z + 1) * plane; ++i) {
                 for (int k = 0; k < 3; ++k)
                     shadows.sky.push_back(byte(straight ? 0.5 + cells[i].b[k] : cells[i].s[k]));
-                shadows.sky.push_back(0);
+                shadows.sky.push_back(straight ? grounds[i % plane / std::size_t(count.x)] : std::uint8_t(margin));
             }
 }
 

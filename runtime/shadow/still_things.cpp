@@ -61,7 +61,9 @@ Boxes boxes_of(const World& world)
 std::vector<bool> lights_with_shadows(const Boxes& boxes, const SceneFile& scene)
 {
     const glm::dvec3 centre = 0.5 * (boxes.around_middle.low + boxes.around_middle.high);
-    const double reach = glm::distance(boxes.around_middle.low, boxes.around_middle.high);
+    // There, a texel of a map of 1024 is a 32nd of the things' longest side.
+    const glm::dvec3 size = boxes.middle.high - boxes.middle.low;
+    const double reach = 16 * std::max({size.x, size.y, size.z});
     std::vector<bool> has;
     int points = 0;
     for (const Light& light : scene.lights) {

@@ -16,8 +16,8 @@ struct Boxes {
 Boxes boxes_of(const World& world);
 
 /// True for each of the scene's lights that has shadows: all directional ones, and the first three point lights that rest
-/// among the still things, or near them: a map around a lamp that is far away would be too coarse. boxes: boxes_of the
-/// world.
+/// among the still things or within 16 of their longest sides: a map around a lamp that is farther away would be too coarse.
+/// boxes: boxes_of the world.
 std::vector<bool> lights_with_shadows(const Boxes& boxes, const SceneFile& scene);
 
 /// Notes, once, that things that move have no shadows, where a scene's others have them.

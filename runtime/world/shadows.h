@@ -37,7 +37,8 @@ struct Shadows {
 
     /// A grid of cells. In each, the part of the sky that a surface sees is dot(b, n) + dot(s, n * n), n its normal: exact
     /// for surfaces along the axes, and for an open sky above a ground. Eight bytes: the components of b, -0.5 to 0.5, and
-    /// 0; those of s, 0 to 1, and 0. In planes along z: of each first b's, then s's.
+    /// the part of the lower half of the sky that a ground hides far outside the grid, at that height; those of s, 0 to 1,
+    /// and the distance from the things to the grid's sides, cells. In planes along z: of each first b's, then s's.
     glm::ivec3 cells{0};
     glm::dvec3 low{0}; ///< the lowest cell's middle
     double cell = 1; ///< a cell's width, scene units

@@ -109,9 +109,9 @@ TEST(Shadows, UnderARoofThereIsLessDaylight)
     // The open ground, whose neighbourhood is flat, has all of it. Under the middle of the roof the sky is hidden in a cone:
     // of a square of side 2 at height 2 the form factor is 0.239 (Howell, catalogue B-3, four quarters).
     const double open = at({7, 2, 7}, {0.01, -1, 0});
-    EXPECT_NEAR(open, 0.5, 0.02);
+    EXPECT_NEAR(open, 0.5, 0.004);
     const double under = at({3, 1, 0}, {-1, -1.0 / 3, 0.0001});
-    EXPECT_NEAR(under, 0.5 * (0.4 + 0.6 * (1 - 0.239)), 0.03);
+    EXPECT_NEAR(under, 0.5 * (0.4 + 0.6 * (1 - 0.239)), 0.004);
     // The roof's lower side sees the ground instead of the sky.
     const double below = at({3, 0.5, 0}, {-1, 0.5, 0.0001});
     EXPECT_NEAR(below, 0.5 * 0.45, 0.06);

@@ -7,6 +7,8 @@
 #include "runtime/world/worldline.h"
 #include "tests/support/gltf_fixture.h"
 #include <cmath>
+#include <random>
+#include <tuple>
 
 namespace starbow::gltf_test::shadows_test {
 namespace {
@@ -206,6 +208,96 @@ TEST_F(ShadowsTest, TheGridTellsTheVisiblePartOfTheSky)
     EXPECT_NEAR(sky_part(shadows, {-3.8, 0.2, 0}, {1, 0, 0}), 0.5, 0.08);
     // In the middle of the ground, d from a wall of height h and great width: (1 + d / sqrt(h^2 + d^2)) / 2, for the ground.
     EXPECT_NEAR(sky_part(shadows, {2, 0.2, 0}, {0, 1, 0}), 0.5 * (1 + 6 / std::hypot(10.0, 6.0)), 0.09);
+}
+
+/// The part of the ambient light at a surface, as shadow.glsl's ambient_part reads it from the grid.
+double daylight(const Shadows& shadows, const glm::dvec3& place, const glm::dvec3& normal)
+{
+    const glm::dvec3 above = (place - shadows.low) / shadows.cell + normal,
+                     at = glm::clamp(above, glm::dvec3(0), glm::dvec3(shadows.cells) - 1.001), first = glm::floor(at);
+    double sums[8]{};
+    for (int k = 0; k < 8; ++k) {
+        const glm::dvec3 side(k & 1, k >> 1 & 1, k >> 2), part = at - first;
+        const glm::dvec3 weights = glm::mix(1.0 - part, part, side);
+        const glm::ivec3 cell(first + side);
+        for (int c = 0; c < 8; ++c)
+            sums[c] += weights.x * weights.y * weights.z / 255
+                * shadows.sky[4
+                        * ((std::size_t(2 * cell.z + c / 4) * std::size_t(shadows.cells.y) + std::size_t(cell.y))
+                                * std::size_t(shadows.cells.x)
+                            + std::size_t(cell.x))
+                    + std::size_t(c % 4)];
+    }
+    double seen = 0;
+    for (int k = 0; k < 3; ++k)
+        seen += (sums[k] - 0.5) * normal[k] + sums[4 + k] * normal[k] * normal[k];
+    const double margin = 255 * sums[7], near = margin / (margin + glm::distance(above, at)),
+                 far = 1 - sums[3] * (0.5 - 0.5 * normal.y);
+    return 0.4 + 0.6 * glm::mix(far, std::clamp(seen, 0.0, 1.0), near * near);
+}
+
+/// The form factor of a rectangle parallel to a surface, above it by h, from the place below its corner to a, b: Howell's
+/// catalogue, B-3.
+double above_corner(double a, double b, double h)
+{
+    const double x = a / h, y = b / h, p = std::sqrt(1 + x * x), q = std::sqrt(1 + y * y);
+    return (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / 6.283185307179586;
+}
+
+/// That of a rectangle at right angles to a surface and standing on it, c away, from the place beside its corner: B-4.
+double beside_corner(double height, double width, double c)
+{
+    const double far = std::hypot(height, c);
+    return (std::atan(width / c) - c / far * std::atan(width / far)) / 6.283185307179586;
+}
+
+TEST_F(ShadowsTest, DaylightIsThatOfTheOpenSkyWithinAHundredth)
+{
+    // A roof or a wall over a ground, of both sides and of one, at heights that are no multiples of a cell; some cells away
+    // from the wall, for details smaller than a cell are lost.
+    std::mt19937 random(3);
+    const auto any = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    for (const auto& [both_sides, height] : {std::pair(false, 2.0), {true, 3.137}, {false, 6.0}}) {
+        const Json material = {{"doubleSided", both_sides}};
+        Doc roof, standing;
+        wall(roof, {0, 0, 0}, {60, 0, 0}, {0, 0, -60}, material);
+        wall(roof, {-5, height, 0}, {5, 0, 0}, {0, 0, 20}, material);
+        wall(standing, {0, 0, 0}, {60, 0, 0}, {0, 0, -60}, material);
+        wall(standing, {-1, 0.5 * height, 0}, {0, 0, -12}, {0, 0.5 * height, 0}, material);
+        for (const bool is_roof : {true, false}) {
+            const SceneFile scene = scene_of(is_roof ? roof : standing, {{"ambient", {1, 1, 1}}});
+            World world = load_world(scene);
+            add_shadows(world, scene);
+            double worst = 0, worst_open = 0, least = 1, squares = 0;
+            glm::dvec3 where(0);
+            for (int i = 0; i < 4000; ++i) {
+                const glm::dvec3 place(any(is_roof ? -20 : 0.5, i % 2 ? 20 : 50), 0, any(-50, 50));
+                double hidden = 0;
+                if (is_roof) {
+                    for (const auto& [x, z, sign] : {std::tuple(0, 20, 1), {0, -20, -1}, {-10, 20, -1}, {-10, -20, 1}})
+                        hidden += sign * above_corner(x - place.x, z - place.z, height);
+                } else {
+                    hidden = beside_corner(height, 12 - place.z, place.x + 1)
+                        + beside_corner(height, 12 + place.z, place.x + 1);
+                }
+                const double expected = 1 - 0.6 * hidden;
+                least = std::min(least, expected);
+                const double off = std::abs(daylight(*world.shadows, place, {0, 1, 0}) / expected - 1);
+                if (off > worst)
+                    worst = off, where = place;
+                if (expected > 0.9)
+                    worst_open = std::max(worst_open, off);
+                squares += off * off / 4000;
+            }
+            std::printf(
+                "%s %.3f high: from %.2f on, off by at most %.2f %% at %.1f %.1f, %.2f %% on open ground, %.2f %% rms\n",
+                is_roof ? "roof" : "wall", height, least, 100 * worst, where.x, where.z, 100 * worst_open,
+                100 * std::sqrt(squares));
+            EXPECT_LT(worst_open, 0.01);
+            EXPECT_LT(std::sqrt(squares), 0.003);
+            EXPECT_LT(worst, 0.02); // near the edges of roofs, where half of the rays meet them
+        }
+    }
 }
 
 TEST_F(ShadowsTest, KeptShadowsAreReadAgainAndDamagedOnesAreNot)
