@@ -61,6 +61,8 @@ const std::vector<Known> known{
     {"say.back"},
     {"say.back_colours"},
     {"say.no_aberration"},
+    {"say.colours_alone"},
+    {"say.brightness_alone"},
     {"say.no_effects"},
     {"say.galilean"},
     {"say.no_light_delay"},

@@ -67,7 +67,8 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
 {
     const Words& words = session.words;
     const InputCapabilities capabilities = session.hid.capabilities();
-    Readings shown = readings(session.flight.ship, scene, session.flight.effects);
+    const bool by_hand = visitor_flies(session);
+    Readings shown = readings(session.flight, scene, by_hand ? session.rules.comfort : Comfort());
     shown.frames_per_s = rate_;
     show_on(session.information, session.programme.start.time * scene.seconds_per_time_unit(), shown);
     shown.mode = session.flight.mode, shown.frozen = session.flight.frozen, shown.lever = session.flight.lever;

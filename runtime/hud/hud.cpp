@@ -106,12 +106,22 @@ Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effec
     return {.beta_deficit = 1 / (gamma * (gamma + speed)),
         .gamma = gamma,
         .doppler_ahead = physics::world_from_camera({sine, 0, cosine}, E, 1 / E).D,
+        .looked_cosine = cosine,
         .ship_s = ship.proper_time.total() * seconds_per_time_unit,
         .world_s = ship.time.total() * seconds_per_time_unit,
         .distance_m = ship.distance.total() * unit_m,
         .light_speed_m_s = scene.light_speed_m_s,
         .frames_per_s = 0,
         .effects = effects};
+}
+
+Readings readings(const Flight& flight, const SceneFile& scene, const Comfort& comfort)
+{
+    Readings shown = readings(flight.ship, scene, flight.effects);
+    const Shot seen = shot_of(flight, "", comfort);
+    if (const double speed = glm::length(seen.u); speed > 0)
+        shown.looked_cosine = std::clamp(glm::dot(seen.ship_from_cockpit * glm::dvec3(0, 0, -1), seen.u) / speed, -1.0, 1.0);
+    return shown;
 }
 
 void show_on(Information information, double start_s, Readings& readings)

@@ -4,7 +4,7 @@
 #include "config/model/information.h"
 #include "config/model/scene_file.h"
 #include "config/model/words.h"
-#include "runtime/flight/ship.h"
+#include "runtime/flight/flight.h"
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -41,7 +41,8 @@ constexpr double panel_aspect = 0.2;
 /// The head-up display's values.
 struct Readings {
     double beta_deficit; ///< 1 - v/c, without cancellation
-    double gamma, doppler_ahead;
+    double gamma, doppler_ahead; ///< D straight ahead of the nose
+    double looked_cosine; ///< of the angle between the motion and the view, on board; 1 at rest
     double ship_s, world_s, distance_m; ///< world_s: on the displays for visitors and guides since the start
     double light_speed_m_s;
     double frames_per_s;
@@ -62,7 +63,10 @@ struct Readings {
     std::string notice{}; ///< one line for the exhibit's operator, or empty
     Information information = Information::laboratory;
 };
+/// The view is that of the nose.
 Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects);
+/// The same of a flight, whose view is that of the turned head.
+Readings readings(const Flight& flight, const SceneFile& scene, const Comfort& comfort = {});
 /// Chooses the display of information. On those for visitors and guides both clocks begin at 0; start_s: the world's time at
 /// the flight's start.
 void show_on(Information information, double start_s, Readings& readings);

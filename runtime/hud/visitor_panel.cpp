@@ -150,18 +150,19 @@ std::string plain_sentence(const Readings& r, const Words& words)
         return words("say.false_colours");
     if (r.frozen)
         return words("say.frozen");
-    if (beta < 0.02)
+    if (beta < 1e-6) // a ship that has stopped, to rounding
         return words("say.rest");
     if (beta < 0.25)
         return words("say.slow");
     if (!on.aberration)
-        return words(on.doppler || on.headlight ? "say.no_aberration" : "say.no_effects");
+        return words(on.doppler && on.headlight ? "say.no_aberration"
+                : on.doppler                    ? "say.colours_alone"
+                : on.headlight                  ? "say.brightness_alone"
+                                                : "say.no_effects");
     const bool colours = on.doppler && on.headlight; // what is said of them names both
-    // The nose's angle from the motion, on board: D = 1 / (gamma (1 - beta cos)).
-    const double cosine = (1 - 1 / (r.gamma * r.doppler_ahead)) / beta;
-    if (cosine < -ahead_cosine)
+    if (r.looked_cosine < -ahead_cosine)
         return words(colours ? "say.back_colours" : "say.back");
-    if (cosine < ahead_cosine)
+    if (r.looked_cosine < ahead_cosine)
         return words(colours ? "say.aside_colours" : "say.aside");
     if (r.beta_deficit < 1e-4)
         return words("say.limit");

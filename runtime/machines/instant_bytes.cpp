@@ -13,7 +13,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 /// Another order or kind of the fields below is another version.
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 /// Counts and lengths above these belong to no instant.
 constexpr std::uint32_t most_letters = 3000, most_things = 256;
@@ -150,6 +150,7 @@ template <class Part> void take(Part& part, Readings::Range& range) { take(part,
 template <class Part> void take(Part& part, Readings& shown)
 {
     take(part, shown.beta_deficit), take(part, shown.gamma), take(part, shown.doppler_ahead);
+    take(part, shown.looked_cosine);
     take(part, shown.ship_s), take(part, shown.world_s), take(part, shown.distance_m);
     take(part, shown.light_speed_m_s), take(part, shown.frames_per_s), take(part, shown.effects);
     take_choice(part, shown.mode, flight_modes.size());

@@ -93,11 +93,11 @@ std::vector<Instant> instants(const Shot& start)
     };
     std::vector<Instant> all;
     Instant& rest = all.emplace_back(at(1));
-    rest.hud = Written{1, readings({}, avenue().world.scene, {})};
+    rest.hud = Written{1, readings(Ship(), avenue().world.scene, {})};
     rest.hud->readings.caption = Caption{"You rest", {"go", "stay"}, 1};
     Instant& fast = all.emplace_back(at(4));
     fast.head = {{0.1, 0.05, -0.02}, glm::dquat(0.995, 0.0, 0.0998, 0.0)};
-    fast.hud = Written{2, readings({}, avenue().world.scene, {})};
+    fast.hud = Written{2, readings(Ship(), avenue().world.scene, {})};
     fast.sign = ShownSign{{"behind you"}, glm::normalize(dvec3(0.2, 0.1, -1))};
     Instant& faster = all.emplace_back(at(100));
     faster.small_picture = SmallPicture{.kind = Beside::at_rest, .name = "at rest"};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
+#include <map>
 #include <random>
 #include <set>
 
@@ -25,6 +26,7 @@ Readings at_rapidity(double rapidity, double degrees = 0)
     r.beta_deficit = 2 / (std::exp(2 * rapidity) + 1);
     r.gamma = std::cosh(rapidity);
     r.doppler_ahead = 1 / (std::cosh(rapidity) - std::sinh(rapidity) * std::cos(degrees * std::acos(-1.0) / 180));
+    r.looked_cosine = std::cos(degrees * std::acos(-1.0) / 180);
     r.light_speed_m_s = 299792458;
     r.information = Information::visitor;
     return r;
@@ -122,6 +124,110 @@ TEST(VisitorPanel, WhereOneLooksIsSaidByTheAngle)
     one.effects.doppler = true, one.effects.headlight = false;
     EXPECT_EQ(plain_sentence(one, words()).find("dimmer"), std::string::npos)
         << "without the headlight effect nothing is dimmer";
+}
+
+/// A direction of the world on board, or back with -u: the photon (1, -n) in the other frame.
+static glm::dvec3 in_frame_of(const glm::dvec3& u, const glm::dvec3& n)
+{
+    const double g = std::sqrt(1 + glm::dot(u, u)), along = glm::dot(u, n);
+    return glm::normalize((n + u * (1 + along / (1 + g))) / (g + along));
+}
+
+// Every sentence at flights of chance, whose heads are turned, against light rays that are followed one by one.
+TEST(VisitorPanel, EverySentenceIsTrueOfThePicture)
+{
+    std::mt19937 random(17);
+    const auto any = [&](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+    const auto direction = [&] {
+        const double z = any(-1, 1), a = any(0, 2 * pi);
+        return glm::dvec3(std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z);
+    };
+    std::map<std::string, int> said;
+    for (int i = 0; i < 4000; ++i) {
+        Flight flight;
+        const double rapidity = i % 20 == 0 ? 0 : i % 20 == 1 ? any(4, 9) : std::pow(any(0, 1), 1.5) * 4;
+        const glm::dvec3 u = std::sinh(rapidity) * direction();
+        flight.ship.u = Sum3(u);
+        flight.ship.ship_from_cockpit = glm::angleAxis(any(0, 6), direction());
+        flight.look_rad = i % 3 == 0 ? glm::dvec2(0) : glm::dvec2(any(-3, 3), any(-1.5, 1.5));
+        const bool all_on = i % 2 == 0;
+        flight.effects = {.aberration = all_on || any(0, 1) < 0.6,
+            .doppler = all_on || any(0, 1) < 0.6,
+            .headlight = all_on || any(0, 1) < 0.6};
+        flight.effects.false_colours = any(0, 1) < 0.05;
+        flight.effects.comparison = any(0, 1) < 0.9 ? Comparison::none
+            : any(0, 1) < 0.5                       ? Comparison::galilean
+                                                    : Comparison::no_light_delay;
+        flight.frozen = any(0, 1) < 0.05;
+        Readings shown = readings(flight, SceneFile());
+        shown.frozen = flight.frozen;
+        const std::string text = plain_sentence(shown, words());
+        std::string key = "?";
+        for (const auto& [name, value] : words().texts)
+            if (name.starts_with("say.") && value == text)
+                key = name.substr(4);
+        ++said[key];
+        SCOPED_TRACE(key + " at rapidity " + std::to_string(rapidity));
+
+        // What the picture does, by rays: the view, D and magnification there, and the light from ahead.
+        const double g = std::cosh(rapidity), beta = std::tanh(rapidity);
+        const glm::dvec3 way = rapidity > 0 ? glm::normalize(u) : glm::dvec3(0, 0, -1);
+        const glm::dvec3 view = shot_of(flight, "").ship_from_cockpit * glm::dvec3(0, 0, -1);
+        const double from_motion = std::acos(std::clamp(glm::dot(view, way), -1., 1.)) / pi * 180;
+        const auto D = [&](const glm::dvec3& seen) { return 1 / (g * (1 - beta * glm::dot(seen, way))); };
+        const glm::dvec3 aside
+            = glm::normalize(glm::cross(view, std::abs(view.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+        const glm::dvec3 near_by = glm::normalize(view + 1e-4 * aside);
+        const double magnified
+            = glm::distance(view, near_by) / glm::distance(in_frame_of(-u, view), in_frame_of(-u, near_by));
+        double ahead = 0;
+        for (int k = 0; k < 400; ++k) { // an even sky
+            const double z = -1 + (k + 0.5) / 200, a = 2.399963 * k;
+            const glm::dvec3 star(std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z);
+            ahead += glm::dot(in_frame_of(u, star), way) > 0 ? 1 / 400. : 0;
+        }
+        const Effects& on = flight.effects;
+        const bool looks_ahead = from_motion <= 60.001, looks_back = from_motion >= 119.999;
+        if (key == "rest")
+            EXPECT_EQ(rapidity, 0);
+        else if (key == "slow")
+            EXPECT_TRUE(beta > 0 && beta < 0.25);
+        else if (key == "rain")
+            EXPECT_TRUE(on.aberration && looks_ahead && ahead > 0.6 && ahead < 1);
+        else if (key == "colours")
+            EXPECT_TRUE(on.doppler && on.headlight && looks_ahead && D(way) > 1.5);
+        else if (key == "beam")
+            EXPECT_TRUE(on.aberration && looks_ahead && ahead > 0.95) << ahead;
+        else if (key == "limit")
+            EXPECT_TRUE(looks_ahead && 1 - beta < 1e-4);
+        else if (key == "back")
+            EXPECT_TRUE(on.aberration && looks_back && magnified > 1.05) << magnified;
+        else if (key == "back_colours")
+            EXPECT_TRUE(on.doppler && on.headlight && looks_back && D(view) < 1);
+        else if (key == "aside" || key == "aside_colours") {
+            EXPECT_FALSE(looks_ahead || looks_back) << from_motion;
+            // What is seen there lies farther from the way for who is at rest, and light nearer to the way is bluer.
+            EXPECT_LT(glm::dot(in_frame_of(-u, view), way), glm::dot(view, way));
+            EXPECT_GT(D(glm::normalize(view + 0.1 * way)), D(view));
+            EXPECT_TRUE(key == "aside" || (on.doppler && on.headlight));
+        } else if (key == "no_aberration")
+            EXPECT_TRUE(!on.aberration && on.doppler && on.headlight);
+        else if (key == "colours_alone")
+            EXPECT_TRUE(!on.aberration && on.doppler && !on.headlight);
+        else if (key == "brightness_alone")
+            EXPECT_TRUE(!on.aberration && !on.doppler && on.headlight);
+        else if (key == "no_effects")
+            EXPECT_TRUE(!on.aberration && !on.doppler && !on.headlight);
+        else if (key == "galilean" || key == "no_light_delay")
+            EXPECT_EQ(on.comparison, key == "galilean" ? Comparison::galilean : Comparison::no_light_delay);
+        else if (key == "false_colours")
+            EXPECT_TRUE(on.false_colours);
+        else if (key == "frozen")
+            EXPECT_TRUE(flight.frozen);
+        else
+            ADD_FAILURE() << "what does it say? " << text;
+    }
+    EXPECT_EQ(said.size(), 18u) << "each is said by chance";
 }
 
 TEST(VisitorPanel, VisitorsReadNoFormula)

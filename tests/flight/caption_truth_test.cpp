@@ -1,0 +1,444 @@
+// Each number of a tour's captions, and each thing that they name as seen, is computed here from the flight's state while
+// the caption is shown, by formulas that share no code with the program's measures. A number or a caption that is not listed
+// here fails.
+#include "config/model/shipped.h"
+#include "config/model/tour_file.h"
+#include "runtime/flight/tour.h"
+#include "runtime/hud/caption.h"
+#include "tests/support/files.h"
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+namespace caption_truth_test {
+
+using namespace starbow;
+using namespace starbow::testing;
+using glm::dvec3;
+
+namespace {
+
+constexpr double light_year_s = 365.25 * 86400, degree = 3.14159265358979324 / 180;
+
+/// The state while a caption is shown.
+struct Frame {
+    double time = 0, own = 0, trip = 0; ///< world's time, ship's own time and that since the last cut, scene units
+    dvec3 at{0}, u{0};
+    glm::dquat cockpit{1, 0, 0, 0};
+    bool aberration = true;
+
+    double gamma() const { return std::sqrt(1 + glm::dot(u, u)); }
+    double beta() const { return glm::length(u) / gamma(); }
+    double away(const dvec3& place) const { return glm::distance(at, place); }
+    /// When light that arrives now has left a place.
+    double left(const dvec3& place) const { return time - away(place); }
+
+    /// The unit direction in the cockpit in which a place is seen: a light's way, (1, -n), in the ship's frame.
+    dvec3 seen(const dvec3& place) const
+    {
+        dvec3 n = (place - at) / away(place);
+        if (aberration) {
+            const double g = gamma(), along = glm::dot(u, n);
+            n = (n + u * (1 + along / (1 + g))) / (g + along);
+        }
+        return glm::normalize(glm::conjugate(cockpit) * n);
+    }
+    /// True in a view of 4 to 3 with 60 degrees from top to bottom.
+    bool sees(const dvec3& place) const
+    {
+        const dvec3 n = seen(place);
+        const double half = std::tan(30 * degree);
+        return n.z < 0 && std::abs(n.y / n.z) < half && std::abs(n.x / n.z) < half * 4 / 3;
+    }
+    double off_middle_deg(const dvec3& place) const { return std::acos(std::clamp(-seen(place).z, -1., 1.)) / degree; }
+};
+
+/// What the clock on the twins' traveller shows when it is seen: on the side astern of it, 0.05 from its middle.
+double travellers_clock(const Frame& frame)
+{
+    constexpr double g = 5. / 3, v = 0.8, astern = 0.08 * 0.62;
+    double shown = std::nan("");
+    for (double own = 0; own <= 12; own += 2e-4) {
+        const double way = own < 6 ? v : -v, since = own < 6 ? own : own - 6;
+        const dvec3 place(1.3, 0, (own < 6 ? 0 : -8) + g * (astern - way * since));
+        const double left = (own < 6 ? 0 : 10) + g * (since - way * astern);
+        if (std::abs(left + frame.away(place) - frame.time) < 1e-3)
+            shown = own;
+    }
+    const double since_home = frame.left({1.3, 0, astern}); // at rest, before and after
+    return since_home <= 0 ? since_home : since_home >= 20 ? since_home - 8 : shown;
+}
+double home_clock(const Frame& frame) { return frame.left({-1.3, 0, 0.08 * 0.62}); }
+/// Home's present for the ship.
+double now_at_home(const Frame& frame)
+{
+    const dvec3 home(-1.3, 0, 0);
+    return frame.time + glm::dot(frame.u / frame.gamma(), home - frame.at);
+}
+
+/// When the light left the traveller's clock that is seen of it on its way out.
+double travellers_light(const Frame& frame)
+{
+    constexpr double g = 5. / 3, v = 0.8, astern = 0.08 * 0.62;
+    return g * (travellers_clock(frame) - v * astern);
+}
+
+constexpr double about = 0.25; ///< what "about" allows
+
+struct Number {
+    std::string text; ///< as in the English caption; {measured}: the measured one
+    std::function<double(const Frame&)> is;
+    double within; ///< so much off is the same for a reader of the instruments beside it
+};
+struct Seen {
+    const char* what;
+    std::function<dvec3(const Frame&)> at;
+    double within_deg = 0; ///< of the view's middle; 0: anywhere in view
+};
+struct Facts {
+    std::vector<Number> numbers;
+    std::vector<Seen> seen;
+    bool at_end_only = false; ///< the caption says what comes, and is true once its step is over
+};
+
+std::function<dvec3(const Frame&)> place(double x, double y, double z)
+{
+    return [=](const Frame&) { return dvec3(x, y, z); };
+}
+std::function<double(const Frame&)> always(double x)
+{
+    return [=](const Frame&) { return x; };
+}
+
+/// Half of a way of d light-years at one g: years on board, at home, and gamma.
+struct Half {
+    double on_board, at_home, gamma;
+    explicit Half(double d)
+    {
+        const double a = 9.80665 * light_year_s / 299792458, coshed = 1 + a * d / 2;
+        on_board = std::acosh(coshed) / a, at_home = std::sqrt(coshed * coshed - 1) / a, gamma = coshed;
+    }
+};
+
+const dvec3 column(0, 0, -46), saturn_then(-1065.36964085, 245.286484011, -4265.03607586);
+
+const std::map<std::string, Facts>& facts()
+{
+    const auto beta = [](const Frame& f) { return f.beta(); };
+    const auto years = [](const Frame& f) { return f.own; };
+    // The column's size: by aberration tan(seen / 2) = tan(true / 2) / e^rapidity, relative to 12 light-seconds away at
+    // rest.
+    const auto size = [](const Frame& f) { return 12 / f.away(column) / (f.gamma() * (1 + f.beta())); };
+    const auto to_column = [](const Frame& f) { return f.away(column); };
+    const auto straight = [](const dvec3& at) { return std::vector<Seen>{{"straight ahead", place(at.x, at.y, at.z), 3}}; };
+    const auto minutes = [](const Frame& f) { return f.trip / 60; };
+    const auto light_left = [](const Frame& f) { return f.left(dvec3(0)) / 60; };
+    // Sirius' neighbour need not be known: Proxima lies straight ahead of home, the Pleiades where the tour's comment says.
+    const dvec3 proxima(0, 0, -4.244);
+    const dvec3 pleiades = 403. * dvec3(0.30382802304345763, -0.5772852186744786, 0.7579118080050367);
+    const std::vector<Seen> ring{{"the golden ring", place(1.3, -0.35, -8)}},
+        ships{{"home", place(-1.3, 0, 0)}, {"the traveller", place(1.3, 0, 0)}};
+    static const std::map<std::string, Facts> all{
+        {"first-minute.here", {{{"twelve", to_column, 1e-9}}, straight(column)}},
+        {"first-minute.guess", {{}, straight(column)}},
+        {"first-minute.back", {{{"{measured}", size, 0.006}}, straight(column)}},
+        {"first-minute.question", {{}, straight(column)}},
+        {"first-minute.farther", {}},
+        {"first-minute.same", {}},
+        {"first-minute.nearer", {}},
+        {"first-minute.answer", {{{"{measured}", to_column, 0.006}}, straight(column)}},
+        {"first-minute.return", {{{"{measured}", size, 0.006}}, straight(column)}},
+        {"first-minute.as-before", {{{"{measured}", to_column, 0.006}}, straight(column)}},
+        {"first-minute.stop", {{}, straight(column)}},
+        {"first-minute.home", {}},
+        {"first-minute.try", {}},
+        {"voyage.home", {{{"4.2", [=](const Frame& f) { return f.away(proxima); }, 0.05}}, straight(proxima)}},
+        {"voyage.faster", {{{"{measured}", beta, 0.006}}, {}}},
+        {"voyage.look_back", {{{"{measured}", [](const Frame& f) { return f.left(dvec3(0)); }, 0.006}}, {}}},
+        {"voyage.look_ahead", {{{"{measured}", years, 0.006}}, {}}},
+        {"voyage.brake",
+            {{{"{measured}",
+                 [](const Frame& f) {
+                     return f.away({0, 0, -4.244064771850923});
+                 },
+                 0.006}},
+                {}}},
+        {"voyage.proxima", {{{"{measured}", years, 0.006}}, {{"Proxima", place(0, 0, -4.2441)}}}},
+        {"voyage.question", {{{"3.5", years, 0.05}}, {}}},
+        {"voyage.as_long", {{{"3.5", years, 0.05}}, {}}},
+        {"voyage.longer", {{{"6", [](const Frame& f) { return f.time; }, 0.2}}, {}}},
+        {"voyage.far_longer", {{{"12", always(12), 0}}, {}}}, // a wrong answer
+        {"voyage.answer",
+            {{{"{measured}", [](const Frame& f) { return f.time; }, 0.006}, {"4.2", always(4.244), 0.05}}, {}}},
+        {"voyage.pleiades", {{{"403", [=](const Frame& f) { return f.away(pleiades); }, 2}}, straight(pleiades)}},
+        {"voyage.crowd", {{{"{measured}", [](const Frame& f) { return f.gamma(); }, 0.6}}, {}}},
+        {"voyage.spread", {{{"{measured}", [](const Frame& f) { return f.trip; }, 0.06}}, {}}},
+        {"voyage.among",
+            {{{"{measured}", [](const Frame& f) { return f.time; }, 0.6},
+                 {"twelve", [](const Frame& f) { return f.trip; }, 0.5}},
+                {}}},
+        {"voyage.centre",
+            {{{"26,700", always(8178 * 3.26156), 50}, {"twenty", always(2 * Half(8178 * 3.26156).on_board), 0.5}}, {}}},
+        {"voyage.life", {{{"{measured}", [](const Frame& f) { return f.trip; }, 0.06}}, {}}},
+        {"voyage.half", {{{"{measured}", [](const Frame& f) { return f.time; }, 0.6}, {"0.999999997", beta, 5e-10}}, {}}},
+        {"voyage.try", {}},
+        {"solar-system.earth", {{{"12", always(12), 0}, {"2026", always(2026), 0}}, {{"the whole Earth", place(0, 0, 0)}}}},
+        {"solar-system.down", {{}, {}, true}},
+        {"solar-system.air", {{{"400", [](const Frame& f) { return f.away(dvec3(0)) * 299792.458 - 6371; }, 15}}, {}}},
+        {"solar-system.shadow", {{}, {{"the Earth", place(0, 0, 0)}}}},
+        {"solar-system.depart",
+            {{{"73", [](const Frame& f) { return f.away(saturn_then) / 60; }, 0.5}},
+                {{"the place of Saturn", [](const Frame&) { return saturn_then; }, 3}, {"the Earth", place(0, 0, 0)}}}},
+        {"solar-system.faster", {{{"{measured}", beta, 0.006}}, {}}},
+        {"solar-system.brake", {{{"{measured}", [](const Frame& f) { return f.away(saturn_then); }, 6}}, {}}},
+        {"solar-system.there", {}},
+        {"solar-system.saturn",
+            {{{"{measured}", minutes, 0.06}},
+                {{"Saturn", [](const Frame& f) { return f.at + dvec3(0.582790378366, 0.338137762192, -0.738930462672); }, 5}}}},
+        {"solar-system.back", {{{"{measured}", minutes, 0.06}}, {}}},
+        {"solar-system.question", {{}, {{"the Earth beside the Sun", place(0, 0, 0), 15}}}},
+        {"solar-system.no_time", {{{"3", light_left, 0.3}}, {}}},
+        {"solar-system.ours", {{{"11", minutes, 0.5}}, {}}},
+        {"solar-system.theirs", {{{"76", [](const Frame& f) { return f.time / 60; }, 0.5}}, {}}},
+        {"solar-system.answer",
+            {{{"{measured}", light_left, 0.006}, {"76", [](const Frame& f) { return f.time / 60; }, 0.5},
+                 {"73", [](const Frame& f) { return f.away(dvec3(0)) / 60; }, 0.5}},
+                {}}},
+        {"solar-system.try", {}},
+        {"rainbow.lamp", {{{"450", always(450), 0}}, {}}},
+        {"rainbow.guess", {}},
+        {"rainbow.faster", {{{"{measured}", beta, 0.006}}, {}}},
+        {"rainbow.colours", {}},
+        {"rainbow.question", {}},
+        {"rainbow.ahead", {}},
+        {"rainbow.abreast", {}},
+        {"rainbow.behind", {}},
+        {"rainbow.answer",
+            {{{"{measured}", [](const Frame& f) { return std::acos((1 - 1 / f.gamma()) / f.beta()) / degree; },
+                  0.06}, // D is 1
+                 {"90", always(90), 0}},
+                {}}},
+        {"rainbow.look_back", {}},
+        {"rainbow.back", {}},
+        {"rainbow.look_ahead", {}},
+        {"rainbow.front", {}},
+        {"rainbow.stop", {}},
+        {"rainbow.try", {}},
+        {"simultaneity.here", {{}, {{"the first clock", place(-10, 0, 0)}, {"the last clock", place(10, 0, 0)}}}},
+        {"simultaneity.light",
+            {{{"{measured}",
+                 [](const Frame& f) {
+                     return f.left(dvec3(0)) - f.left({10, 0, 0});
+                 },
+                 0.006}},
+                {{"the first clock", place(-10, 0, 0)}, {"the last clock", place(10, 0, 0)}}}},
+        {"simultaneity.fly", {{{"half", [](const Frame& f) { return 2 * f.beta() - 0.5; }, 1e-9}}, {}}},
+        {"simultaneity.now", {{}, {{"the middle clock", place(0, 0, 0), 1}}}},
+        {"simultaneity.question", {{}, {{"the far left", place(-10, 0, 0)}, {"the far right", place(10, 0, 0)}}}},
+        {"simultaneity.same", {}},
+        {"simultaneity.later", {}},
+        {"simultaneity.earlier", {}},
+        {"simultaneity.answer",
+            {{{"{measured}",
+                 [](const Frame& f) {
+                     return f.left({10, 0, 0}) - f.left({-10, 0, 0});
+                 },
+                 0.006}},
+                {}}},
+        {"simultaneity.stop", {}},
+        {"simultaneity.stopped", {{}, {{"the left clock", place(-10, 0, 0)}}}},
+        {"simultaneity.try", {}},
+        {"twins.here",
+            {{{"8", always(8), 0}, {"0.8", always(0.8), 0}},
+                {{"home", place(-1.3, 0, 0)}, {"the traveller", place(1.3, 0, 0)},
+                    {"the golden ring", place(1.3, -0.35, -8)}}}},
+        {"twins.leaves", {{}, {{"home", place(-1.3, 0, 0)}}}},
+        {"twins.far", {{}, {{"our clock", place(-1.3, 0, 0.05)}, {"the golden ring", place(1.3, -0.35, -8)}}}},
+        {"twins.question",
+            {{{"6", travellers_clock, 0.05}},
+                {{"the golden ring", place(1.3, -0.35, -8)}, {"our clock", place(-1.3, 0, 0.05)}}}},
+        {"twins.six", {{{"6", travellers_clock, 0.05}}, {}}},
+        {"twins.ten", {{{"10", travellers_light, about}}, {}}},
+        {"twins.eighteen", {{{"18", home_clock, about}}, {}}},
+        {"twins.answer",
+            {{{"{measured}", travellers_light, 0.006},
+                 {"8", [](const Frame& f) { return home_clock(f) - travellers_light(f); }, about},
+                 {"6", travellers_clock, 0.05}},
+                ring}},
+        {"twins.returns", {{}, {{"home", place(-1.3, 0, 0)}}}},
+        {"twins.meet",
+            {{{"20", [](const Frame& f) { return home_clock(f) - 0.5; }, 0.05},
+                 {"12", [](const Frame& f) { return travellers_clock(f) - 0.5; }, 0.05},
+                 {"8", [](const Frame& f) { return home_clock(f) - travellers_clock(f); }, 0.05}},
+                ships}},
+        {"twins.aboard", {{}, {{"home", place(-1.3, 0, 0)}}}},
+        {"twins.before", {{{"{measured}", now_at_home, 0.006}}, {{"home", place(-1.3, 0, 0)}}}},
+        {"twins.turn", {{{"{measured}", now_at_home, 0.06}}, {{"home", place(-1.3, 0, 0)}}}},
+        {"twins.leap",
+            {{{"3.6", [](const Frame& f) { return f.time - 0.8 * 8; }, 0.05}, {"{measured}", now_at_home, 0.06}},
+                {{"home", place(-1.3, 0, 0)}}}},
+        {"twins.homeward", {{}, {{"home", place(-1.3, 0, 0)}}}},
+        {"twins.both",
+            {{{"20", [](const Frame& f) { return home_clock(f) - 0.5; }, 0.05},
+                 {"12", [](const Frame& f) { return travellers_clock(f) - 0.5; }, 0.05}},
+                ships}},
+        {"twins.again", {{}, ships}},
+        {"twins.try", {}},
+    };
+    return all;
+}
+
+std::string key_of(const std::string& text, const nlohmann::json& words)
+{
+    for (const auto& [key, value] : words.items())
+        if (key.starts_with("tour.") && value == text)
+            return key.substr(5);
+    return "?";
+}
+
+/// The numbers of a text, in English figures; those of keys, buttons and one g are none.
+std::vector<std::string> numbers_in(std::string text, bool german)
+{
+    text = std::regex_replace(text, std::regex("\\{measured\\}"), "");
+    text = std::regex_replace(text, std::regex("(button|Taste|Knopf) \\d|\\d (or button|oder Taste) \\d|\\b1 g\\b"), "");
+    std::vector<std::string> all;
+    const std::regex number("\\d+([.,]\\d+)*");
+    for (std::sregex_iterator at(text.begin(), text.end(), number), end; at != end; ++at) {
+        std::string figures = at->str();
+        if (german)
+            for (char& c : figures)
+                c = c == ',' ? '.' : c == '.' ? ',' : c;
+        all.push_back(figures);
+    }
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+double value_of(std::string figures)
+{
+    static const std::map<std::string, double> words{{"twelve", 12}, {"twenty", 20}, {"half", 0.5}};
+    if (const auto found = words.find(figures); found != words.end())
+        return found->second;
+    std::erase(figures, ',');
+    return std::stod(figures);
+}
+
+nlohmann::json words_file(const char* language)
+{
+    return nlohmann::json::parse(
+        read_text(source_dir() / "config/words" / (std::string(language) + ".json")), nullptr, true, true);
+}
+
+Frame frame_of(const Touring& touring)
+{
+    const Ship& ship = touring.flight.ship;
+    return {.time = ship.time.total(),
+        .own = ship.proper_time.total(),
+        .trip = ship.proper_time.total() - touring.starts.back().since.proper_time.total(),
+        .at = ship.position.total(),
+        .u = ship.u.total(),
+        .cockpit = ship.ship_from_cockpit,
+        .aberration = touring.flight.effects.aberration};
+}
+
+/// The shown number of a caption: what stands in the place of {measured}.
+double shown_number(const std::string& text, const std::string& pattern)
+{
+    const std::size_t at = pattern.find("{measured}");
+    const std::string before = pattern.substr(0, at), after = pattern.substr(at + 10);
+    const std::size_t end = after.empty() ? text.size() : text.find(after);
+    // An answer begins with the verdict.
+    const std::size_t from = before.empty() ? text.rfind(' ', end - 1) + 1 : text.find(before) + before.size();
+    const std::string figures = text.substr(from, end - from);
+    const bool negative = figures.starts_with("−");
+    return (negative ? -1 : 1) * std::stod(negative ? figures.substr(3) : figures);
+}
+
+TEST(CaptionTruth, EveryNumberIsListed)
+{
+    for (const char* language : {"en", "de"}) {
+        const nlohmann::json words = words_file(language);
+        std::size_t texts = 0;
+        for (const auto& [key, value] : words.items()) {
+            if (!key.starts_with("tour.") || key.find(".see-") != key.npos || key.find('.', 5) == key.npos)
+                continue;
+            const auto found = facts().find(key.substr(5));
+            EXPECT_NE(found, facts().end()) << key << ": what does it say?";
+            if (found == facts().end())
+                continue;
+            std::vector<std::string> listed;
+            for (const Number& number : found->second.numbers)
+                if (std::isdigit(number.text[0]))
+                    listed.push_back(number.text);
+            std::ranges::sort(listed);
+            EXPECT_EQ(numbers_in(value, language[0] == 'd'), listed) << language << " " << key;
+            const bool measured
+                = std::ranges::any_of(found->second.numbers, [](const Number& n) { return n.text[0] == '{'; });
+            EXPECT_EQ(value.get<std::string>().find("{measured}") != std::string::npos, measured) << key;
+            ++texts;
+        }
+        EXPECT_EQ(texts, facts().size()) << language;
+    }
+}
+
+TEST(CaptionTruth, EveryNumberAndThingIsThatOfTheFrame)
+{
+    const nlohmann::json english = words_file("en");
+    std::set<std::string> met;
+    for (const std::filesystem::path& file : shipped("config/tours")) {
+        const Tour tour = load_tour(
+            file, words(), [](const std::string& name) { return source_dir() / "config/shots" / (name + ".json"); });
+        const double unit_s = file.stem() == "voyage" ? light_year_s : 1;
+        const Show timed{tour, {}, unit_s, false};
+        for (Touring touring = touring_at(timed); !touring.over; touring = advance(touring, timed, {}, 250'000'000)) {
+            const Step& step = tour.steps[touring.step()];
+            const Frame frame = frame_of(touring);
+            const std::string shown = caption_of(touring, timed, words(), {}).text;
+            std::vector<std::string> patterns;
+            if (!step.question)
+                patterns = {step.caption};
+            else if (touring.measured_answer)
+                patterns = {step.question->explanation};
+            else
+                patterns = {step.question->ask};
+            if (step.question)
+                if (const auto* choices = std::get_if<std::vector<Choice>>(&step.question->answer))
+                    for (const Choice& choice : *choices)
+                        patterns.push_back(choice.text);
+            for (std::size_t i = 0; i < patterns.size(); ++i) {
+                if (patterns[i].empty())
+                    continue;
+                const std::string key = key_of(patterns[i], english);
+                EXPECT_TRUE(facts().contains(key)) << file << " " << key << ": " << patterns[i];
+                if (!facts().contains(key))
+                    continue;
+                const Facts& said = facts().at(key);
+                met.insert(key);
+                SCOPED_TRACE(key + " at " + std::to_string(1e-9 * double(touring.into_ns)) + " s of the step");
+                for (const Number& number : said.numbers) {
+                    const double is = number.is(frame);
+                    EXPECT_NEAR(
+                        is, number.text[0] == '{' ? shown_number(shown, patterns[i]) : value_of(number.text), number.within)
+                        << number.text;
+                }
+                for (const Seen& seen : said.seen) {
+                    EXPECT_TRUE(frame.sees(seen.at(frame))) << seen.what << " is not in view";
+                    if (seen.within_deg > 0) {
+                        EXPECT_LE(frame.off_middle_deg(seen.at(frame)), seen.within_deg) << seen.what;
+                    }
+                }
+            }
+        }
+    }
+    for (const auto& [key, said] : facts())
+        EXPECT_TRUE(key.ends_with(".try") || met.contains(key)) << key << " is never shown";
+}
+
+} // namespace
+
+} // namespace caption_truth_test
