@@ -1,5 +1,4 @@
 #include "calm.h"
-#include "switches.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -42,10 +41,18 @@ SlowTurns calmed_ev(const SlowTurns& now, double wanted_ev, double dt_s)
     return followed(now, wanted_ev, dt_s, ev_per_s, ev_band);
 }
 
-Controls CalmHands::let_through(Controls controls, double dt_s)
+Flying calm_rules(Flying rules)
 {
-    since_leap_s_ += dt_s;
-    bool any = false;
+    rules.turn_deg_per_s = std::min(rules.turn_deg_per_s, calm_turn_deg_per_s);
+    rules.roll_deg_per_s = std::min(rules.roll_deg_per_s, calm_turn_deg_per_s);
+    return rules;
+}
+
+void CalmHands::hold_leaps(Controls& controls, bool by_steps)
+{
+    constexpr double nearly_at_rest = 0.5; // a ship that turns by steps rests there
+    const bool steps = by_steps && glm::length(controls.turn) > nearly_at_rest;
+    bool any = steps;
     for (const auto& [name, pressed, leap] : all_switches) {
         if (leap == Leap::none)
             continue;
@@ -53,23 +60,84 @@ Controls CalmHands::let_through(Controls controls, double dt_s)
         waits = leap == Leap::toggle ? waits != controls.*pressed : waits || controls.*pressed;
         any |= waits;
     }
+    for (const auto step : all_steps) {
+        waiting_.*step += controls.*step;
+        any |= waiting_.*step != 0;
+    }
     const bool lets = any && since_leap_s_ >= calm_every_s - rounding_s;
     for (const auto& [name, pressed, leap] : all_switches)
         if (leap != Leap::none)
             controls.*pressed = lets && std::exchange(waiting_.*pressed, false);
+    for (const auto step : all_steps)
+        controls.*step = lets ? std::exchange(waiting_.*step, 0) : 0;
+    if (steps && !lets)
+        controls.turn = glm::dvec3(0);
     if (lets)
         since_leap_s_ = 0;
+}
 
-    constexpr double lever_per_s = 4, lever_band = 0.02; // a hand's, and a worn sensor's
-    if (controls.lever)
-        controls.lever = (lever_ = followed(lever_, *controls.lever, dt_s, lever_per_s, lever_band)).value;
-    since_throttle_s_ += dt_s;
-    if (const int way = sign(controls.throttle_rate); way != 0 && way != throttle_way_) {
-        if (throttle_way_ != 0 && since_throttle_s_ < calm_every_s - rounding_s)
-            controls.throttle_rate = 0;
-        else
-            throttle_way_ = way, since_throttle_s_ = 0;
+/// Takes a number's new way. Returns false where it would turn round too early.
+bool CalmHands::turns(Kept& kept, int way)
+{
+    if (way == kept.way)
+        return true;
+    if (kept.way != 0) {
+        if (since_turn_s_ < calm_every_s - rounding_s)
+            return false;
+        since_turn_s_ = 0;
     }
+    kept.way = way;
+    return true;
+}
+
+void CalmHands::follow(Kept& kept, double per_s, double band, double dt_s)
+{
+    if (!kept.value)
+        kept.value = kept.wanted;
+    const double off = *kept.wanted - *kept.value;
+    const int way = sign(off);
+    const bool unsteady = way != kept.way && kept.way != 0 && std::abs(off) <= band;
+    if (way != 0 && !unsteady && turns(kept, way))
+        *kept.value += way * std::min(std::abs(off), per_s * dt_s);
+}
+
+Controls CalmHands::let_through(Controls controls, double dt_s, bool by_steps)
+{
+    since_leap_s_ += dt_s, since_turn_s_ += dt_s;
+    hold_leaps(controls, by_steps);
+    if (glm::dot(controls.head.turned, turned_) < 0) // the same head
+        controls.head.turned = -controls.head.turned;
+    for (std::size_t i = 0; i < all_channels.size(); ++i) {
+        const ChannelEntry& channel = all_channels[i];
+        const std::span<double> numbers = channel.of(controls);
+        for (std::size_t n = 0; n < numbers.size(); ++n) {
+            Kept& kept = kept_[i][n];
+            double& number = numbers[n];
+            switch (channel.way) {
+            case Way::rate:
+                if (number != 0 && !turns(kept, sign(number)))
+                    number = 0;
+                break;
+            case Way::place:
+                kept.wanted = number;
+                follow(kept, channel.per_s, channel.band, dt_s);
+                number = *kept.value;
+                break;
+            case Way::change: {
+                // A hand that is faster is followed for a quarter of a second after its rest.
+                const double before = kept.value.value_or(0), ahead = 0.25 * channel.per_s;
+                kept.wanted = std::clamp(kept.wanted.value_or(0) + number, before - ahead, before + ahead);
+                kept.value = before;
+                follow(kept, channel.per_s, channel.band, dt_s);
+                number = *kept.value - before;
+                break;
+            }
+            case Way::light:
+                break;
+            }
+        }
+    }
+    controls.head.turned = turned_ = glm::normalize(controls.head.turned);
     return controls;
 }
 

@@ -313,7 +313,7 @@ void Hid::add(double dt_s, Controls& controls)
         DeviceState state;
         {
             const std::lock_guard lock(device->mutex);
-            state = device->state;
+            state = known_since(device->state, came_ns_);
             // A burst shows within a few milliseconds that it is one: the newest presses wait for the next frame.
             auto& later = now - state.pressed_ns < sure_after_ns ? state.presses : device->state.presses;
             later.assign(later.size(), {});
@@ -341,6 +341,12 @@ void Hid::left_handed(bool is)
     if (left_handed_ != is)
         mappings_.clear(); // a press that waits is lost: it belonged to the other hand
     left_handed_ = is;
+}
+
+void Hid::forget()
+{
+    came_ns_ = now_ns();
+    mappings_.clear(); // a press that waits was the other hands'
 }
 
 void Hid::report_troubles(std::vector<std::string> troubles)

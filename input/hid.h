@@ -45,6 +45,9 @@ public:
     /// Sets the devices for a left-handed visitor, or for a right-handed one, from the next add() on.
     void left_handed(bool is);
 
+    /// Other hands come: each device counts once it has reported again.
+    void forget();
+
     /// A line for the visitors' display while a device is missing, or while a stuck or noisy axis is ignored; otherwise
     /// empty.
     std::string trouble() const;
@@ -69,6 +72,7 @@ private:
     std::shared_ptr<Shared> shared_;
     std::map<std::string, std::unique_ptr<Mapping>> mappings_; ///< by path and number of openings
     bool left_handed_ = false;
+    std::int64_t came_ns_ = -1; ///< when these hands came
     LeverChoice lever_;
     std::vector<std::string> troubles_; ///< of axes, as last logged
     void report_troubles(std::vector<std::string> troubles);

@@ -64,7 +64,13 @@ void Keyboard::begin()
 {
     now_.fill(false);
     drag_ = {0, 0};
-    held_ = false;
+    held_ = mouse_down_ = false;
+}
+
+void Keyboard::forget()
+{
+    keys_left_.forget(), mouse_left_.forget(), pads_left_.forget();
+    presses_.fill(0);
 }
 
 void Keyboard::collect(GLFWwindow* window)
@@ -79,6 +85,7 @@ void Keyboard::collect(GLFWwindow* window)
         const bool anew = std::exchange(self.stale_[std::size_t(key)], false);
         if (action != GLFW_PRESS && !(anew && action == GLFW_REPEAT))
             return;
+        self.keys_left_.press(std::size_t(key));
         std::uint8_t& presses = self.presses_[std::size_t(key)];
         presses = std::uint8_t(std::min(presses + 1, 255));
     });
@@ -92,6 +99,7 @@ void Keyboard::collect(GLFWwindow* window)
     for (int key = GLFW_KEY_SPACE; key < keys && key <= GLFW_KEY_LAST; ++key)
         now_[key] = now_[key] || glfwGetKey(window, key) == GLFW_PRESS;
     if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) {
+        mouse_down_ = true;
         glm::dvec2 at;
         glfwGetCursorPos(window, &at.x, &at.y);
         if (dragging_ == window)
@@ -106,12 +114,15 @@ void Keyboard::let_go(bool grabbed)
 {
     for (std::size_t key = 0; key < keys; ++key) {
         stale_[key] = now_[key] && (grabbed || stale_[key]);
-        now_[key] = now_[key] && !stale_[key];
+        now_[key] = keys_left_.counts(key, now_[key]) && !stale_[key];
     }
 }
 
 void Keyboard::finish(Controls& controls, bool left_handed)
 {
+    if (!mouse_left_.counts(0, mouse_down_))
+        held_ = false, drag_ = {0, 0};
+    keys_left_.end(), mouse_left_.end();
     if (!held_)
         dragging_ = nullptr;
     auto axis = [&](int less, int more) { return double(down(more)) - double(down(less)); };
@@ -173,6 +184,8 @@ void Keyboard::read_pads(Controls& controls, double dt_s, const std::vector<UsbI
         const GLFWgamepadstate seen = read_here && left_handed ? mirrored(state) : state;
         pads_.take(std::size_t(joystick), read_here ? &seen : nullptr);
         if (!read_here)
+            continue;
+        if (!pads_left_.counts(std::size_t(joystick), seen))
             continue;
         const Rates others = take_rates(controls);
         add_pad(seen, dt_s, controls);

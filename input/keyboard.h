@@ -1,4 +1,5 @@
 #pragma once
+#include "held_over.h"
 #include "pad.h"
 #include <array>
 #include <cstdint>
@@ -33,6 +34,9 @@ public:
         return controls;
     }
 
+    /// Other hands come: keys, mouse buttons and pads that are held count once they have been let go.
+    void forget();
+
     /// True once after these characters were typed in a row.
     bool typed(std::string_view code);
 
@@ -53,8 +57,12 @@ private:
     std::array<std::uint8_t, keys> presses_{};
     std::string typed_; ///< the last characters
     PadButtons pads_;
+    PadsLeft pads_left_;
+    HeldOver<keys> keys_left_; ///< left behind, and so is the mouse button
+    HeldOver<1> mouse_left_;
     glm::dvec2 pointer_{0}, drag_{0};
     GLFWwindow* dragging_ = nullptr;
+    bool mouse_down_ = false; ///< in one of the windows
     bool held_ = false, was_held_ = false; ///< the mouse button, now and at the reading before
 };
 

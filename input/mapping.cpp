@@ -334,6 +334,15 @@ InputCapabilities Mapping::capabilities() const
     return capabilities;
 }
 
+DeviceState known_since(DeviceState state, std::int64_t came_ns)
+{
+    if (state.report_ns <= came_ns) {
+        state.raw.assign(state.raw.size(), {});
+        state.presses.assign(state.presses.size(), {});
+    }
+    return state;
+}
+
 void Mapping::add(const DeviceState& state, std::int64_t now_ns, double dt_s, Controls& controls)
 {
     levers_.clear();

@@ -20,6 +20,10 @@ struct DeviceState {
     std::int64_t report_ns = 0; ///< arrival of the last report
 };
 
+/// The state as it counts for hands that came at a time: without a report since, a device's axes are neutral and its buttons
+/// up.
+DeviceState known_since(DeviceState state, std::int64_t came_ns);
+
 /// Applies a report as read, with its number first if the device numbers reports. Returns false if the report fits no
 /// field.
 bool take_report(

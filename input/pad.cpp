@@ -9,6 +9,7 @@
 
 namespace starbow {
 
+static_assert(sizeof GLFWgamepadstate::buttons == 15 && sizeof GLFWgamepadstate::axes == 6 * sizeof(float));
 static_assert(GLFW_JOYSTICK_LAST == 15 && GLFW_GAMEPAD_BUTTON_LAST == 14);
 
 namespace {
@@ -69,6 +70,20 @@ void add_pad(const GLFWgamepadstate& state, double dt_s, Controls& controls)
     controls.look_rad.y -= look_rad_per_s * dt_s * stick(state.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]);
     controls.exposure
         += double(state.buttons[GLFW_GAMEPAD_BUTTON_DPAD_UP]) - double(state.buttons[GLFW_GAMEPAD_BUTTON_DPAD_DOWN]);
+}
+
+bool PadsLeft::counts(std::size_t joystick, const GLFWgamepadstate& state)
+{
+    std::array<float, numbers> now;
+    std::ranges::copy(state.buttons, now.begin());
+    std::ranges::copy(state.axes, now.begin() + std::ssize(state.buttons));
+    constexpr float noise = 0.02f;
+    std::optional<std::array<float, numbers>>& left = left_[joystick];
+    if (std::exchange(forgets_[joystick], false))
+        left = now;
+    else if (left && !std::ranges::equal(now, *left, [](float a, float b) { return std::abs(a - b) <= noise; }))
+        left.reset();
+    return !left;
 }
 
 void PadButtons::take(std::size_t joystick, const GLFWgamepadstate* state)

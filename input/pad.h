@@ -24,6 +24,20 @@ GLFWgamepadstate mirrored(GLFWgamepadstate state);
 /// Adds the rates of a gamepad's sticks and triggers. dt_s: since the last reading.
 void add_pad(const GLFWgamepadstate& state, double dt_s, Controls& controls);
 
+/// Pads that other hands have left tilted or held: each counts once its state has changed. GLFW does not tell when a pad
+/// reports.
+class PadsLeft {
+public:
+    void forget() { forgets_.fill(true); }
+    /// Returns whether a pad's state counts. Call it for each pad at each reading.
+    bool counts(std::size_t joystick, const GLFWgamepadstate& state);
+
+private:
+    static constexpr std::size_t joysticks = 16, numbers = 21; ///< buttons and axes of each
+    std::array<bool, joysticks> forgets_{};
+    std::array<std::optional<std::array<float, numbers>>, joysticks> left_{};
+};
+
 /// The switches of all gamepads' buttons. GLFW knows a button's state at a reading alone: a button that is pressed and let
 /// go between two readings is not seen.
 class PadButtons {

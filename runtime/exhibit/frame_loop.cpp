@@ -242,7 +242,7 @@ Metered FrameLoop::await_device()
         if (session_.governor->drawn(seconds(Clock::now() - session_.began),
                 std::max(prepared_ms_ + *ms, master_ ? master_->slowest_ms() : 0))) // one level for all, or seams would show
             frame_->adopt(quality_of(session_, device_));
-    return {frame_->metered(), frame_->surface_samples(), frame_->star_samples()};
+    return {frame_->metered(), frame_->surface_samples(), frame_->star_samples(), frame_->samples_across()};
 }
 
 void FrameLoop::publish_view()
@@ -344,9 +344,9 @@ Instant FrameLoop::next_instant(const Head& head)
     Instant now{.shot = shot_of(flight, session_.programme.start.scene, by_hand ? session_.rules.comfort : Comfort()),
         .head = head,
         .range = curve_of(session_),
-        .meters = session_.options.exposure.automatic || session_.range,
+        .meters = session_.options.exposure.automatic || session_.range || session_.options.exposure.calm,
         .bloom = bloom_of(session_.options.exposure, device_.on_processor()),
-        .black = glm::smoothstep(0.0, 1.0, session_.black),
+        .black = 1 - (1 - glm::smoothstep(0.0, 1.0, session_.black)) * session_.calm_light,
         .vignette = session_.rules.comfort.vignette.value_or(Vignette()),
         .vignette_part = by_hand ? flight.vignette : 0,
         .pattern = session_.alignment.pattern()};

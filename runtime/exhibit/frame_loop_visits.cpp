@@ -66,6 +66,7 @@ void wait_for_visitor(Session& session)
 {
     if (session.guide)
         session.guide->again();
+    forget_hands(session);
     session.tutorial = tutorial_at(session.flight);
     session.visit = begun(session.visit);
 }
@@ -131,7 +132,6 @@ void FrameLoop::change_visitors(const VisitEvents& events, Controls& controls)
         show_attraction(session_.visit.attraction);
     if (events.begins) {
         show_programme(session_.options.programme);
-        session_.exposure = {}; // the attraction's is none of the visit's
         record_visit();
         wait_for_throttle(session_, controls);
     }

@@ -159,7 +159,13 @@ void begin_programme(Session& session, Programme programme, bool visitors)
     session.tutorial = tutorial_at(session.flight);
     session.goals = {};
     session.lab.forget();
-    session.range_mode.follows_at_once = true;
+    session.leaps.reset();
+}
+
+void forget_hands(Session& session)
+{
+    session.hid.forget();
+    session.keyboard.forget();
 }
 
 void forget_visitor(Session& session)
@@ -171,8 +177,8 @@ void forget_visitor(Session& session)
     session.one_button = session.options.one_button.has_value();
     session.left_handed = session.options.left_handed;
     session.scan = {};
+    forget_hands(session);
     forget_language(session.options.state);
-    session.exposure = {};
     session.range = session.options.exposure.mode == ExposureMode::range;
     session.range_mode = {};
 }

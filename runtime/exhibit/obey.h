@@ -15,6 +15,9 @@ Programme programme_after(const Session& session, const Command& command);
 /// Shows a programme from its start. visitors: false where nobody is there to fly, and to answer a tour's questions.
 void begin_programme(Session& session, Programme programme, bool visitors = true);
 
+/// Another visitor's hands come: what the last ones have left tilted, open or held counts once it has reported again.
+void forget_hands(Session& session);
+
 /// Everything that a visitor can change, but for the programme and the instruments, is as the exhibit's file says.
 void forget_visitor(Session& session);
 

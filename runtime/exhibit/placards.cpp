@@ -24,7 +24,8 @@ void Placards::choose(const Session& session, const GpuWorld& world, Instant& no
     if (sign_)
         now.sign = {lines_of(*sign_, session.words), sign_->towards};
     if (session.beside != Beside::none)
-        now.small_picture = small_picture(session, now.shot);
+        now.small_picture
+            = small_picture(session.beside, now.shot, session.programme.start.exposure_ev, telescope_deg_, session.words);
 }
 
 /// The boxes of the world's things. The rules of a flight with a pace hold them; without one they are read at their first
@@ -43,17 +44,17 @@ std::span<const AlignedBox> Placards::things_in(const Session& session, const Gp
     return *things_;
 }
 
-SmallPicture Placards::small_picture(const Session& session, const Shot& shot)
+SmallPicture small_picture(Beside kind, const Shot& shot, double start_ev, double& telescope_deg, const Words& words)
 {
-    telescope_deg_ = session.beside == Beside::telescope ? telescope_fov_deg(glm::length(shot.u), telescope_deg_) : 0;
-    SmallPicture made{.kind = session.beside, .start_ev = session.programme.start.exposure_ev};
-    if (telescope_deg_ > 0) {
-        made.fov_deg = telescope_deg_;
+    telescope_deg = kind == Beside::telescope ? telescope_fov_deg(glm::length(shot.u), telescope_deg) : 0;
+    SmallPicture made{.kind = kind, .start_ev = start_ev};
+    if (telescope_deg > 0) {
+        made.fov_deg = telescope_deg;
         char angle[32]; // 30, 1.5, 0.06
-        std::snprintf(angle, sizeof angle, "%g", telescope_deg_);
-        made.name = session.words("beside.telescope_angle", {{"angle", session.words.number(angle)}});
+        std::snprintf(angle, sizeof angle, "%g", telescope_deg);
+        made.name = words("beside.telescope_angle", {{"angle", words.number(angle)}});
     } else {
-        made.name = session.words(std::string("beside.") + name_of(session.beside));
+        made.name = words(std::string("beside.") + name_of(kind));
     }
     return made;
 }

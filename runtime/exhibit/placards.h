@@ -5,6 +5,10 @@
 
 namespace starbow {
 
+/// The small picture of a kind that is not `none`. start_ev: as beside()'s. telescope_deg: the telescope's field in the
+/// frame before, and then in this one; 0: none.
+SmallPicture small_picture(Beside kind, const Shot& shot, double start_ev, double& telescope_deg, const Words& words);
+
 /// Chooses the things that are laid over the picture beside the head-up display: a sign at a thing, and the small picture
 /// with its name.
 class Placards {
@@ -16,7 +20,6 @@ public:
 
 private:
     std::span<const AlignedBox> things_in(const Session& session, const GpuWorld& world);
-    SmallPicture small_picture(const Session& session, const Shot& shot);
 
     std::optional<std::vector<AlignedBox>> things_; ///< of a world without a pace; nullopt: not read yet
     std::optional<Sign> sign_;

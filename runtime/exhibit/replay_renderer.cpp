@@ -1,20 +1,23 @@
 #include "replay_renderer.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
+#include "placards.h"
+#include <utility>
 
 namespace starbow {
 
-ReplayRenderer::ReplayRenderer(
-    OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev, const Comfort& comfort)
+ReplayRenderer::ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev,
+    Words words, const Comfort& comfort)
     : renderer_(renderer)
     , layout_(renderer.layout())
     , alignment_(pattern)
     , exposing_(exposing)
     , start_ev_(start_ev)
+    , words_(std::move(words))
     , comfort_(comfort)
 {
-    renderer_.frame().bloom(bloom_of(exposing, renderer_.on_processor()));
-    renderer_.frame().show(pattern);
+    now_.bloom = bloom_of(exposing, renderer_.on_processor());
+    now_.vignette = comfort.vignette.value_or(Vignette());
 }
 
 double ReplayRenderer::wanted_ev(double flights_ev) const
@@ -25,6 +28,8 @@ double ReplayRenderer::wanted_ev(double flights_ev) const
 void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
 {
     Controls controls = entry.controls;
+    if (std::exchange(begun_, flight.leaps.begun) != flight.leaps.begun)
+        exposure_ = {}, calm_ev_ = {};
     exposure_.locked ^= controls.lock_exposure;
     exposure_ = adapted_to(exposure_, entry.exposure_ev, exposing_, start_ev_);
     const bool had_curve = range_mode_.follower.shown.has_value();
@@ -45,18 +50,25 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
             alignment_.say(one_line(error.what()));
         }
     }
-    renderer_.frame().show(alignment_.pattern());
-    renderer_.frame().move_head(controls.head);
+    if (controls.beside)
+        beside_ = after(beside_);
+    now_.head = controls.head;
+    now_.black = 1 - entry.light;
 }
 
 std::vector<std::vector<std::uint8_t>> ReplayRenderer::picture(
     const Flight& flight, const std::string& scene, const Panel* hud)
 {
-    renderer_.frame().vignette(comfort_.vignette.value_or(Vignette()), flight.vignette);
-    Shot shot = shot_of(flight, scene, comfort_);
-    shot.exposure_ev = calm_ev_.value.value_or(wanted_ev(shot.exposure_ev));
-    renderer_.frame().range(range_mode_.follower.shown);
-    return renderer_.picture(shot, hud);
+    now_.shot = shot_of(flight, scene, comfort_);
+    now_.shot.exposure_ev = calm_ev_.value.value_or(wanted_ev(now_.shot.exposure_ev));
+    now_.range = range_mode_.follower.shown;
+    now_.vignette_part = flight.vignette;
+    now_.pattern = alignment_.pattern();
+    now_.small_picture.reset();
+    if (beside_ != Beside::none)
+        now_.small_picture = small_picture(beside_, now_.shot, start_ev_, telescope_deg_, words_);
+    pictures_.set_up(now_, words_, renderer_.frame());
+    return renderer_.picture(now_.shot, hud);
 }
 
 } // namespace starbow

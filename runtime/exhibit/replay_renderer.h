@@ -1,6 +1,7 @@
 #pragma once
 #include "alignment_mode.h"
 #include "input/calm.h"
+#include "instant_pictures.h"
 #include "runtime/flight/flight.h"
 #include "runtime/flight/record.h"
 #include "runtime/light/range_curve.h"
@@ -11,13 +12,18 @@ namespace starbow {
 /// Draws a recorded flight's pictures off-screen, frame by frame as the exhibit shows them.
 class ReplayRenderer {
 public:
-    /// pattern: the outputs' first test pattern. start_ev: the flight's first exposure, EV. comfort: of the flight's rules.
-    ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev,
+    /// pattern: the outputs' first test pattern. start_ev: the flight's first exposure, EV. words: for the
+    /// small picture's name. comfort: of the flight's rules.
+    ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev, Words words,
         const Comfort& comfort = {});
 
-    /// Applies a frame's controls to the pictures: head, test patterns, the builder's changes, exposure. Changes add up,
+    /// Applies a frame's controls to the pictures: head, test patterns, the builder's changes, exposure,
+    /// the small picture. Changes add up,
     /// so every frame must be applied. flight: after the frame. Writes no layout.
     void take(const RecordEntry& entry, const Flight& flight);
+
+    /// Whether the pictures are metered, for a flight that goes on.
+    void meter(bool on) { now_.meters = on; }
 
     /// Each output as RGBA8, rows from the top.
     std::vector<std::vector<std::uint8_t>> picture(const Flight& flight, const std::string& scene, const Panel* hud);
@@ -33,7 +39,13 @@ private:
     AlignmentMode alignment_;
     Exposing exposing_;
     double start_ev_;
+    Words words_;
     Comfort comfort_;
+    Beside beside_ = Beside::none; ///< the small picture
+    double telescope_deg_ = 0; ///< its telescope's field; 0: none
+    InstantPictures pictures_;
+    Instant now_;
+    std::uint32_t begun_ = 0; ///< the count of the flight's beginnings
     Exposure exposure_;
     RangeMode range_mode_;
     SlowTurns calm_ev_; ///< the shown EV of a calm exhibit

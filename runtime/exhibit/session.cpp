@@ -162,6 +162,8 @@ Flying rules_in(const ExhibitOptions& options, Flying rules, const Programme& pr
     const bool bounded = options.visiting || options.rules.boundary, paced = options.paced_flight || options.rules.pace;
     const SceneFile scene = open_scene(programme.scene);
     rules.solids = solid_globes(scene);
+    if (options.exposure.calm)
+        rules = calm_rules(rules);
     if (bounded)
         rules.boundary = scene.boundary;
     rules.pace.reset();
@@ -411,7 +413,7 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     else if (by_one_button(session))
         scan(session, controls, entry.dt_ns);
     if (session.options.exposure.calm)
-        controls = session.calm_hands.let_through(controls, dt_s);
+        controls = session.calm_hands.let_through(controls, dt_s, session.rules.comfort.turn_steps_deg > 0);
     return !quits;
 }
 
@@ -453,6 +455,21 @@ bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelin
             .version = session.options.version});
 }
 
+/// Dims a calm exhibit's picture where it would flash. before: of the picture before.
+static void guard_light(Session& session, RecordEntry& entry, const Metered& before, double dt_s)
+{
+    if (session.record_replay.replays()) {
+        session.calm_light = entry.light;
+        return;
+    }
+    const std::optional<RangeCurve> curve = curve_of(session);
+    const double gain = std::exp2(session.drawn_ev);
+    session.flash_guard.take(
+        before.surfaces, before.across,
+        [&](double luminance) { return gain * (curve ? std::exp2(curve->at(std::log2(luminance))) : luminance); }, dt_s);
+    entry.light = session.calm_light = session.flash_guard.light();
+}
+
 /// Limits the turns of a calm exhibit's exposure and of its way to black.
 void keep_calm(Session& session, double dt_s)
 {
@@ -474,26 +491,46 @@ void seek_goals(Session& session, const SceneFile& scene, std::int64_t dt_ns)
             scene.seconds_per_time_unit(), dt_ns);
 }
 
-void step(Session& session, RecordEntry& entry, const Metered& metered, double seconds_per_time_unit)
+/// Adapts at once where the picture has leapt. Returns true if it has: what was metered then belongs to another picture.
+static bool follow_leap(Session& session)
+{
+    const Leaps leaps = session.flight.leaps;
+    const std::optional<Leaps> before = std::exchange(session.leaps, leaps);
+    if (before == leaps)
+        return false;
+    if (before && before->begun == leaps.begun) {
+        session.exposure.leapt = true;
+        return true;
+    }
+    session.exposure = {}, session.calm_ev = {};
+    session.begun_ev = session.guide ? session.flight.exposure_ev : session.programme.start.exposure_ev;
+    session.range_mode.follows_at_once = true;
+    return true;
+}
+
+void step(Session& session, RecordEntry& entry, const Metered& before, double seconds_per_time_unit)
 {
     const Exposing& exposing = session.options.exposure;
     const Shot& start = session.programme.start;
     const Controls& controls = entry.controls;
     const double dt_s = 1e-9 * double(entry.dt_ns);
+    if (exposing.calm)
+        guard_light(session, entry, before, dt_s);
     const bool toured = session.guide && !session.guide->over();
     session.flight = session.guide ? session.guide->flown(controls, entry.dt_ns)
         : session.shown_record
         ? session.shown_record->flown(entry.dt_ns)
         : flown(session.flight, session.history, controls, entry.dt_ns, session.rules, seconds_per_time_unit, start);
+    const Metered metered = follow_leap(session) ? Metered() : before;
     session.exposure.locked ^= controls.lock_exposure;
     if (controls.information)
         session.information = after(session.information);
     if (controls.beside)
         session.beside = after(session.beside);
     if (session.record_replay.replays())
-        session.exposure = adapted_to(session.exposure, entry.exposure_ev, exposing, start.exposure_ev);
+        session.exposure = adapted_to(session.exposure, entry.exposure_ev, exposing, session.begun_ev);
     else
-        session.exposure = adapted(session.exposure, metered.ev, dt_s, exposing, start.exposure_ev);
+        session.exposure = adapted(session.exposure, metered.ev, dt_s, exposing, session.begun_ev);
     entry.exposure_ev = session.exposure.ev;
     follow_range(session, entry, metered, dt_s);
     session.record_replay.keep(entry, session.flight);
@@ -505,6 +542,7 @@ void step(Session& session, RecordEntry& entry, const Metered& metered, double s
     session.black = std::max({directions.fade, session.home_black, blackness(session.visit, session.visiting)});
     if (exposing.calm)
         keep_calm(session, dt_s);
+    session.drawn_ev = ev_of(session);
 }
 
 } // namespace starbow

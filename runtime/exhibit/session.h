@@ -21,6 +21,7 @@
 #include "runtime/flight/shown_record.h"
 #include "runtime/flight/tutorial.h"
 #include "runtime/flight/visit.h"
+#include "runtime/images/flash_guard.h"
 #include "runtime/light/exposure.h"
 #include "runtime/light/range_curve.h"
 #include "runtime/operation/diary.h"
@@ -88,11 +89,16 @@ struct Session {
     std::unique_ptr<ShownRecord> shown_record; ///< the attraction's; null: none
     Flight flight;
     History history{};
+    std::optional<Leaps> leaps{}; ///< of the last picture; none before the first one of a programme
     Exposure exposure{};
+    double begun_ev = 0; ///< the exposure with which the present view began, EV
     bool range; ///< a curve shows everything at once
     RangeMode range_mode{};
     CalmHands calm_hands{}; ///< of a calm exhibit, as the next two
     SlowTurns calm_ev{}, calm_black{};
+    FlashGuard flash_guard{}; ///< of a calm exhibit
+    double drawn_ev = 0; ///< of the last picture
+    double calm_light = 1; ///< the part of the picture's light that it keeps
     bool calm_range = false; ///< calm_ev is that of a curve
     double black = 0; ///< the part of black over the picture
     Tutorial tutorial;
@@ -202,6 +208,7 @@ void seek_goals(Session& session, const SceneFile& scene, std::int64_t dt_ns);
 struct Metered {
     std::optional<double> ev; ///< the exposure for it
     std::span<const LuminanceSample> surfaces, stars;
+    std::size_t across = 0; ///< the surfaces' samples lie in rows of so many
 };
 
 /// Steps flight, exposure, record and tutorial by the entry, whose commands are carried out already.

@@ -49,6 +49,7 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, double
         flight = flight_at(start, rules);
         flight.hud = before.hud, flight.mode = before.mode;
         flight.ticks = before.ticks, flight.left_ns = before.left_ns;
+        count_beginning(flight, before);
         return;
     }
     flight.effects.aberration ^= controls.aberration;
@@ -66,6 +67,7 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, double
     if (controls.next_mode)
         flight.mode = FlightMode((int(flight.mode) + 1) % 3);
     if (controls.stop) {
+        flight.leaps.within += rapidity_of(flight.ship) > 0;
         flight.ship = stopped(flight.ship);
         flight.homing.reset();
     }

@@ -9,6 +9,14 @@
 
 namespace starbow {
 
+/// How often the picture has left its way. Whoever follows the picture compares the counts of two frames.
+struct Leaps {
+    std::uint32_t begun
+        = 0; ///< to a state with an exposure of its own: a start, a tour's cut, the end of a tour's own motion
+    std::uint32_t within = 0; ///< within a flight: ten seconds back, a stop at once
+    bool operator==(const Leaps&) const = default;
+};
+
 /// The state of a visit: everything that a visitor changes.
 struct Flight {
     Ship ship;
@@ -33,6 +41,7 @@ struct Flight {
     bool hud = true;
     std::int64_t ticks = 0; ///< flown since the visit began; none while frozen
     std::int64_t left_ns = 0; ///< the visitor's time not flown yet, less than a tick
+    Leaps leaps; ///< it never counts backwards
 };
 
 /// The length of a step of every flight, so that a slow and a fast computer fly the same.
@@ -56,6 +65,13 @@ inline constexpr std::array time_rates{1.0, 0.25, 0.0625};
 
 /// A start in flight goes on at its velocity until a hand touches the controls.
 Flight flight_at(const Shot& start, const Flying& rules = {});
+
+/// The leap from `before` to the beginning of `flight`, which has replaced it.
+inline void count_beginning(Flight& flight, const Flight& before)
+{
+    flight.leaps = before.leaps;
+    ++flight.leaps.begun;
+}
 
 /// The flight dt_ns nanoseconds later under the visitor's controls. seconds_per_time_unit: of the scene. The result depends
 /// only on the controls and on the whole ticks that have passed. So any division of the same time into steps gives the same

@@ -32,6 +32,8 @@ Flight History::back(const Flight& now)
     then.ticks = now.ticks, then.left_ns = now.left_ns;
     then.vignette = now.vignette;
     then.homing.reset();
+    then.leaps = now.leaps;
+    ++then.leaps.within;
     return then;
 }
 

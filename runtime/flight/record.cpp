@@ -48,7 +48,7 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
     [[maybe_unused]] const auto& [exposure_mode, automatic, min_ev, max_ev, bloom, calm] = e;
     [[maybe_unused]] const auto& [ship, flight_mode, flight_lever, coasting, lever_waits, lever_rest, frozen, slowness,
         homeward, thrust_inhibited, rate, thrust, turn_rad_s, turn_lead_rad_s, step_wait, vignette_part, homing,
-        flight_look_rad, effects, exposure_ev, flight_hud, ticks, left_ns]
+        flight_look_rad, effects, exposure_ev, flight_hud, ticks, left_ns, leaps]
         = s;
 }
 
@@ -234,7 +234,8 @@ std::vector<double> read_range_goal(const Place& place)
 RecordEntry read_entry(const Place& top)
 {
     std::vector<std::string_view> known{"dt_ns", "skipped_ns", "unseen", "lever", "faster", "push", "turn", "look_rad",
-        "head_m", "head_turned", "exposure", "exposure_ev", "ranged", "range_goal", "choose", "turn_by", "commands"};
+        "head_m", "head_turned", "exposure", "exposure_ev", "light", "ranged", "range_goal", "choose", "turn_by",
+        "commands"};
     for (const auto& [name, flag, leap] : all_switches)
         known.emplace_back(name);
     reject_unknown_members(top, known);
@@ -244,6 +245,7 @@ RecordEntry read_entry(const Place& top)
         entry.skipped_ns = whole(*p, most_ns);
     if (auto p = find_member(top, "exposure_ev"))
         entry.exposure_ev = number(*p, {-1e3, 1e3});
+    take(top, "light", entry.light, {0, 1});
     take(top, "ranged", entry.ranged);
     if (auto p = find_member(top, "range_goal"))
         entry.range_goal = read_range_goal(*p);
@@ -362,6 +364,8 @@ std::string text_of(const RecordEntry& entry)
         json["unseen"] = true;
     if (entry.exposure_ev)
         json["exposure_ev"] = *entry.exposure_ev;
+    if (entry.light != 1)
+        json["light"] = entry.light;
     if (entry.ranged)
         json["ranged"] = true;
     if (!entry.range_goal.empty())

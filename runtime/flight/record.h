@@ -34,6 +34,7 @@ struct RecordEntry {
     bool shown = true; ///< false: the visitor saw no picture of the frame, because no window was visible
     std::optional<double> exposure_ev; ///< the automatic exposure's adapted EV, because a replay does not repeat the
                                        ///< metering
+    double light = 1; ///< the part that a calm exhibit keeps of the picture's light
     bool ranged = false; ///< a curve shows everything at once
     std::vector<double> range_goal; ///< the curve that it follows from this frame on, as range_curve.h has it; empty: the
                                     ///< same as before

@@ -61,10 +61,11 @@ void hand_over(Touring& now, const Flying& rules)
     now.flight.throttle_rate = 0;
     now.flight.thrust = now.flight.turn_rad_s = now.flight.turn_lead_rad_s = glm::dvec3(0);
     now.flight.homing.reset();
+    ++now.flight.leaps.begun;
 }
 
-/// Begins the step of the last start, with motion, effects and exposure from `now.flight`.
-void begin(Touring& now, const Show& show)
+/// Begins the step of the last start, with motion, effects and exposure from `now.flight`. leaps: to there from elsewhere.
+void begin(Touring& now, const Show& show, bool leaps)
 {
     const Step& step = step_of(now, show);
     Touring::Start& start = now.starts.back();
@@ -87,9 +88,11 @@ void begin(Touring& now, const Show& show)
         if (const auto* set = std::get_if<NumberToSet>(&step.question->answer))
             now.number = set->from;
     const glm::dvec2 look = std::holds_alternative<Cut>(step.motion) ? glm::dvec2(0) : now.flight.look_rad;
-    const bool hud = now.flight.hud;
+    const Flight before = now.flight;
     now.flight = start.flight;
-    now.flight.look_rad = look, now.flight.hud = hud, now.flight.frozen = false;
+    now.flight.leaps = before.leaps;
+    now.flight.leaps.begun += leaps || std::holds_alternative<Cut>(step.motion);
+    now.flight.look_rad = look, now.flight.hud = before.hud, now.flight.frozen = false;
     if (tries(step))
         hand_over(now, rules_in(step, show.rules));
 }
@@ -110,7 +113,8 @@ void place(Touring& now, const Show& show)
         now.flight.exposure_ev += eased(part) * (*step.exposure_ev - start.flight.exposure_ev);
 }
 
-void next(Touring& now, const Show& show)
+/// leaps: to there before the present step is over
+void next(Touring& now, const Show& show, bool leaps)
 {
     place(now, show);
     std::size_t to = now.step() + 1;
@@ -125,7 +129,7 @@ void next(Touring& now, const Show& show)
     }
     Touring::Start start{now.flight, now.starts.back().since};
     now.starts.push_back(start);
-    begin(now, show);
+    begin(now, show, leaps);
 }
 
 double number_now(const Touring& now, const Show& show, const Measure& measure)
@@ -214,14 +218,16 @@ bool press(Touring& now, const Show& show, const Controls& controls)
         look.y = std::clamp(look.y, -half_pi, half_pi);
     }
     if (controls.reset) {
+        const Flight before = now.flight;
         now = touring_at(show);
+        count_beginning(now.flight, before);
         return true;
     }
     if (controls.undo && !now.over) {
         // Soon after a step's beginning, undo leads to the step before.
         if (now.into_ns < ns(2) && now.starts.size() > 1)
             now.starts.pop_back();
-        begin(now, show);
+        begin(now, show, true);
         now.paused = false;
         return true;
     }
@@ -229,7 +235,7 @@ bool press(Touring& now, const Show& show, const Controls& controls)
         now.paused = false;
         // Skips to the step's end and its final state.
         now.into_ns = std::max(now.into_ns, ns(step_of(now, show).seconds));
-        next(now, show);
+        next(now, show, true);
         return true;
     }
     if ((controls.stop || controls.freeze) && !by_hand && !(step_of(now, show).question && !now.measured_answer))
@@ -283,7 +289,7 @@ Touring touring_at(const Show& show)
     Touring touring;
     touring.flight.mode = show.rules.mode;
     touring.starts.push_back({touring.flight, touring.flight.ship});
-    begin(touring, show);
+    begin(touring, show, true);
     place(touring, show);
     return touring;
 }
@@ -322,7 +328,7 @@ Touring advance(Touring now, const Show& show, const Controls& controls, std::in
         if (step.question && !now.measured_answer)
             show_answer(now, show, {});
         else
-            next(now, show);
+            next(now, show, false);
     }
     return now;
 }

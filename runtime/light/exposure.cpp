@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace starbow {
 namespace {
@@ -93,6 +94,8 @@ Exposure adapted(Exposure exposure, std::optional<double> metered, double dt_s, 
         return exposure;
     const double wanted = std::clamp(*metered, rules.min_ev, rules.max_ev);
     if (!exposure.ev)
+        return adapted_to(exposure, wanted, rules, start_ev);
+    if (std::exchange(exposure.leapt, false))
         return adapted_to(exposure, wanted, rules, start_ev);
     const double time_s = wanted < *exposure.ev ? to_bright_s : to_dark_s; // a brighter view needs a lower EV
     *exposure.ev = wanted + (*exposure.ev - wanted) * std::exp(-std::max(dt_s, 0.0) / time_s);

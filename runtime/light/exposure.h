@@ -55,14 +55,15 @@ struct Exposure {
     std::optional<double> ev; ///< adapted; nullopt before anything was seen
     double offset_ev = 0; ///< of the start's EV from the first view's
     bool locked = false;
+    bool leapt = false; ///< the next view is taken at once, as the picture has leapt to it
 };
 
 /// The exposure after a view to which it has adapted as `ev`. The first view sets the offset, unless the rules limit it: an
 /// eye has not adapted to a view that is too dark.
 Exposure adapted_to(Exposure exposure, std::optional<double> ev, const Exposing& rules, double start_ev);
 
-/// The exposure dt_s seconds later. The first view is taken at once; a view without light, and a lock, change nothing.
-/// For a constant view, any division of the time into steps leads to the same result, to rounding.
+/// The exposure dt_s seconds later. The first view, and the one after a leap, are taken at once; a view without light, and a
+/// lock, change nothing. For a constant view, any division of the time into steps leads to the same result, to rounding.
 Exposure adapted(Exposure exposure, std::optional<double> metered, double dt_s, const Exposing& rules, double start_ev);
 
 /// The EV of a frame: the adapted EV with its offset (the start's before the first view) plus the visitor's own change since

@@ -7,7 +7,10 @@ constexpr double fade_s = 1.5, prompt_s = 12;
 
 const Flight& Guide::flown(const Controls& controls, std::int64_t dt_ns)
 {
+    const std::uint32_t begun = touring_.flight.leaps.begun;
     touring_ = advance(std::move(touring_), show_, controls, dt_ns);
+    if (touring_.flight.leaps.begun != begun)
+        automatic_ = 0;
     const double dt_s = 1e-9 * double(dt_ns);
     automatic_ = std::clamp(automatic_ + (flies() ? dt_s : -dt_s) / fade_s, 0.0, 1.0);
     over_s_ = touring_.over ? over_s_ + dt_s : 0;
@@ -16,7 +19,9 @@ const Flight& Guide::flown(const Controls& controls, std::int64_t dt_ns)
 
 void Guide::again()
 {
+    const Flight before = touring_.flight;
     touring_ = touring_at(show_);
+    count_beginning(touring_.flight, before);
     automatic_ = over_s_ = 0;
 }
 

@@ -85,6 +85,7 @@ public:
     std::optional<double> metered() const { return meter_.metered(); }
     /// The samples that it follows from; empty where nothing was metered.
     std::span<const LuminanceSample> surface_samples() const { return meter_.surfaces(); }
+    std::size_t samples_across() const { return meter_.across(); } ///< the surfaces' samples lie in rows of so many
     std::span<const LuminanceSample> star_samples() const { return meter_.stars(); }
     /// The last frame's samples of this machine's views, and those of another's, which then count as its own. The device
     /// must have finished that frame.

@@ -32,6 +32,8 @@ public:
     std::span<LuminanceSample> view(std::size_t view);
     std::span<LuminanceSample> stars(std::size_t view);
 
+    std::size_t across() const { return picture_.extent.width; } ///< samples of a row of view()
+
     vk::DeviceSize memory() const { return picture_.bytes; }
 
 private:

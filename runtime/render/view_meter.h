@@ -29,6 +29,7 @@ public:
     /// The exposure for the last frame, EV; nothing where it was dark or not metered. The device must have finished that
     /// frame.
     std::optional<double> metered() const;
+    std::size_t across() const { return meter_ ? meter_->across() : 0; } ///< surfaces() lie in rows of so many
     /// Its samples; empty where nothing was metered.
     std::span<const LuminanceSample> surfaces() const;
     std::span<const LuminanceSample> stars() const;

@@ -85,6 +85,7 @@ RecordEntry some_entry(std::mt19937_64& random)
     maybe3(c.turn, 1);
     maybe(c.look_rad.x, -0.1, 0.1);
     maybe(c.look_rad.y, -0.1, 0.1);
+    entry.light = random() % 2 == 0 ? 1 : double(random() % 1000) / 1000;
     entry.ranged = random() % 2 == 0;
     if (random() % 5 == 0)
         entry.range_goal = {-31.25, 4.5, double(random() % 80), some_double(random, -9, 2), 0.001, 0.517, 1};
@@ -110,7 +111,7 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
         e.range_goal.size(), c.lever.has_value(), e.exposure_ev.has_value()};
     for (double v : {c.lever.value_or(0), c.throttle_rate, c.push.x, c.push.y, c.push.z, c.turn.x, c.turn.y, c.turn.z,
              c.look_rad.x, c.look_rad.y, c.head.moved_m.x, c.head.moved_m.y, c.head.moved_m.z, c.head.turned.w,
-             c.head.turned.x, c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0)})
+             c.head.turned.x, c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0), e.light})
         all.push_back(std::bit_cast<std::uint64_t>(v));
     for (double v : e.range_goal)
         all.push_back(std::bit_cast<std::uint64_t>(v));

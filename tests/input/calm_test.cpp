@@ -5,13 +5,16 @@
 #include "runtime/images/flashes.h"
 #include "runtime/light/exposure.h"
 #include "shaders/physics/physics.h"
+#include "tests/support/chance_hands.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
+#include <map>
 #include <random>
 #include <set>
+#include <string>
 
 namespace calm_shader {
 using namespace glm;
@@ -261,6 +264,95 @@ TEST(CalmTest, NoHandsMakeMoreThanThreeFlashesInASecond)
     }
     EXPECT_GT(most_without, 20);
     EXPECT_GT(most_with, 1);
+}
+
+// Hands of chance move every number that the controls have: together they turn round at most once a second.
+TEST(CalmTest, OfAllThatMovesOneNumberTurnsInASecond)
+{
+    int turns_without = 0;
+    for (unsigned int seed = 0; seed < 40; ++seed) {
+        for (const bool calm : {false, true}) {
+            starbow::testing::ChanceHands chance(seed);
+            CalmHands hands;
+            std::map<std::pair<std::size_t, std::size_t>, std::pair<double, int>> last; // a number's place, and its way
+            std::vector<int> turns;
+            for (int frame = 0; frame < 900; ++frame) {
+                Controls controls = chance.next(dt_s);
+                if (calm)
+                    controls = hands.let_through(controls, dt_s);
+                for (std::size_t i = 0; i < all_channels.size(); ++i) {
+                    if (all_channels[i].way == Way::light || std::string(all_channels[i].name) == "head_turned")
+                        continue; // a head's turn is normalized: its speed is measured below
+                    const std::span<double> numbers = all_channels[i].of(controls);
+                    for (std::size_t n = 0; n < numbers.size(); ++n) {
+                        const bool first = !last.contains({i, n});
+                        auto& [place, way] = last[{i, n}];
+                        const double moved
+                            = all_channels[i].way == Way::place ? (first ? 0 : numbers[n] - place) : numbers[n];
+                        const int now = (moved > 1e-12) - (moved < -1e-12);
+                        if (now != 0 && way != 0 && now != way)
+                            turns.push_back(frame);
+                        way = now != 0 ? now : way, place = numbers[n];
+                    }
+                }
+                if (calm) {
+                    const double step = std::hypot(controls.look_rad.x, controls.look_rad.y) * 180 / std::acos(-1.0) / dt_s;
+                    EXPECT_LE(step, std::sqrt(2.) * calm_turn_deg_per_s + 1e-9);
+                }
+            }
+            if (!calm)
+                turns_without += int(turns.size());
+            for (std::size_t k = 1; calm && k < turns.size(); ++k)
+                EXPECT_GE(turns[k] - turns[k - 1], 60) << seed;
+        }
+    }
+    EXPECT_GT(turns_without, 10000);
+}
+
+// A hand that drags the mouse up and down six times a second no longer moves the view so.
+TEST(CalmTest, ADraggedMouseTurnsTheViewSlowly)
+{
+    CalmHands hands;
+    double look = 0, least = 0, most = 0;
+    int turned = 0, way = 0;
+    for (int frame = 0; frame < 600; ++frame) {
+        Controls controls;
+        controls.look_rad.y = frame / 5 % 2 == 0 ? 0.07 : -0.07;
+        const double moved = hands.let_through(controls, dt_s).look_rad.y;
+        look += moved, least = std::min(least, look), most = std::max(most, look);
+        const int now = (moved > 0) - (moved < 0);
+        turned += now != 0 && way != 0 && now != way;
+        way = now != 0 ? now : way;
+    }
+    EXPECT_LE(turned, 10);
+    EXPECT_LT(most - least, 0.4);
+}
+
+TEST(CalmTest, ABuildersStepsWaitAndAddUp)
+{
+    CalmHands hands;
+    int acted = 0, sum = 0;
+    for (int frame = 0; frame < 240; ++frame) {
+        Controls controls;
+        controls.turn_by = frame < 100 && frame % 10 == 0 ? 1 : 0;
+        const int by = hands.let_through(controls, dt_s).turn_by;
+        acted += by != 0, sum += by;
+    }
+    EXPECT_EQ(sum, 10);
+    EXPECT_LE(acted, 3);
+}
+
+TEST(CalmTest, AShipThatTurnsByStepsTakesOneASecond)
+{
+    CalmHands hands;
+    int steps = 0;
+    for (int frame = 0; frame < 300; ++frame) {
+        Controls controls;
+        controls.turn.y = frame / 20 % 2 == 0 ? 1 : -1;
+        steps += hands.let_through(controls, dt_s, true).turn.y != 0;
+    }
+    EXPECT_GE(steps, 2);
+    EXPECT_LE(steps, 5);
 }
 
 // Each switch twenty times in two seconds, and all of them at once.

@@ -124,6 +124,24 @@ TEST(AxisHealthTest, AnAxisOffItsMiddleSincePluggedInIsStuckAfterAMinute)
     EXPECT_EQ(hand.controls_at(66 * s).turn.y, 0);
 }
 
+// A visitor goes with the stick tilted, the throttle open and a button down, and the device falls silent.
+TEST(DevicesTest, ASilentDeviceCountsForTheNextVisitorOnceItReports)
+{
+    Hand hand;
+    hand.report(0, 200, true, 5 * s);
+    const DeviceState before = hand.state;
+    const auto read = [&](std::int64_t came_ns) {
+        Mapping mapping(stick, profile); // as Hid makes it for other hands
+        Controls controls;
+        mapping.add(known_since(hand.state, came_ns), 7 * s, 0.016, controls);
+        return std::tuple(controls.turn.y, mapping.levers().size(), controls.held, controls.pressed, controls.stop);
+    };
+    EXPECT_EQ(read(-1), std::tuple(1., 1u, true, true, true));
+    EXPECT_EQ(read(6 * s), std::tuple(0., 0u, false, false, false)) << "nobody holds it";
+    hand.report(0, 200, true, 6 * s + 1);
+    EXPECT_EQ(read(6 * s), std::tuple(1., 1u, true, true, true)) << "somebody does";
+}
+
 // At ten frames a second a tap may come and go between two frames.
 TEST(DevicesTest, NoTapIsTooShort)
 {

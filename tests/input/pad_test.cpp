@@ -1,4 +1,5 @@
 // Gamepads that GLFW reads, and rates of several hands together.
+#include "input/held_over.h"
 #include "input/mapping.h"
 #include "input/pad.h"
 #include "input/rates.h"
@@ -199,6 +200,47 @@ TEST(PadTest, GuidsNameTheDevice)
     EXPECT_EQ(usb_id("030000005e040000ea0200000103000"), std::nullopt);
     EXPECT_EQ(usb_id("03000000zz040000ea02000001030000"), std::nullopt);
     EXPECT_EQ(usb_id(""), std::nullopt);
+}
+
+// A visitor goes and leaves a pad tilted, and another one takes up the next pad.
+TEST(PadTest, APadThatWasLeftTiltedCountsOnceItMoves)
+{
+    PadsLeft left;
+    GLFWgamepadstate tilted = at_rest(), other = at_rest();
+    tilted.axes[GLFW_GAMEPAD_AXIS_LEFT_X] = 0.8f;
+    EXPECT_TRUE(left.counts(0, tilted));
+    left.forget();
+    for (int i = 0; i < 100; ++i) {
+        tilted.axes[GLFW_GAMEPAD_AXIS_LEFT_X] = i % 2 == 0 ? 0.8f : 0.805f; // its sensor trembles
+        EXPECT_FALSE(left.counts(0, tilted)) << i;
+        EXPECT_EQ(left.counts(1, other), i > 50) << i;
+        if (i == 50)
+            other.buttons[GLFW_GAMEPAD_BUTTON_A] = GLFW_PRESS;
+    }
+    tilted.axes[GLFW_GAMEPAD_AXIS_LEFT_X] = 0.6f;
+    EXPECT_TRUE(left.counts(0, tilted));
+    tilted.axes[GLFW_GAMEPAD_AXIS_LEFT_X] = 0.8f;
+    EXPECT_TRUE(left.counts(0, tilted)) << "the new hand may go there, too";
+}
+
+TEST(HeldOverTest, AKeyThatWasLeftHeldCountsOnceItIsPressedAgain)
+{
+    HeldOver<3> keys;
+    const auto read = [&](bool first, bool second) {
+        const std::pair counts(keys.counts(0, first), keys.counts(1, second));
+        keys.end();
+        return counts;
+    };
+    EXPECT_EQ(read(true, false), std::pair(true, false));
+    keys.forget();
+    EXPECT_EQ(read(true, false), std::pair(false, false));
+    EXPECT_EQ(read(true, true), std::pair(false, true)) << "another key counts at once";
+    EXPECT_EQ(read(false, true), std::pair(false, true));
+    EXPECT_EQ(read(true, true), std::pair(true, true));
+    keys.forget();
+    EXPECT_EQ(read(true, true), std::pair(false, false));
+    keys.press(0); // let go and pressed between two readings
+    EXPECT_EQ(read(true, true), std::pair(true, false));
 }
 
 } // namespace pad_test

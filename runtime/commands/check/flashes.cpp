@@ -231,7 +231,7 @@ int measure_record(const FlashOptions& options)
     const Words words = words_in("en");
     return measure(options, film, [&](OffscreenRenderer& renderer, const SceneFile& scene, const auto& take) {
         ReplayRenderer pictures(
-            renderer, pattern_named(header.pattern), header.exposing, header.start.exposure_ev, header.rules.comfort);
+            renderer, pattern_named(header.pattern), header.exposing, header.start.exposure_ev, words, header.rules.comfort);
         const Typesetter typesetter;
         Progress progress;
         long frame = 0;
@@ -243,7 +243,7 @@ int measure_record(const FlashOptions& options)
             std::optional<Panel> panel;
             if (flight.hud)
                 panel = typesetter.draw(
-                    readings(flight.ship, scene, flight.effects), words, renderer.frame().views().hud_width());
+                    readings(flight, scene), words, renderer.frame().views().hud_width());
             take(entry.controls.time_ns, pictures.picture(flight, header.start.scene, panel ? &*panel : nullptr));
             return !interrupted();
         });

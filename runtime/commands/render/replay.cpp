@@ -56,7 +56,7 @@ public:
         , renderer_(context_.device, context_.pipelines, context_.world, from.layout, default_quality(context_.device, true),
               false)
         , replay_renderer_(
-              renderer_, pattern_named(header.pattern), header.exposing, header.start.exposure_ev, header.rules.comfort)
+              renderer_, pattern_named(header.pattern), header.exposing, header.start.exposure_ev, words_, header.rules.comfort)
     {
     }
     void take(const RecordEntry& entry, const Flight& flight) { replay_renderer_.take(entry, flight); }
@@ -74,7 +74,7 @@ private:
     Readings shown(const Flight& flight) const
     {
         const SceneFile& scene = context_.world.scene;
-        Readings shown = readings(flight.ship, scene, flight.effects);
+        Readings shown = readings(flight, scene);
         shown.lever = flight.lever, shown.mode = flight.mode, shown.frozen = flight.frozen;
         show_on(information_, start_.time * scene.seconds_per_time_unit(), shown);
         return shown;
