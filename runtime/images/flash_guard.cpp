@@ -7,8 +7,8 @@ namespace starbow {
 namespace {
 
 /// A sample is of a point, and a pixel is the mean around it, so that a smaller change counts, over a smaller area.
-constexpr double smallest_change = 0.85 * flash_luminance, most_area_sr = 0.85 * flash_area_sr;
-/// At so many changes it dims: one more may come in the frame meanwhile, and the dimming is one.
+constexpr double smallest_change = 0.9 * flash_luminance, most_area_sr = 0.9 * flash_area_sr;
+/// At so many changes it dims: some more may come in the frame meanwhile, and the dimming is one.
 constexpr int changes_to_dim = 3;
 /// The light comes back by this part of white in a second.
 constexpr double brighter_per_s = 0.4;

@@ -14,11 +14,11 @@ namespace starbow {
 /// less than a tenth of white are no flashes.
 ///
 /// It dims at once, and brightens again slowly, after a second in which the brighter picture would have been steady. The
-/// samples are of the frame before, and two changes are left for what comes meanwhile.
+/// samples are of the frame before, and three changes are left: for what comes meanwhile, and for the dimming.
 class FlashGuard {
 public:
     /// The factors of light between which it chooses. With the last one no change can be a flash.
-    static constexpr std::array factors{1.0, 0.6, 0.35, 0.2, 0.06};
+    static constexpr std::array factors{1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.095};
 
     /// Takes a frame's samples, which lie in rows of `across`. shown: the shown luminance of a sample's without dimming,
     /// white is 1; it must rise. Another number of samples is another view, which begins.

@@ -60,11 +60,11 @@ double wave(double t, double hz) { return std::sin(2 * pi * hz * t) > 0 ? 1 : 0;
 
 TEST(FlashGuardTest, WhatFlickersIsDimmedBeforeItFlashesTooOften)
 {
-    for (const double hz : {2., 4., 9., 25.})
+    for (const double hz : {1., 4., 9., 25.})
         for (const double contrast : {0.15, 0.4, 1.}) {
             const Shown seen = shown(5, [&](int, int, double t) { return 0.5 + contrast * (wave(t, hz) - 0.5); });
             EXPECT_LE(seen.changes, 2 * most_flashes) << hz << " Hz, contrast " << contrast;
-            EXPECT_LT(seen.dimmest, 1) << hz << " Hz, contrast " << contrast;
+            EXPECT_EQ(seen.dimmest < 1, hz > 2) << hz << " Hz, contrast " << contrast;
         }
 }
 
@@ -92,7 +92,7 @@ TEST(FlashGuardTest, TheLightComesBackAndFlashesNoMoreBySoDoing)
 {
     const Shown seen = shown(15, [](int, int, double t) { return t < 3 ? wave(t, 7) : 0.9; });
     EXPECT_LE(seen.changes, 2 * most_flashes);
-    EXPECT_LT(seen.dimmest, 0.1);
+    EXPECT_LE(seen.dimmest, FlashGuard::factors.back());
     EXPECT_EQ(seen.last, 1);
 }
 
