@@ -120,7 +120,7 @@ ok
 # A stick that falls silent while it is tilted turns its own visitor's ship, and not the next one's.
 mkdir "$folder/visits"
 cat >"$folder/visited.json" <<END
-{ "layout": "desk", "quality": "draft", "tutorial": false, "visit": { "idle_s": 4, "ask_s": 2, "fade_s": 0.4 } }
+{ "layout": "desk", "quality": "draft", "tutorial": false, "visit": { "idle_s": 5, "ask_s": 5, "fade_s": 0.4 } }
 END
 cat >"$folder/left" <<END
 plug thrustmaster-t16000m 0
@@ -130,13 +130,13 @@ wait 2
 report thrustmaster-t16000m $(stick 0000 0020)
 wait 0.5
 report thrustmaster-t16000m $(stick 0000 ff3f)
-run for i in \$(seq 400); do grep -q 'recorded in' $folder/left-log && break; sleep 0.1; done
+run for i in \$(seq 900); do grep -q 'recorded in' $folder/left-log && break; sleep 0.1; done
 run xdotool key w
 run for i in \$(seq 200); do [ \$(ls $folder/visits | wc -l) = 2 ] && break; sleep 0.1; done
 run $here/rig/wait_flown.py \$(ls $folder/visits/* | tail -n 1) 1
 interrupt
 END
-timeout 150 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/left" \
+timeout 240 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/left" \
     "$program" run --exhibit "$folder/visited.json" --record "$folder/visits" >"$folder/left-log" 2>&1 </dev/null
 turned() { grep -c '"turn"' "$1"; }
 first=$(ls "$folder/visits"/* | head -n 1) second=$(ls "$folder/visits"/* | tail -n 1)
