@@ -64,7 +64,7 @@ TEST(FlashGuardTest, WhatFlickersIsDimmedBeforeItFlashesTooOften)
         for (const double contrast : {0.15, 0.4, 1.}) {
             const Shown seen = shown(5, [&](int, int, double t) { return 0.5 + contrast * (wave(t, hz) - 0.5); });
             EXPECT_LE(seen.changes, 2 * most_flashes) << hz << " Hz, contrast " << contrast;
-            EXPECT_EQ(seen.dimmest < 1, hz > 2) << hz << " Hz, contrast " << contrast;
+            EXPECT_EQ(seen.dimmest<1, hz> 2) << hz << " Hz, contrast " << contrast;
         }
 }
 

@@ -45,7 +45,8 @@ TEST(ReplayFrames, AreTheSameToTheByte)
     {
         Recorder recorder(file, header, [](LogKind, const std::string& line) { ADD_FAILURE() << line; });
         OffscreenRenderer offscreen = renderer(avenue().world, layout, false);
-        ReplayRenderer replay_renderer(offscreen, Pattern::none, header.exposing, header.start.exposure_ev, starbow::testing::words());
+        ReplayRenderer replay_renderer(
+            offscreen, Pattern::none, header.exposing, header.start.exposure_ev, starbow::testing::words());
         Flight flight = flight_at(header.start, header.rules);
         History history;
         for (int i = 0; i < 24; ++i) {
@@ -60,7 +61,8 @@ TEST(ReplayFrames, AreTheSameToTheByte)
     }
     Replay replay(file);
     OffscreenRenderer offscreen = renderer(avenue().world, layout, false);
-    ReplayRenderer replay_renderer(offscreen, Pattern::none, replay.header().exposing, replay.header().start.exposure_ev, starbow::testing::words());
+    ReplayRenderer replay_renderer(
+        offscreen, Pattern::none, replay.header().exposing, replay.header().start.exposure_ev, starbow::testing::words());
     Flight flight = flight_at(replay.header().start, replay.header().rules);
     History history;
     std::size_t frame = 0;

@@ -242,8 +242,7 @@ int measure_record(const FlashOptions& options)
             progress.show("frame " + std::to_string(frame++), replay.part_read());
             std::optional<Panel> panel;
             if (flight.hud)
-                panel = typesetter.draw(
-                    readings(flight, scene), words, renderer.frame().views().hud_width());
+                panel = typesetter.draw(readings(flight, scene), words, renderer.frame().views().hud_width());
             take(entry.controls.time_ns, pictures.picture(flight, header.start.scene, panel ? &*panel : nullptr));
             return !interrupted();
         });

@@ -55,8 +55,8 @@ public:
         , context_(from.scene, device_options(false))
         , renderer_(context_.device, context_.pipelines, context_.world, from.layout, default_quality(context_.device, true),
               false)
-        , replay_renderer_(
-              renderer_, pattern_named(header.pattern), header.exposing, header.start.exposure_ev, words_, header.rules.comfort)
+        , replay_renderer_(renderer_, pattern_named(header.pattern), header.exposing, header.start.exposure_ev, words_,
+              header.rules.comfort)
     {
     }
     void take(const RecordEntry& entry, const Flight& flight) { replay_renderer_.take(entry, flight); }
