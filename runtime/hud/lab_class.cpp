@@ -1,4 +1,5 @@
 #include "lab_class.h"
+#include "config/json/csv.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "html.h"
@@ -10,17 +11,6 @@
 
 namespace starbow {
 namespace {
-
-/// A cell of a CSV file.
-std::string quoted(const std::string& text)
-{
-    if (text.find_first_of(",\"\r\n") == text.npos)
-        return text;
-    std::string cell = "\"";
-    for (char c : text)
-        cell.append(c == '"' ? 2 : 1, c);
-    return cell + '"';
-}
 
 /// Okabe and Ito, Color Universal Design, 2008: told apart by people with any kind of colour vision. Their yellow is too
 /// pale for a white page.
@@ -157,7 +147,7 @@ void add_group(LabClass& all, const std::string& name, std::string_view bytes, c
         throw InputError(one_line(file)
             + ":1: has the names of a log and no line of measurements; a log in which K has written at least one is right");
     LabGroup group{.name = name, .lines = long(texts.size())};
-    const std::string begin = quoted(name) + ",";
+    const std::string begin = csv_cell(name) + ",";
     std::string csv;
     LabLine before;
     for (std::size_t i = 0; i < texts.size(); ++i) {

@@ -1,4 +1,5 @@
 #include "accuracy.h"
+#include "config/json/csv.h"
 #include "config/json/reader.h"
 #include <algorithm>
 #include <cmath>
@@ -27,9 +28,6 @@ std::string safe(const std::string& plain)
         all += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
     return all;
 }
-
-/// A CSV field: quoted, since names hold commas.
-std::string quoted(const std::string& plain) { return '"' + plain + '"'; }
 
 /// One error as charts and tables show it.
 struct Metric {
@@ -258,7 +256,7 @@ std::string accuracy_csv(const std::vector<MeasuredSetting>& all)
     for (std::size_t i = 0; i < all.size(); ++i) {
         const MeasuredSetting& m = all[i];
         const Quality& q = m.setting.quality;
-        out += quoted(m.setting.name)
+        out += csv_cell(m.setting.name)
             + text(",%g,%g,%d,%g,%g,%g,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.2f,%.3f,%d,%.6f,%.3f,%.4f,%.4f,%.4f,%.6f,%.3g,%d\n",
                 q.texels_per_pixel, q.max_texels_per_pixel, q.cube_samples, q.lod_error_texels, q.lod_shading_texels,
                 q.image_cost_texels, q.pixel_rays, q.clip_levels, q.mips, q.half_floats, q.matrices, q.frames_per_cube, m.ms,

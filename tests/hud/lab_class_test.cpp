@@ -81,6 +81,15 @@ TEST(LabClass, TheCsvHasEveryLineWithItsGroup)
     LabClass odd;
     add_group(odd, "Mia, \"Max\"", log_of("newton"), "x.csv");
     EXPECT_NE(odd.csv.find("\r\n\"Mia, \"\"Max\"\"\",2"), std::string::npos);
+    // A spreadsheet carries out what begins like a formula.
+    for (const char* name : {"=cmd|' /C calc'!A0", "+1+1", "-2+3", "@SUM(A1)"}) {
+        LabClass formula;
+        add_group(formula, name, log_of("newton"), "x.csv");
+        EXPECT_NE(formula.csv.find("\r\n'" + std::string(name) + ",2"), std::string::npos) << formula.csv.substr(0, 2000);
+    }
+    LabClass tab;
+    add_group(tab, "\t=1;2", log_of("newton"), "x.csv");
+    EXPECT_NE(tab.csv.find("\r\n\"'\t=1;2\",2"), std::string::npos);
     EXPECT_NE(class_page(odd, words()).find("Mia, &quot;Max&quot;"), std::string::npos);
 }
 

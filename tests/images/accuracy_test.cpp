@@ -97,11 +97,15 @@ TEST(AccuracyTest, PageAndTableHoldEverySetting)
     const std::string page = accuracy_page(all, {"avenue, desk", "a GPU", 9, 64}), csv = accuracy_csv(all);
     EXPECT_NE(page.find("a &lt;b&gt; &amp; &quot;c&quot;"), page.npos);
     EXPECT_EQ(page.find("<b>"), page.npos);
+    EXPECT_NE(csv.find("\n\"a <b> & \"\"c\"\"\","), csv.npos) << csv;
+    std::vector<MeasuredSetting> formula = some;
+    formula[1].setting.name = "=1+1";
+    EXPECT_NE(accuracy_csv(formula).find("\n'=1+1,"), csv.npos);
     EXPECT_EQ(page.find("http:"), page.find("http://www.w3.org/2000/svg")); // a name, not an address
     EXPECT_EQ(page.find("<script"), page.npos);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), std::ptrdiff_t(all.size() + 1));
     const auto columns = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
-    EXPECT_EQ(columns(csv.substr(0, csv.find('\n'))), columns(csv.substr(csv.rfind("\"other light\""))));
+    EXPECT_EQ(columns(csv.substr(0, csv.find('\n'))), columns(csv.substr(csv.rfind("other light"))));
 }
 
 } // namespace accuracy_test
