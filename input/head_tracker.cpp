@@ -1,5 +1,4 @@
 #include "head_tracker.h"
-#include "config/json/error.h"
 #include <algorithm>
 #include <arpa/inet.h>
 #include <array>
@@ -41,29 +40,42 @@ Head held(const Head& last, double silent_s)
 
 HeadTracker::HeadTracker(const HeadTracking& tracking, LogTo log)
     : tracking_(tracking)
-    , log_(std::move(log))
-    , socket_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0))
+    , log_(log)
+    , awaited_("the head tracker's port " + std::to_string(tracking.port) + " of " + tracking.address, std::move(log))
+{
+}
+
+HeadTracker::~HeadTracker()
+{
+    if (socket_ >= 0)
+        close(socket_);
+}
+
+void HeadTracker::open(std::chrono::steady_clock::time_point now)
 {
     sockaddr_in at{};
     at.sin_family = AF_INET;
-    at.sin_port = htons(std::uint16_t(tracking.port));
-    const bool known = inet_pton(AF_INET, tracking.address.c_str(), &at.sin_addr) == 1;
-    if (socket_ >= 0 && known && bind(socket_, reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0)
+    at.sin_port = htons(std::uint16_t(tracking_.port));
+    inet_pton(AF_INET, tracking_.address.c_str(), &at.sin_addr); // the layout's reader has seen to it
+    const int made = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    if (made >= 0 && bind(made, reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0) {
+        socket_ = made;
+        awaited_.comes();
         return;
-    const std::string why = known ? std::strerror(errno) : "not an IPv4 address";
-    if (socket_ >= 0)
-        close(socket_);
-    throw InputError("head_tracker", "port " + std::to_string(tracking.port) + " of " + tracking.address,
-        "can't be listened to (" + why + "); a free port of an address of this computer is right");
+    }
+    const std::string why = std::strerror(errno);
+    if (made >= 0)
+        close(made);
+    awaited_.fails(why, now);
 }
-
-HeadTracker::~HeadTracker() { close(socket_); }
 
 Head HeadTracker::read(std::chrono::steady_clock::time_point now)
 {
+    if (awaited_.is_due(now))
+        open(now);
     std::array<std::byte, 64> packet;
     // Limits the packets of a frame, so that a faulty sender can't hold it up.
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 1000 && socket_ >= 0; ++i) {
         const ssize_t size = recv(socket_, packet.data(), packet.size(), 0);
         if (size < 0)
             break;

@@ -1,6 +1,6 @@
 #pragma once
+#include "config/model/awaited.h"
 #include "config/model/layout.h"
-#include "config/model/log_kinds.h"
 #include "controls.h"
 #include <chrono>
 #include <optional>
@@ -18,11 +18,12 @@ std::optional<Head> parse_head(std::span<const std::byte> packet);
 /// place within two more, so that a visitor who leaves the tracker's sight does not leave distorted walls.
 Head held(const Head& last, double silent_s);
 
-/// Receives a head's packets. Never waits.
+/// Receives a head's packets, from the first reading on. Never waits: an address or a port that this machine does not have
+/// is taken up once it is there.
 class HeadTracker {
 public:
-    /// log: receives a line for the log when the first packet is no head, and when the first head is outside the room.
-    /// Throws InputError if the address or the port is not available.
+    /// log: receives a line for the log when the first packet is no head, when the first head is outside the room, and
+    /// while the port can't be had.
     HeadTracker(const HeadTracking& tracking, LogTo log);
     HeadTracker(const HeadTracker&) = delete;
     ~HeadTracker();
@@ -32,12 +33,17 @@ public:
     /// True if a packet has arrived within the last three seconds.
     bool heard(std::chrono::steady_clock::time_point now) const;
     const HeadTracking& tracking() const { return tracking_; }
+    /// As Awaited's.
+    const std::string& lack() const { return awaited_.lack(); }
 
 private:
+    void open(std::chrono::steady_clock::time_point now);
+
     HeadTracking tracking_;
     LogTo log_;
     bool said_wrong_ = false, said_outside_ = false;
-    int socket_;
+    Awaited awaited_;
+    int socket_ = -1;
     Head last_;
     std::optional<std::chrono::steady_clock::time_point> heard_;
 };

@@ -165,12 +165,17 @@ Exhibit load_exhibit(const std::filesystem::path& file)
             exhibit.presenter->monitor = read_monitor(*monitor);
     }
     if (auto p = find_member(top, "machines")) {
-        reject_unknown_members(*p, {"master", "interface", "domain"});
+        reject_unknown_members(*p, {"master", "interface", "domain", "exhibit"});
         Machines& machines = exhibit.machines.emplace();
         machines.master = text(member(*p, "master"));
         machines.interface = text(member(*p, "interface"));
         if (auto domain = find_member(*p, "domain"))
             machines.domain = integer(*domain, 0, 200);
+        if (auto identity = find_member(*p, "exhibit")) {
+            machines.exhibit = text(*identity);
+            if (machines.exhibit.empty() || machines.exhibit.size() > 64)
+                complain(*identity, "can't name an exhibit; 1 to 64 letters, the same on each of its machines, are right");
+        }
     }
     if (auto p = find_member(top, "visit"))
         exhibit.visiting = read_visiting(*p, folder);

@@ -16,7 +16,8 @@ namespace starbow {
 struct Machines {
     std::string master; ///< the node that has the visitors' devices, the remote and the tours
     std::string interface; ///< a network interface's name, or a network of which each machine has an address
-    int domain = 0; ///< two exhibits on one network have different ones
+    int domain = 0; ///< from 0 to 200
+    std::string exhibit; ///< the identity by which its machines know each other; empty: it follows from the layout
 };
 
 /// The parts of an exhibit, and its rules of flight.

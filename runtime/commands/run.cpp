@@ -100,6 +100,7 @@ ExhibitOptions open(const RunOptions& options)
                 + " has none; \"machines\" in its file is right");
         check_machines(*exhibit.machines, exhibit_options.layout, options.node);
         exhibit_options.machines = exhibit.machines, exhibit_options.node = options.node;
+        exhibit_options.machines->exhibit = identity_of(*exhibit.machines, exhibit_options.layout);
         exhibit_options.frame_log = options.frame_log;
     }
     if (exhibit_options.visiting && !options.record.empty() && !std::filesystem::is_directory(options.record))
@@ -241,14 +242,12 @@ void add_run(Subcommand& app, std::function<int()>& chosen)
         "Open the guide's window, too: the visitors' picture small, the tour's cue sheet, and all that a guide can do, by "
         "keys and by the mouse");
     Option* verbose = command->add_flag("--verbose", options->verbose, "Log debug messages on standard error");
-    Option* quality
-        = command->add_option("--quality", options->quality, quality_help + std::string(" [the exhibit's]"));
-    Option* hold
-        = command
-              ->add_option("--frame-budget-ms", options->frame_budget_ms,
-                  "Hold the time of a whole frame at this by moving along the ladder of measured qualities; 0: off")
-              ->check(number_between(0.0, 1000.0))
-              ->excludes(quality);
+    Option* quality = command->add_option("--quality", options->quality, quality_help + std::string(" [the exhibit's]"));
+    Option* hold = command
+                       ->add_option("--frame-budget-ms", options->frame_budget_ms,
+                           "Hold the time of a whole frame at this by moving along the ladder of measured qualities; 0: off")
+                       ->check(number_between(0.0, 1000.0))
+                       ->excludes(quality);
     command
         ->add_option("--ladder", options->ladder,
             "For --frame-budget-ms: a ladder that starbow measure wrote, or the name of one in config/qualities [ladder]")

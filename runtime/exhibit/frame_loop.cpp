@@ -117,8 +117,10 @@ bool FrameLoop::fly_frame()
     apply_alignment(controls);
     if (controls.pattern && master_ && session_.alignment.pattern() != Pattern::none)
         session_.alignment.say(screens_of(session_));
-    if (turn_diary(session_, screens_.shown(), context_.pipelines.count()))
+    if (turn_diary(session_, screens_.shown(), context_.pipelines.count())) {
         remote_.publish_condition(session_.diary);
+        gather_lacks();
+    }
     if (!visible) {
         remote_.shown(session_); // there is no picture to wait for
         if (master_) { // but the other machines have some
@@ -170,7 +172,8 @@ bool FrameLoop::fly_frame()
     fresh_ = false;
     session_.service.shows("Shows " + std::to_string(screens_.shown()) + " of "
         + std::to_string(session_.layout.outputs.size()) + (session_.layout.outputs.size() == 1 ? " output" : " outputs")
-        + (session_.options.careful ? ", in safe mode after repeated crashes." : "."));
+        + (session_.options.careful ? ", in safe mode after repeated crashes" : "")
+        + (session_.lacks.empty() ? "." : "; " + session_.lacks + "."));
     if (session_.options.timed)
         session_.options.timed({controls.report_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now()), made > 0});
     ++session_.shown;
@@ -316,6 +319,16 @@ void FrameLoop::warm_up()
     write_log(LogKind::pipelines_ready, text.data());
     device_.save_pipelines();
     session_.last = Clock::now();
+}
+
+/// What the network does not give yet, for the display, the remote and the service manager.
+void FrameLoop::gather_lacks()
+{
+    session_.lacks.clear();
+    for (const std::string& lack :
+        {master_ ? master_->lack() : "", session_.tracker ? session_.tracker->lack() : "", remote_.lack()})
+        if (!lack.empty())
+            session_.lacks += (session_.lacks.empty() ? "" : "; ") + lack;
 }
 
 void FrameLoop::trace_passes()
@@ -485,11 +498,12 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
     if (changes(loaded.layout, layout).empty()) // else a builder has turned something meanwhile
         prepared = std::move(loaded.prepared);
     const bool same_tracker = session_.layout.head_tracker == layout.head_tracker;
-    std::unique_ptr<HeadTracker> tracker = same_tracker ? nullptr : tracker_of(layout);
     frame_ = exhibit_renderer(context_, layout, quality_of(session_, device_), session_.options.node, std::move(prepared));
     forget_drawn();
-    if (!same_tracker)
-        session_.tracker = std::move(tracker);
+    if (!same_tracker) {
+        session_.tracker.reset(); // its port may be the next one's
+        session_.tracker = tracker_of(layout);
+    }
     session_.layout = std::move(layout);
     session_.kept = std::move(loaded.fresh);
     if (master_) {

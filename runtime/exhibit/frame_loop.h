@@ -88,6 +88,7 @@ private:
     void end_commands();
     /// Adds the device's passes of the frame before to the trace.
     void trace_passes();
+    void gather_lacks();
 
     Session& session_;
     RemoteControl& remote_;

@@ -117,8 +117,13 @@ std::string warning_of_routes(const NetworkInterface& interface)
 
 void log_routes(const Machines& machines)
 {
-    if (const std::string warning = warning_of_routes(interface_of(machines.interface)); !warning.empty())
-        write_log(LogKind::network_routed, warning);
+    try {
+        if (const std::string warning = warning_of_routes(interface_of(machines.interface)); !warning.empty())
+            write_log(LogKind::network_routed, warning);
+    } catch (const NoInterface&) { // it has gone meanwhile
+    }
 }
+
+BusPlace place_of(const Machines& machines) { return {machines.interface, machines.domain, machines.exhibit}; }
 
 } // namespace starbow

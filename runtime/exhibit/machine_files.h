@@ -30,7 +30,9 @@ std::string shared_name(const std::string& kind, const std::filesystem::path& fi
 
 /// A warning where the machines' network leads elsewhere, as it has no login; empty where it does not.
 std::string warning_of_routes(const NetworkInterface& interface);
-/// Logs that warning. Throws InputError where this machine is not on the machines' network.
+/// Logs that warning, if this machine is on the machines' network.
 void log_routes(const Machines& machines);
+/// The machines' messages of this program.
+BusPlace place_of(const Machines& machines);
 
 } // namespace starbow

@@ -10,7 +10,7 @@ namespace starbow {
 /// The master of several machines: it says what is drawn, waits until the nodes have drawn it, and says when it is shown.
 class Master {
 public:
-    /// layout: that of its file. Throws InputError where the network can't be opened.
+    /// layout: that of its file. A network that this machine does not have yet is taken up once it is there.
     Master(const ExhibitOptions& options, const Layout& layout);
 
     /// Another layout, with its files' digests: nodes whose files differ are left out.
@@ -19,10 +19,12 @@ public:
     std::uint64_t layout_digest() const { return layout_digest_; }
 
     /// Sends the next frame's instant, before it the instruments' page if that is a new one; the nodes draw it while the
-    /// master does.
+    /// master does. While another master of this exhibit leads, nothing is sent.
     void send(const SharedInstant& shared);
     /// True where somebody waits until the master has drawn the frame: nodes in step, or the log of frames.
     bool awaits_drawing() const { return log_.is_open() || gate_.somebody_in(); }
+    /// A sentence about what keeps it from leading: the network, or another master; empty: nothing.
+    std::string lack() const;
     /// Waits until all who are in have drawn the frame, or for the gate's bound; then all show it.
     void go();
 
@@ -45,11 +47,19 @@ private:
         bool logged = false;
     };
 
+    /// Listens to other masters. Returns true where this one leads.
+    bool leads();
     void hear();
     void judge(const ConfigMessage& config);
     void report();
 
+    Machines machines_;
+    std::uint64_t number_; ///< Rival's
     Bus bus_;
+    std::optional<Leading> leading_; ///< since the network is open
+    bool leads_ = false, contested_ = false; ///< another master is heard
+    std::int64_t rivals_frame_ = -1; ///< the last one heard
+    std::optional<Clock::time_point> rival_followed_; ///< the last word of a node that draws its states
     ConfigMessage config_;
     Gate gate_;
     std::map<std::string, std::vector<ViewSamples>> samples_; ///< by node

@@ -34,7 +34,7 @@ public:
     explicit Node(const ExhibitOptions& options)
         : options_(options)
         , layout_(options)
-        , bus_(options.machines.value().interface, options.machines->domain, Bus::Role::node)
+        , bus_(place_of(options.machines.value()), Bus::Role::node, write_log)
         , scene_(options.programme.scene)
         , context_(scene_, device_of(options), spectral_level_of(options))
         , screens_(context_.device, options.layout, options.node)
@@ -47,7 +47,7 @@ public:
         name_object(context_.device, commands_[0], "frame: world");
         name_object(context_.device, commands_[1], "frame: outputs");
         make_frame(options.layout);
-        log_routes(*options.machines);
+        bus_.know({options.machines->master});
         bus_.send(layout_.config());
     }
     ~Node() { context_.device.settle(); }
@@ -91,6 +91,7 @@ private:
     InstantPictures pictures_;
     vk::raii::Fence done_;
     vk::raii::CommandBuffers commands_;
+    std::optional<std::uint64_t> master_; ///< as the bus's
     std::optional<StateMessage> state_; ///< the last one
     std::optional<SharedInstant> shared_; ///< read from it
     bool fresh_ = false; ///< it is not drawn yet
@@ -141,6 +142,11 @@ void Node::make_frame(const Layout& layout, std::optional<PreparedLayout> prepar
 
 void Node::listen()
 {
+    if (bus_.follow())
+        log_routes(*options_.machines);
+    const std::optional<StateMessage> state = bus_.state(); // the first one says who the master is
+    if (std::exchange(master_, bus_.master()) != bus_.master())
+        go_ = -1, page_number_ = 0; // those of another one
     for (const ConfigMessage& config : bus_.configs())
         if (config.node == options_.machines->master)
             layout_.compare(config, was_in_step_);
@@ -148,11 +154,11 @@ void Node::listen()
         try {
             page_ = panel_of(*page), page_number_ = page->number;
         } catch (const InputError& error) {
-            write_log(LogKind::state_unread, one_line(error.what()) + "; the page before is shown");
+            write_limited(LogKind::state_unread, one_line(error.what()) + "; the page before is shown");
         }
     if (const std::optional<GoMessage> go = bus_.go())
         go_ = go->frame;
-    if (const std::optional<StateMessage> state = bus_.state())
+    if (state)
         take(*state);
 }
 
@@ -164,11 +170,11 @@ void Node::take(const StateMessage& state)
         shared_ = std::move(shared), state_ = state, fresh_ = true;
         heard_ = Clock::now();
         if (std::exchange(away_, false))
-            write_log(LogKind::master_back, "the master says what is shown");
+            write_limited(LogKind::master_back, "the master says what is shown");
         unread_.clear();
     } catch (const InputError& error) {
         if (std::exchange(unread_, one_line(error.what())) != one_line(error.what()))
-            write_log(LogKind::state_unread, unread_ + "; the last picture is shown, then none");
+            write_limited(LogKind::state_unread, unread_ + "; the last picture is shown, then none");
     }
 }
 
@@ -274,7 +280,7 @@ bool Node::step(Service& service)
         await_page();
     const double black = blackness();
     if (away_)
-        service.waits("Waits for the master.");
+        service.waits(bus_.lack().empty() ? "Waits for the master." : "Waits for the network: " + bus_.lack() + ".");
     else
         service.shows("Shows " + std::to_string(screens_.shown()) + " outputs of the node " + options_.node + ".");
     if (!fresh_ && (black == 0 || (black == 1 && dark_))) {
@@ -282,7 +288,7 @@ bool Node::step(Service& service)
         return true;
     }
     if (black > 0 && !std::exchange(away_, true))
-        write_log(LogKind::master_away, "no state from the master for half a second; the outputs fade to black");
+        write_limited(LogKind::master_away, "no state from the master for half a second; the outputs fade to black");
     if (!screens_.acquire()) {
         bus_.wait(std::chrono::milliseconds(20));
         return true;

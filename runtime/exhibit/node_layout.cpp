@@ -16,8 +16,13 @@ NodeLayout::NodeLayout(const ExhibitOptions& options)
 void NodeLayout::compare(const ConfigMessage& master, bool was_in_step)
 {
     master_ = master;
-    if (const std::string why = difference(config_, master); !why.empty())
-        throw InputError(why);
+    if (const std::string why = difference(config_, master); !why.empty()) {
+        if (!was_in_step)
+            throw InputError(why);
+        if (std::exchange(difference_, why) != why) // the master leaves this one out
+            write_limited(LogKind::node_refused, why);
+        return;
+    }
     const std::string why = layout_difference(config_, master);
     const bool other_name
         = !master.layout.empty() && !config_.layout.empty() && master.layout.front().first != config_.layout.front().first;
@@ -37,7 +42,7 @@ void NodeLayout::compare(const ConfigMessage& master, bool was_in_step)
         write_log(LogKind::layout_refused, one_line(error.what()) + "; the exhibit stays as it was");
     }
     if (std::exchange(difference_, why) != why)
-        write_log(LogKind::node_refused, why);
+        write_limited(LogKind::node_refused, why);
 }
 
 std::optional<Layout> NodeLayout::turned_by(const SharedInstant& shared)

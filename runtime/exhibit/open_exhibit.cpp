@@ -58,4 +58,14 @@ void check_machines(const Machines& machines, const Layout& layout, const std::s
             + layout.name + "; one of these is right: " + list);
 }
 
+std::string identity_of(const Machines& machines, const Layout& layout)
+{
+    if (!machines.exhibit.empty())
+        return machines.exhibit;
+    std::string identity = layout.file.stem().string();
+    for (const std::string& node : nodes_of(layout))
+        identity += (node == nodes_of(layout).front() ? ": " : ", ") + node;
+    return identity;
+}
+
 } // namespace starbow

@@ -11,4 +11,7 @@ ExhibitOptions open_exhibit(const Exhibit& exhibit);
 /// --node names it; empty: it names none.
 void check_machines(const Machines& machines, const Layout& layout, const std::string& node = "");
 
+/// The identity by which an exhibit's machines know each other: the file's, or the layout's name with its nodes.
+std::string identity_of(const Machines& machines, const Layout& layout);
+
 } // namespace starbow

@@ -19,7 +19,7 @@ void describe(const Session& session, Snapshot& out)
     out.error = session.refused.empty() ? session.directions.refusal : session.refused;
     out.machines = line_of(session.machines);
     if (out.error.empty())
-        out.error = steps_of(session);
+        out.error = session.lacks.empty() ? steps_of(session) : session.lacks;
     out.uptime_s = seconds(Session::Clock::now() - session.began);
 }
 

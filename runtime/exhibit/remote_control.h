@@ -41,6 +41,8 @@ public:
         picture.width = size.x, picture.height = size.y;
         remote_->publish_picture();
     }
+    /// As Remote's; empty without a remote.
+    std::string lack() { return remote_ ? remote_->lack() : ""; }
     /// The PINs that were drawn at the start, as a line for the operator; empty where a file has them, or without a remote.
     std::string drawn_pins() const;
 

@@ -322,6 +322,8 @@ std::string notice_of(const Session& session)
         return session.refused;
     if (const std::string trouble = session.hid.trouble(); !trouble.empty())
         return trouble;
+    if (!session.lacks.empty())
+        return session.lacks;
     if (const std::string steps = steps_of(session); !steps.empty())
         return steps;
     if (session.tracker && !session.tracker->heard(Session::Clock::now()))

@@ -84,6 +84,7 @@ struct Session {
     LayoutLoader loader; ///< follows the files of `layout`
     std::vector<MachineHealth> machines{}; ///< of the exhibit, this one first; empty: this one shows all
     std::optional<bool> barrier{}; ///< the screens of those in step change together; none: no others have shown anything yet
+    std::string lacks{}; ///< what the network does not give yet: a sentence; empty: nothing is missing
     std::string refused; ///< the reason why a changed layout was not applied, for the head-up display
     std::optional<Guide> guide;
     std::unique_ptr<ShownRecord> shown_record; ///< the attraction's; null: none

@@ -1,4 +1,6 @@
 #pragma once
+#include "config/model/awaited.h"
+#include "following.h"
 #include "runtime/light/exposure.h"
 #include <chrono>
 #include <cstdint>
@@ -15,6 +17,8 @@ namespace starbow {
 struct StateMessage {
     std::int64_t frame = 0;
     std::vector<std::uint8_t> instant;
+    std::uint64_t master = 0; ///< as Rival's
+    std::int64_t led_ms = 0;
 };
 constexpr std::size_t most_state_bytes = 4096;
 
@@ -51,19 +55,36 @@ struct PageMessage {
     std::vector<std::uint8_t> texels; ///< page_bytes.h
 };
 
+/// Where the machines of an exhibit hear each other.
+struct BusPlace {
+    std::string interface; ///< an interface's name ("enp3s0", "lo"), or a network ("192.168.7.0/24") of which this machine
+                           ///< has an address
+    int domain = 0; ///< from 0 to 200
+    std::string exhibit; ///< its identity: messages of others on the same domain are left out
+};
+
 /// The messages between the machines of one exhibit, on one network interface: topics of DDS (machines.idl). A node that
-/// joins late receives the last state and every config.
+/// joins late receives the last state and every config. While this machine lacks the interface nothing is sent and nothing
+/// comes. A message that is damaged, or of another exhibit, is left out, and the log has a line of such ones a minute.
 class Bus {
 public:
-    /// The master sends states, goes and pages and receives readies; a node the other way round. Both send and receive
-    /// configs. Nobody receives what concerns others: with N machines a frame has N messages and not N squared.
+    /// The master sends states, goes and pages and receives readies, and the states of other masters; a node the other way
+    /// round, of the one master that it follows. Both send and receive configs. Nobody receives what concerns others: with N
+    /// machines a frame has N messages and not N squared.
     enum class Role { master, node };
 
-    /// interface: an interface's name ("enp3s0", "lo"), or a network ("192.168.7.0/24") of which this machine has an
-    /// address. domain: from 0 to 200; two exhibits on one network have different ones. Throws InputError where this
-    /// machine has no such interface, or it can't be opened.
-    Bus(const std::string& interface, int domain, Role role);
+    /// Throws InputError for a text that is no interface and no network.
+    Bus(BusPlace place, Role role, LogTo log);
     ~Bus();
+    Bus(Bus&&) noexcept;
+
+    /// Opens the network once the interface is there, and again after it was away; then the last config and page are sent
+    /// again. For each frame. Returns true where it was opened just now.
+    bool follow();
+    /// As Awaited's.
+    const std::string& lack() const { return awaited_.lack(); }
+    /// The names of nodes that are heard; of others, a few alone.
+    void know(const std::vector<std::string>& nodes);
 
     void send(const StateMessage& state);
     void send(const ReadyMessage& ready);
@@ -72,19 +93,38 @@ public:
     void send(const PageMessage& page);
 
     /// The messages that have come since the last call; none of those that the role does not receive. Of states, goes and
-    /// pages only the last counts.
+    /// pages only the last counts. A node receives no others before its first state, which says whom it follows.
     std::optional<StateMessage> state();
     std::optional<GoMessage> go();
     std::vector<ReadyMessage> readies();
     std::vector<ConfigMessage> configs();
     std::optional<PageMessage> page();
+    /// The master that a node follows; another number, or none: another one, or it is gone.
+    std::optional<std::uint64_t> master() const { return following_.master(); }
 
     /// Waits until something has come that was not taken, or for so long.
     void wait(std::chrono::nanoseconds longest);
 
 private:
     struct Topics;
-    std::unique_ptr<Topics> topics_;
+    struct Doors;
+
+    void open(Awaited::Time now);
+    /// The state's writer that is followed is gone.
+    void drop_gone(Awaited::Time now);
+    void report(Awaited::Time now);
+
+    BusPlace place_;
+    Role role_;
+    LogTo log_;
+    Awaited awaited_;
+    std::unique_ptr<Doors> doors_; ///< outlives topics_
+    std::unique_ptr<Topics> topics_; ///< null: the interface was never there
+    std::optional<Awaited::Time> looked_, reported_; ///< for the interface; to the log
+    std::optional<ConfigMessage> config_; ///< the last ones
+    std::optional<PageMessage> page_;
+    Following following_;
+    std::int64_t frame_ = -1; ///< of the followed master's last state
 };
 
 } // namespace starbow

@@ -36,6 +36,12 @@ void Gate::refuse(const std::string& node, bool refused)
         found->second.in = false;
 }
 
+void Gate::let_all_out()
+{
+    for (auto& [name, node] : nodes_)
+        node.in = false, node.silent = 0, node.heard = -1;
+}
+
 bool Gate::complete() const
 {
     return std::ranges::all_of(nodes_, [&](const auto& node) { return !node.second.in || node.second.heard >= frame_; });

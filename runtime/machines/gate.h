@@ -31,6 +31,8 @@ public:
     void hear(const ReadyMessage& ready);
     /// A node whose files differ from the master's is not let in; again: until it says other files.
     void refuse(const std::string& node, bool refused);
+    /// No frame is sent: nobody is in, until it is ready for a later one.
+    void let_all_out();
     /// True when all who are in are ready for the frame.
     bool complete() const;
     /// The time that the slowest node in step has taken to draw a frame, ms.

@@ -2,6 +2,7 @@
 #include "bus.h"
 #include "config/json/error.h"
 #include "runtime/flight/record.h"
+#include "sound.h"
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -64,7 +65,7 @@ void take(Part& part, Number& number)
     } else {
         part.raw(&number, sizeof number);
         if constexpr (Part::reads && std::is_floating_point_v<Number>)
-            if (std::isnan(number))
+            if (!std::isfinite(number))
                 throw InputError("a state of the exhibit's machines has a number that is none");
     }
 }
@@ -240,6 +241,8 @@ SharedInstant instant_of(std::span<const std::uint8_t> bytes)
     take(reader, shared);
     if (!reader.bytes.empty())
         throw InputError("a state of the exhibit's machines has " + std::to_string(reader.bytes.size()) + " bytes too many");
+    if (const std::string fault = fault_of(shared); !fault.empty())
+        throw InputError("a state of the exhibit's machines " + fault);
     return shared;
 }
 

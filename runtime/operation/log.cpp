@@ -2,15 +2,18 @@
 #include "config/json/reader.h"
 #include "local_datagrams.h"
 #include "messages.h"
+#include <array>
 #include <cstdlib>
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <spdlog/logger.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace starbow {
 namespace {
@@ -163,6 +166,33 @@ void write_log(LogKind kind, std::string_view text)
     now.last.push_back(std::move(line));
     if (now.last.size() > most_last_lines)
         now.last.pop_front();
+}
+
+void write_limited(LogKind kind, std::string_view text, std::chrono::steady_clock::time_point now)
+{
+    struct Limit {
+        std::optional<std::chrono::steady_clock::time_point> began; ///< its minute
+        int written = 0;
+        long left_out = 0;
+    };
+    static std::mutex& mutex = *new std::mutex;
+    static auto& limits = *new std::array<Limit, log_rules.size()>;
+    long left_out = 0;
+    {
+        const std::lock_guard lock(mutex);
+        Limit& limit = limits[std::size_t(kind)];
+        if (!limit.began || now < *limit.began || now - *limit.began >= std::chrono::minutes(1))
+            limit.began = now, limit.written = 0;
+        if (limit.written == most_limited) {
+            ++limit.left_out;
+            return;
+        }
+        ++limit.written;
+        left_out = std::exchange(limit.left_out, 0);
+    }
+    if (left_out == 0)
+        return write_log(kind, text);
+    write_log(kind, std::string(text) + " (" + std::to_string(left_out) + " such lines before are left out)");
 }
 
 std::vector<std::string> last_lines()

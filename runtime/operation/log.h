@@ -1,5 +1,6 @@
 #pragma once
 #include "config/model/log_kinds.h"
+#include <chrono>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -25,6 +26,12 @@ void open_log(const LogOptions& options);
 /// The text is written as plain_text (config/json/reader.h), so that a message stays one line and a name can't steer the
 /// terminal. Nothing here waits for the reader.
 void write_log(LogKind kind, std::string_view text);
+
+/// The same for a kind that others than this machine's people can cause, such as by messages of a network: at most
+/// most_limited lines of a kind a minute, and the next one says how many were left out.
+constexpr int most_limited = 10;
+void write_limited(
+    LogKind kind, std::string_view text, std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now());
 
 /// The last lines of the log, oldest first, without time and level; at most fifty.
 std::vector<std::string> last_lines();

@@ -121,17 +121,51 @@ bool same_secret(std::string_view a, std::string_view b)
     return difference == 0;
 }
 
-Logins::Attempt Logins::attempt(const std::string& address, std::string_view pin, Time now)
+std::chrono::seconds Logins::Growing::begin(Time now)
 {
-    std::erase_if(doubts_, [&](const auto& one) { return one.second.until <= now; });
-    const auto left = [&](Time until) { return std::chrono::ceil<std::chrono::seconds>(until - now); };
-    const auto doubt = doubts_.find(address);
-    if (doubt != doubts_.end() && doubt->second.wrong >= most_wrong)
-        return {.answer = Answer::locked, .token = {}, .left = left(doubt->second.until)};
-    if (doubt == doubts_.end() && doubts_.size() >= most_doubtful) {
-        const auto first = std::ranges::min_element(doubts_, {}, [](const auto& one) { return one.second.until; });
-        return {.answer = Answer::locked, .token = {}, .left = left(first->second.until)};
-    }
+    if (rounds > 0 && now - last > memory)
+        rounds = 0;
+    const std::chrono::seconds length = lock * (1 << std::min(rounds++, most_doublings));
+    until = now + length, last = now;
+    return length;
+}
+
+void Logins::forget_old(Time now)
+{
+    for (auto& [address, doubt] : doubts_)
+        if (doubt.until <= now && !doubt.lock.holds(now))
+            doubt.wrong = 0;
+    std::erase_if(doubts_, [&](const auto& one) {
+        const Doubt& doubt = one.second;
+        return doubt.wrong == 0 && (doubt.lock.rounds == 0 || now - doubt.lock.last > memory);
+    });
+    std::erase_if(known_, [&](const auto& one) { return now - one.second > memory; });
+}
+
+std::size_t Logins::doubtful(Time now) const
+{
+    return std::size_t(
+        std::ranges::count_if(doubts_, [&](const auto& one) { return one.second.wrong > 0 || one.second.lock.holds(now); }));
+}
+
+bool Logins::trusts(const Origin& from, Time now) const
+{
+    const auto known = known_.find(from.address);
+    return from.here || (known != known_.end() && now - known->second <= memory);
+}
+
+Logins::Attempt Logins::attempt(const Origin& from, std::string_view pin, Time now)
+{
+    forget_old(now);
+    const auto locked = [&](Time until) {
+        return Attempt{.answer = Answer::locked, .token = {}, .left = std::chrono::ceil<std::chrono::seconds>(until - now)};
+    };
+    const auto doubt = doubts_.find(from.address);
+    if (doubt != doubts_.end() && doubt->second.lock.holds(now))
+        return locked(doubt->second.lock.until);
+    const bool stranger = !trusts(from, now) && (doubt == doubts_.end() || doubt->second.wrong == 0);
+    if (stranger && strangers_.holds(now))
+        return locked(strangers_.until);
     // All PINs are compared, so that the time does not tell which one was nearly right.
     std::optional<Role> role;
     for (std::size_t i = 0; i < pins_.size(); ++i)
@@ -139,11 +173,25 @@ Logins::Attempt Logins::attempt(const std::string& address, std::string_view pin
             role = Role(i);
     if (!role) {
         // A right PIN does not forgive wrong ones: whoever knows one must not guess another in between.
-        Doubt& wrong = doubts_[address];
+        Doubt& wrong = doubts_[from.address];
         ++wrong.wrong;
         wrong.until = now + lock;
-        return wrong.wrong < most_wrong ? Attempt{} : Attempt{.answer = Answer::locked, .token = {}, .left = lock};
+        Attempt attempt;
+        if (wrong.wrong >= most_wrong) {
+            attempt.length = wrong.lock.begin(now);
+            attempt.answer = Answer::locked, attempt.left = attempt.length, attempt.begins = Lock::address;
+            wrong.wrong = 0;
+        }
+        if (stranger && doubtful(now) >= most_doubtful && !strangers_.holds(now)) {
+            const std::chrono::seconds length = strangers_.begin(now);
+            if (attempt.begins == Lock::none)
+                attempt.begins = Lock::strangers, attempt.length = length;
+        }
+        return attempt;
     }
+    known_[from.address] = now;
+    if (known_.size() > most_known)
+        known_.erase(std::ranges::min_element(known_, {}, [](const auto& one) { return one.second; }));
     std::erase_if(tokens_, [&](const Token& token) { return token.until <= now; });
     if (tokens_.size() >= most_tokens)
         tokens_.erase(tokens_.begin());

@@ -19,6 +19,7 @@ struct Exchange {
     TripleBuffer<Snapshot> snapshots;
     TripleBuffer<Condition> conditions;
     TripleBuffer<LivePicture> pictures;
+    TripleBuffer<std::string> lacks; ///< of the server's places on the network, as Awaited's
     std::atomic<bool> picture_wanted{false};
     std::atomic<bool> ends{false};
 };

@@ -4,7 +4,11 @@
 #include "runtime/operation/exposition.h"
 #include "runtime/operation/log.h"
 #include "server.h"
+#include <algorithm>
+#include <arpa/inet.h>
 #include <array>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
 namespace starbow {
 namespace {
@@ -29,6 +33,28 @@ std::string peer_of(lws* wsi)
     std::array<char, 64> text{};
     lws_get_peer_simple(wsi, text.data(), text.size());
     return text.data();
+}
+
+/// The address of one end of a connection. which: getpeername or getsockname.
+std::string end_of(int connection, int (*which)(int, sockaddr*, socklen_t*))
+{
+    sockaddr_storage end{};
+    socklen_t size = sizeof end;
+    if (which(connection, reinterpret_cast<sockaddr*>(&end), &size) != 0)
+        return "";
+    std::array<char, INET6_ADDRSTRLEN> text{};
+    const void* address = end.ss_family == AF_INET6
+        ? static_cast<const void*>(&reinterpret_cast<sockaddr_in6&>(end).sin6_addr)
+        : &reinterpret_cast<sockaddr_in&>(end).sin_addr;
+    inet_ntop(end.ss_family, address, text.data(), text.size());
+    return plain_address(text.data());
+}
+
+/// A connection from this machine has the machine's own address at both ends.
+Origin origin_of(int connection)
+{
+    const std::string peer = end_of(connection, getpeername);
+    return {counted_address(peer), !peer.empty() && peer == end_of(connection, getsockname)};
 }
 
 bool add_header(lws* wsi, const char* name, const std::string& value, unsigned char*& at, unsigned char* end)
@@ -107,7 +133,8 @@ HttpAnswer Server::log_in(lws* wsi, const std::string& body)
     const std::string peer = plain_address(peer_of(wsi));
     const Logins::Time now = std::chrono::steady_clock::now();
     try {
-        const Logins::Attempt attempt = logins_.attempt(counted_address(peer), pin_of(body), now);
+        const Logins::Attempt attempt = logins_.attempt(origin_of(lws_get_socket_fd(wsi)), pin_of(body), now);
+        log_lock(attempt, peer);
         if (attempt.answer == Logins::Answer::right) {
             write_log(LogKind::login, std::string(role_names[std::size_t(attempt.role)]) + " logs in at " + peer);
             logins_.keep(kept_, now);
@@ -120,15 +147,35 @@ HttpAnswer Server::log_in(lws* wsi, const std::string& body)
         ++wrong_pins_;
         if (attempt.answer == Logins::Answer::wrong)
             return {.status = 401, .type = "application/json", .body = "{\"wrong\":true}"};
-        if (attempt.left == Logins::lock)
-            write_log(
-                LogKind::login_locked, "five wrong PINs at " + peer + ": logins from there are refused for five minutes");
         return {.status = 429,
             .type = "application/json",
             .body = "{\"locked_s\":" + std::to_string(attempt.left.count()) + "}"};
     } catch (const InputError& error) {
         return {.status = 400, .body = std::string(error.what()) + "\n"};
     }
+}
+
+void Server::log_lock(const Logins::Attempt& attempt, const std::string& peer)
+{
+    const std::string time
+        = std::to_string(std::chrono::duration_cast<std::chrono::minutes>(attempt.length).count()) + " minutes";
+    if (attempt.begins == Logins::Lock::address)
+        write_log(LogKind::login_locked, "five wrong PINs at " + peer + ": logins from there are refused for " + time);
+    if (attempt.begins == Logins::Lock::strangers)
+        write_log(LogKind::login_locked,
+            "wrong PINs at " + std::to_string(Logins::most_doubtful) + " addresses, the last of them " + peer + ": for "
+                + time + " logins are refused but from this machine and from addresses that have logged in within a day");
+}
+
+/// Some connections are left for this machine and for those that have logged in lately, whoever else comes.
+bool Server::is_full(const Origin& from) const
+{
+    constexpr std::size_t most = 256, kept = 32, most_of_one = 32;
+    const auto of_one
+        = std::size_t(std::ranges::count_if(connections_, [&](const auto& one) { return one.second == from.address; }));
+    if (connections_.size() >= most || of_one >= (from.here ? most - kept : most_of_one))
+        return true;
+    return connections_.size() >= most - kept && !logins_.trusts(from, std::chrono::steady_clock::now());
 }
 
 HttpAnswer Server::log_out(lws* wsi)
@@ -159,12 +206,11 @@ std::string Server::metrics()
 
 int Server::http(lws* wsi, lws_callback_reasons reason, void* room, void* in, std::size_t size)
 {
-    constexpr std::size_t most_connections = 256;
     switch (reason) {
     case LWS_CALLBACK_FILTER_NETWORK_CONNECTION:
-        return connections_.size() >= most_connections ? 1 : 0;
+        return is_full(origin_of(int(reinterpret_cast<std::intptr_t>(in)))) ? 1 : 0;
     case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
-        connections_.insert(wsi);
+        connections_[wsi] = origin_of(lws_get_socket_fd(wsi)).address;
         return 0;
     case LWS_CALLBACK_WSI_DESTROY:
         connections_.erase(wsi);

@@ -68,6 +68,11 @@ Condition& Remote::next_condition() { return parts_->exchange.conditions.next();
 void Remote::publish_condition() { parts_->exchange.conditions.publish(); }
 LivePicture& Remote::next_picture() { return parts_->exchange.pictures.next(); }
 void Remote::publish_picture() { parts_->exchange.pictures.publish(); }
+const std::string& Remote::lack()
+{
+    parts_->exchange.lacks.refresh();
+    return parts_->exchange.lacks.newest();
+}
 bool Remote::picture_wanted() const { return parts_->exchange.picture_wanted.load(std::memory_order_relaxed); }
 
 } // namespace starbow

@@ -26,7 +26,8 @@ struct RemoteOptions {
 /// for the frame thread. They never wait, and what they allocate is the text of a command.
 class Remote {
 public:
-    /// Opens the sockets and begins to serve. Throws InputError, for example for a port that is in use.
+    /// Begins to serve. An address or a port that this machine can't give is taken up once it can. Throws InputError for a
+    /// wrong file.
     explicit Remote(RemoteOptions options);
     ~Remote();
     Remote(const Remote&) = delete;
@@ -49,6 +50,8 @@ public:
     void publish_condition();
     LivePicture& next_picture();
     void publish_picture();
+    /// A sentence about an address or a port that is still to come; empty: all are there.
+    const std::string& lack();
     /// True if anybody looks at the live picture; otherwise none need be made.
     bool picture_wanted() const;
 

@@ -10,9 +10,13 @@
 #include <algorithm>
 #include <arpa/inet.h>
 #include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace starbow {
@@ -58,8 +62,8 @@ const std::array protocols{lws_protocols{"http", on_http, pointer, most_message_
     lws_protocols{"starbow", on_socket, pointer, most_message_bytes, 0, nullptr, 0},
     lws_protocols{"osc", on_datagrams, 0, 0, 0, nullptr, 0}, lws_protocols{}};
 
-/// Headers of every answer, a list whose entries name the next one. The page's own files alone are loaded, and no other page may
-/// show or read them.
+/// Headers of every answer, a list whose entries name the next one. The page's own files alone are loaded, and no other page
+/// may show or read them.
 using Header = lws_protocol_vhost_options;
 const Header no_store{nullptr, nullptr, "cache-control:", "no-store"},
     own_opener{&no_store, nullptr, "cross-origin-opener-policy:", "same-origin"},
@@ -78,7 +82,7 @@ bool is_any(const std::string& address) { return address == "0.0.0.0" || address
 
 bool is_v6(const std::string& address) { return address.find(':') != std::string::npos; }
 
-/// A socket that is bound to a port of an address, to any port where it is 0; -1 if that is not possible.
+/// A socket that is bound to a port of an address; -1 if that is not possible, with errno.
 int bound_socket(const std::string& address, int port, int type)
 {
     const bool v6 = is_v6(address);
@@ -89,19 +93,53 @@ int bound_socket(const std::string& address, int port, int type)
     inet_pton(AF_INET6, address.c_str(), &six.sin6_addr);
     inet_pton(AF_INET, address.c_str(), &four.sin_addr);
     const int made = ::socket(v6 ? AF_INET6 : AF_INET, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    if (made < 0)
+        return -1;
+    const int on = 1;
+    if (type == SOCK_STREAM) // as libwebsockets does: connections of a server before may still be ending
+        setsockopt(made, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     const int bound = v6 ? bind(made, reinterpret_cast<sockaddr*>(&six), sizeof six)
                          : bind(made, reinterpret_cast<sockaddr*>(&four), sizeof four);
     if (bound == 0)
         return made;
+    const int why = errno;
     close(made);
+    errno = why;
     return -1;
 }
 
-/// libwebsockets 4.3 tries without end to open a port of an address that the machine does not have.
-bool has_address(const std::string& address)
+/// True where a port of an address can be listened to; false with errno. libwebsockets 4.3 tries without end to open a port
+/// of an address that the machine does not have, so this comes before it.
+bool can_listen(const std::string& address, int port)
 {
-    const int probe = bound_socket(address, 0, SOCK_STREAM);
-    return probe >= 0 && close(probe) == 0;
+    const int probe = bound_socket(address, port, SOCK_STREAM);
+    if (probe < 0)
+        return false;
+    const bool listens = listen(probe, 1) == 0;
+    const int why = errno;
+    close(probe);
+    errno = why;
+    return listens;
+}
+
+/// Logs a key that others than its user and group may read. The remote opens all the same: its PINs still go encrypted over
+/// the network, and a museum that has had such a key for years must not be without its remote after an update.
+void warn_of_open_key(const std::filesystem::path& key)
+{
+    struct stat about { };
+    if (key.empty() || stat(key.c_str(), &about) != 0 || !(about.st_mode & 07))
+        return;
+    std::array<char, 16> rights{};
+    std::snprintf(rights.data(), rights.size(), "%o", unsigned(about.st_mode & 0777));
+    write_log(LogKind::remote_key_open,
+        key.string() + " has the rights " + rights.data()
+            + ", which let every user of this machine read the key; 640 is right");
+}
+
+/// A place for the log.
+std::string place_of(const char* what, int port, const std::string& address)
+{
+    return what + std::to_string(port) + " of " + address;
 }
 
 void require_readable(const std::filesystem::path& file)
@@ -125,6 +163,8 @@ Server::Server(const RemoteOptions& options, const Pins& pins, Exchange& exchang
     : options_(options)
     , exchange_(exchange)
     , logins_(pins)
+    , page_port_(place_of("the remote's port ", options.settings.port, options.settings.address), write_log)
+    , osc_port_(place_of("OSC's UDP port ", options.settings.osc.port, options.settings.address), write_log)
 {
     const RemoteSettings& settings = options_.settings;
     load_files();
@@ -134,49 +174,22 @@ Server::Server(const RemoteOptions& options, const Pins& pins, Exchange& exchang
 
     require_readable(settings.certificate);
     require_readable(settings.key);
+    warn_of_open_key(settings.key);
     lws_set_log_level(LLL_ERR | LLL_WARN, library_speaks);
     lws_context_creation_info info{};
-    const std::string certificate = settings.certificate.string(), key = settings.key.string();
-    const bool tls = !certificate.empty(), v6 = is_v6(settings.address);
-    info.port = settings.port;
-    info.iface = is_any(settings.address) ? nullptr : settings.address.c_str();
-    info.protocols = protocols.data();
-    info.headers = &safe_headers;
+    const bool tls = !settings.certificate.empty(), v6 = is_v6(settings.address);
     info.user = this;
-    info.server_string = "starbow";
-    info.alpn = "http/1.1";
     info.fd_limit_per_thread = most_files;
-    info.keepalive_timeout = 5;
-    info.timeout_secs = 10;
-    info.retry_and_idle_policy = &idle;
-    info.options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND
-        | LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME | LWS_SERVER_OPTION_VALIDATE_UTF8
-        | (v6 ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6)
-        | (tls ? LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT | LWS_SERVER_OPTION_DISABLE_OS_CA_CERTS : 0);
-    if (tls) {
-        info.ssl_cert_filepath = certificate.c_str();
-        info.ssl_private_key_filepath = key.c_str();
-    }
-    const std::string place = "port " + std::to_string(settings.port) + " of " + settings.address;
-    const auto refused = [&](const std::string& reason) {
-        return InputError("The remote can't be opened at " + place + " (" + reason
-            + "); a free port, an address of this machine and, if named, a certificate with its key is right");
-    };
-    if (!has_address(settings.address))
-        throw refused("the machine does not have this address");
+    info.options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS | (tls ? LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT : 0)
+        | (v6 ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6);
     last_library_error.clear();
     context_ = lws_create_context(&info);
-    vhost_ = context_ ? lws_create_vhost(context_, &info) : nullptr;
+    vhost_ = context_ ? make_vhost(CONTEXT_PORT_NO_LISTEN_SERVER, nullptr) : nullptr; // reads the certificate, too
     if (!vhost_) {
         if (context_)
             lws_context_destroy(context_);
-        throw refused(last_library_error);
-    }
-    try {
-        open_osc();
-    } catch (...) {
-        lws_context_destroy(context_);
-        throw;
+        throw InputError("The remote can't be opened at port " + std::to_string(settings.port) + " of " + settings.address
+            + " (" + last_library_error + "); a certificate with its key, if they are named, is right");
     }
     page_ = (tls ? "https://" : "http://")
         + (!settings.hosts.empty()         ? settings.hosts[0]
@@ -186,10 +199,38 @@ Server::Server(const RemoteOptions& options, const Pins& pins, Exchange& exchang
         + ":" + std::to_string(settings.port) + "/";
     if (!tls && !is_loopback(settings.address))
         write_log(LogKind::remote_unencrypted,
-            "PINs and commands go over the network unencrypted at " + place
-                + "; a certificate and key in the exhibit's file makes the page https");
+            "PINs and commands go over the network unencrypted at port " + std::to_string(settings.port) + " of "
+                + settings.address + "; a certificate and key in the exhibit's file makes the page https");
+    open();
     tick_.server = this;
     schedule();
+}
+
+/// port: a port of the remote's address, or none. Returns null where libwebsockets refuses.
+lws_vhost* Server::make_vhost(int port, const char* interface)
+{
+    const RemoteSettings& settings = options_.settings;
+    const std::string certificate = settings.certificate.string(), key = settings.key.string();
+    const bool tls = !certificate.empty();
+    lws_context_creation_info info{};
+    info.vhost_name = port > 0 ? "page" : "own";
+    info.port = port;
+    info.iface = interface;
+    info.protocols = protocols.data();
+    info.headers = &safe_headers;
+    info.server_string = "starbow";
+    info.alpn = "http/1.1";
+    info.keepalive_timeout = 5;
+    info.timeout_secs = 10;
+    info.retry_and_idle_policy = &idle;
+    info.options = LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND | LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME
+        | LWS_SERVER_OPTION_VALIDATE_UTF8 | (is_v6(settings.address) ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6)
+        | (tls ? LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT | LWS_SERVER_OPTION_DISABLE_OS_CA_CERTS : 0);
+    if (tls) {
+        info.ssl_cert_filepath = certificate.c_str();
+        info.ssl_private_key_filepath = key.c_str();
+    }
+    return lws_create_vhost(context_, &info);
 }
 
 Server::~Server() { lws_context_destroy(context_); }
@@ -205,20 +246,44 @@ void Server::load_files()
     files_["/words"] = {.type = "application/json", .body = words_text()};
 }
 
-void Server::open_osc()
+void Server::open()
 {
-    const OscSettings& osc = options_.settings.osc;
-    if (osc.port == 0)
+    const Logins::Time now = std::chrono::steady_clock::now();
+    if (page_port_.is_due(now))
+        open_page(now);
+    if (options_.settings.osc.port != 0 && osc_port_.is_due(now))
+        open_osc(now);
+    const std::string& lack = page_port_.lack().empty() ? osc_port_.lack() : page_port_.lack();
+    if (std::exchange(lack_, lack) == lack)
         return;
-    const std::string& address = options_.settings.address;
-    osc_ = bound_socket(address, osc.port, SOCK_DGRAM);
+    exchange_.lacks.next() = lack;
+    exchange_.lacks.publish();
+}
+
+void Server::open_page(Logins::Time now)
+{
+    const RemoteSettings& settings = options_.settings;
+    const char* interface = is_any(settings.address) ? nullptr : settings.address.c_str();
+    last_library_error.clear();
+    if (!can_listen(settings.address, settings.port))
+        page_port_.fails(std::strerror(errno), now);
+    else if (!make_vhost(settings.port, interface))
+        page_port_.fails(last_library_error, now);
+    else
+        page_port_.comes();
+}
+
+void Server::open_osc(Logins::Time now)
+{
+    osc_ = bound_socket(options_.settings.address, options_.settings.osc.port, SOCK_DGRAM);
+    if (osc_ < 0)
+        return osc_port_.fails(std::strerror(errno), now);
     lws_sock_file_fd_type descriptor{};
     descriptor.filefd = osc_;
-    if (osc_ < 0 || !lws_adopt_descriptor_vhost(vhost_, LWS_ADOPT_RAW_FILE_DESC, descriptor, "osc", nullptr)) {
-        close(osc_);
-        throw InputError("OSC can't be opened at UDP port " + std::to_string(osc.port) + " of " + address
-            + "; a free port and an address of this machine is right");
-    }
+    if (lws_adopt_descriptor_vhost(vhost_, LWS_ADOPT_RAW_FILE_DESC, descriptor, "osc", nullptr))
+        return osc_port_.comes();
+    close(osc_);
+    osc_port_.fails("the server is full", now);
 }
 
 void Server::schedule()
@@ -238,6 +303,7 @@ void Server::wake() { lws_cancel_service(context_); }
 void Server::tick()
 {
     schedule();
+    open();
     const Logins::Time now = std::chrono::steady_clock::now();
     hand_out_replies();
     if (!clients_.empty())
@@ -307,6 +373,21 @@ std::string Server::put(const Command& command, Role role, const std::string& wh
     return "";
 }
 
+void Server::refuse_osc(const std::string& who, const std::string& why)
+{
+    constexpr std::chrono::seconds between_lines{10};
+    ++refused_datagrams_;
+    const Logins::Time now = std::chrono::steady_clock::now();
+    if (osc_said_ != Logins::Time{} && now - osc_said_ < between_lines) {
+        ++osc_unsaid_;
+        return;
+    }
+    osc_said_ = now;
+    const std::uint64_t unsaid = std::exchange(osc_unsaid_, 0);
+    write_log(LogKind::osc_refused,
+        "OSC from " + who + ": " + why + (unsaid > 0 ? " (" + std::to_string(unsaid) + " before were refused, too)" : ""));
+}
+
 int Server::datagrams(lws_callback_reasons reason)
 {
     if (reason != LWS_CALLBACK_RAW_RX_FILE)
@@ -325,18 +406,20 @@ int Server::datagrams(lws_callback_reasons reason)
         inet_ntop(from.ss_family, address, text.data(), text.size());
         const std::string who = plain_address(text.data());
         const OscSettings& osc = options_.settings.osc;
-        if (std::ranges::find(osc.from, who) == osc.from.end() || std::size_t(size) > most_message_bytes) {
-            ++refused_datagrams_;
+        if (std::ranges::find(osc.from, who) == osc.from.end()) {
+            refuse_osc(who, "this address is not in \"from\" of the exhibit's file");
             continue;
         }
         try {
+            if (std::size_t(size) > most_message_bytes)
+                throw InputError(
+                    "a datagram has more than " + std::to_string(most_message_bytes) + " bytes; fewer are right");
             for (const Command& command : commands_of_osc({bytes.data(), std::size_t(size)}))
                 if (const std::string no = put(command, osc.engineer ? Role::engineer : Role::docent, who, nullptr, 0);
                     !no.empty())
                     throw InputError(no);
         } catch (const InputError& error) {
-            ++refused_datagrams_;
-            write_log(LogKind::osc_refused, "OSC from " + who + ": " + error.what());
+            refuse_osc(who, error.what());
         }
     }
     return 0;

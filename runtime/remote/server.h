@@ -1,12 +1,12 @@
 #pragma once
 #include "auth.h"
+#include "config/model/awaited.h"
 #include "exchange.h"
 #include <deque>
 #include <libwebsockets.h>
 #include <list>
 #include <map>
 #include <memory>
-#include <set>
 
 namespace starbow {
 
@@ -46,7 +46,7 @@ private:
 /// The remote's sockets and all that is behind them, on the thread that calls serve().
 class Server {
 public:
-    /// Opens the sockets. Throws InputError.
+    /// Opens the sockets, or waits for their addresses and ports. Throws InputError for a wrong file.
     Server(const RemoteOptions& options, const Pins& pins, Exchange& exchange);
     ~Server();
     Server(const Server&) = delete;
@@ -74,13 +74,22 @@ private:
     };
 
     void load_files();
-    void open_osc();
+    lws_vhost* make_vhost(int port, const char* interface);
+    /// Tries what is not open yet.
+    void open();
+    void open_page(Logins::Time now);
+    void open_osc(Logins::Time now);
+    /// Counts a datagram that is left out; one line in a while says why.
+    void refuse_osc(const std::string& who, const std::string& why);
     std::optional<HttpAnswer> refused(lws* wsi, bool socket) const;
     HttpAnswer get(lws* wsi, const std::string& path);
     HttpAnswer log_in(lws* wsi, const std::string& body);
     HttpAnswer log_out(lws* wsi);
     std::string metrics();
     std::optional<Role> role(lws* wsi);
+    /// True where one more connection from there is too many.
+    bool is_full(const Origin& from) const;
+    void log_lock(const Logins::Attempt& attempt, const std::string& peer);
     int receive(Client& client, std::string_view part, bool whole);
     void handle(Client& client, std::string_view message);
     /// Puts a command into the mailbox. Returns a refusal, or "".
@@ -107,13 +116,17 @@ private:
     std::string page_;
     std::map<std::string, HttpAnswer> files_; ///< by path
     lws_context* context_ = nullptr;
-    lws_vhost* vhost_ = nullptr;
+    lws_vhost* vhost_ = nullptr; ///< that listens to nothing: of the descriptors of OSC
+    Awaited page_port_, osc_port_;
+    std::string lack_; ///< as published
     Tick tick_{};
     int osc_ = -1;
-    std::set<lws*> connections_;
+    std::map<lws*, std::string> connections_; ///< the address of each, as it is counted
     std::list<Client> clients_;
     std::map<std::uint64_t, Pending> pending_; ///< by the command's number
     std::uint64_t last_number_ = 0, ticks_ = 0;
+    Logins::Time osc_said_{}; ///< the last line about a refused datagram
+    std::uint64_t osc_unsaid_ = 0; ///< those since
     std::uint64_t refused_commands_ = 0, refused_datagrams_ = 0, wrong_pins_ = 0; // for metrics
     Broadcast status_, engineer_status_, log_, picture_;
 };

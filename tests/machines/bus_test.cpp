@@ -4,9 +4,14 @@
 #include "runtime/machines/interface.h"
 #include "runtime/machines/page_bytes.h"
 #include "tests/support/files.h"
+#include <algorithm>
+#include <csignal>
+#include <fcntl.h>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <random>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace starbow::bus_test {
@@ -18,10 +23,22 @@ using Clock = std::chrono::steady_clock;
 /// A domain that no other test process uses at the time.
 int free_domain() { return 20 + int(getpid() % 150); }
 
+/// A bus on the loopback interface, open. said: receives its lines.
+Bus open_bus(int domain, Bus::Role role, const std::string& exhibit = "dome", std::vector<std::string>* said = nullptr)
+{
+    Bus bus({"lo", domain, exhibit}, role, [said](LogKind, const std::string& line) {
+        if (said)
+            said->push_back(line);
+    });
+    bus.know({"master", "left"});
+    EXPECT_TRUE(bus.follow());
+    return bus;
+}
+
 /// Waits until `come` is true, for ten seconds at most.
 template <class Come> bool in_time(Bus& bus, const Come& come)
 {
-    for (const auto until = Clock::now() + 10s; Clock::now() < until; bus.wait(20ms))
+    for (const auto until = Clock::now() + 20s; Clock::now() < until; bus.wait(20ms))
         if (come())
             return true;
     return false;
@@ -52,7 +69,7 @@ TEST(BusTest, ALateNodeReceivesTheLastStateAndItsWordsReachTheMaster)
         char ready = 0;
         if (read(start[0], &ready, 1) != 1) // the states were sent before this node began
             return false;
-        Bus bus("lo", domain, Bus::Role::node);
+        Bus bus = open_bus(domain, Bus::Role::node);
         std::optional<StateMessage> state;
         std::vector<ConfigMessage> configs;
         if (!in_time(bus, [&] {
@@ -77,7 +94,7 @@ TEST(BusTest, ALateNodeReceivesTheLastStateAndItsWordsReachTheMaster)
                    })
             && right && go->frame == 7 && go->members == std::vector<std::string>{"left", "right"};
     });
-    Bus bus("lo", domain, Bus::Role::master);
+    Bus bus = open_bus(domain, Bus::Role::master);
     bus.send(ConfigMessage{"master", {{"the program", "11"}, {"en.json", "33"}}, {{"dome.json", "22"}}});
     for (std::uint8_t frame = 1; frame <= 7; ++frame)
         bus.send(StateMessage{frame, std::vector<std::uint8_t>(1000, frame)});
@@ -119,19 +136,21 @@ TEST(BusTest, ALateNodeReceivesTheLastPage)
         char ready = 0;
         if (read(start[0], &ready, 1) != 1)
             return false;
-        Bus bus("lo", domain, Bus::Role::node);
+        Bus bus = open_bus(domain, Bus::Role::node);
         std::optional<PageMessage> page;
         return in_time(bus,
                    [&] {
+                       bus.state(); // it says whom the node follows
                        if (auto come = bus.page())
                            page = come;
                        return page.has_value();
                    })
             && page->number == 9 && panel_of(*page).size == panel.size && panel_of(*page).texels == panel.texels;
     });
-    Bus bus("lo", domain, Bus::Role::master);
+    Bus bus = open_bus(domain, Bus::Role::master);
     bus.send(page_of(Panel{{1, 1}, {7, 8}}, 8));
     bus.send(page_of(panel, 9));
+    bus.send(StateMessage{1, {1}});
     ASSERT_EQ(write(start[1], "x", 1), 1);
     for (const auto until = Clock::now() + 10s; Clock::now() < until;) {
         siginfo_t info{};
@@ -140,6 +159,193 @@ TEST(BusTest, ALateNodeReceivesTheLastPage)
         bus.wait(20ms);
     }
     EXPECT_TRUE(ended_well(node));
+}
+
+bool has(const std::vector<std::string>& said, const std::string& text)
+{
+    return std::ranges::any_of(said, [&](const std::string& line) { return line.find(text) != line.npos; });
+}
+
+/// Runs a node of the exhibit "dome" in another process until `come`, which gets its bus and its last state. `sends` is this
+/// process's part meanwhile; it opens its bus at the first call, as no process may be forked from one with a bus.
+template <class Come, class Send> bool node_hears(int domain, const Come& come, const Send& sends)
+{
+    const pid_t node = elsewhere([&] {
+        std::vector<std::string> said;
+        Bus bus = open_bus(domain, Bus::Role::node, "dome", &said);
+        std::optional<StateMessage> state;
+        return in_time(bus, [&] {
+            bus.follow();
+            if (auto one = bus.state())
+                state = std::move(one);
+            return come(bus, state, said);
+        });
+    });
+    for (const auto until = Clock::now() + 30s; Clock::now() < until; std::this_thread::sleep_for(5ms)) {
+        siginfo_t info{};
+        if (waitid(P_PID, id_t(node), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == node)
+            break;
+        sends();
+    }
+    return ended_well(node);
+}
+
+/// Two exhibits on one network and domain: each hears its own alone, however much the other one sends.
+TEST(BusTest, AnotherExhibitsMessagesAreLeftOut)
+{
+    const int domain = free_domain();
+    const pid_t other = elsewhere([&] {
+        Bus bus = open_bus(domain, Bus::Role::master, "another dome");
+        for (std::int64_t frame = 1000000; getppid() != 1; ++frame) { // until it is killed, or the test is
+            bus.send(StateMessage{frame, {9}, 1, 1000000});
+            bus.send(ConfigMessage{"master", {{"the program", "other"}}, {}});
+            bus.send(GoMessage{frame, {}});
+            std::this_thread::sleep_for(1ms);
+        }
+        return true;
+    });
+    std::optional<Bus> bus;
+    std::int64_t frame = 0;
+    int heard = 0;
+    EXPECT_TRUE(node_hears(
+        domain,
+        [&](Bus& node, const std::optional<StateMessage>& state, const std::vector<std::string>& said) {
+            for (const ConfigMessage& config : node.configs())
+                if (config.files != FileDigests{{"the program", "11"}})
+                    _exit(2);
+            const std::optional<GoMessage> go = node.go();
+            if ((state && state->instant != std::vector<std::uint8_t>{7}) || (go && go->frame >= 1000000))
+                _exit(3);
+            heard += go.has_value();
+            return heard >= 20 && has(said, "of another exhibit, 'another dome', and this one is 'dome'");
+        },
+        [&] {
+            if (!bus) {
+                bus.emplace(open_bus(domain, Bus::Role::master));
+                bus->send(ConfigMessage{"master", {{"the program", "11"}}, {}});
+            }
+            bus->send(StateMessage{++frame, {7}});
+            bus->send(GoMessage{frame, {}});
+        }));
+    kill(other, SIGKILL);
+    waitpid(other, nullptr, 0);
+}
+
+/// A node follows the first master, also where a second one sends ten times as much; and takes the second once the first has
+/// ended.
+TEST(BusTest, ANodeFollowsOneMasterUntilItIsGone)
+{
+    const int domain = free_domain();
+    int heard[2], begin[2];
+    ASSERT_EQ(pipe(heard), 0);
+    ASSERT_EQ(pipe(begin), 0);
+    const pid_t second = elsewhere([&] {
+        char mark = 0;
+        if (read(begin[0], &mark, 1) != 1)
+            return false;
+        Bus bus = open_bus(domain, Bus::Role::master);
+        bus.send(ConfigMessage{"master", {{"the program", "second"}}, {}});
+        for (std::int64_t later = 1000000; getppid() != 1; ++later) {
+            bus.send(StateMessage{later, {8}});
+            std::this_thread::sleep_for(500us);
+        }
+        return true;
+    });
+    std::optional<Bus> first;
+    std::int64_t frame = 0, since_second = 0;
+    int own = 0, others = 0;
+    EXPECT_TRUE(node_hears(
+        domain,
+        [&](Bus& node, const std::optional<StateMessage>& state, const std::vector<std::string>& said) {
+            for (const ConfigMessage& config : node.configs())
+                if (config.files[0].second == "second" && others == 0)
+                    _exit(2);
+            if (!state)
+                return false;
+            if (state->instant[0] == 7) {
+                if (others > 0)
+                    _exit(3);
+                if (++own == 1 && write(heard[1], "x", 1) != 1)
+                    _exit(4);
+                return false;
+            }
+            return ++others > 20 && own > 20 && has(said, "a second master");
+        },
+        [&] {
+            if (!first && since_second == 0) {
+                first.emplace(open_bus(domain, Bus::Role::master));
+                fcntl(heard[0], F_SETFL, O_NONBLOCK);
+            }
+            char mark = 0;
+            if (since_second == 0 && read(heard[0], &mark, 1) == 1)
+                since_second = write(begin[1], "x", 1);
+            if (first)
+                first->send(StateMessage{++frame, {7}});
+            if (since_second > 0 && ++since_second > 600) // three seconds and more
+                first.reset();
+        }));
+    kill(second, SIGKILL);
+    waitpid(second, nullptr, 0);
+}
+
+/// Names that the layout lacks are keys of a topic, which would stay in memory for ever.
+TEST(BusTest, UnknownNodesTakeNoMemory)
+{
+    const int domain = free_domain();
+    const auto resident_kb = [] {
+        std::ifstream file("/proc/self/statm");
+        long pages = 0;
+        file >> pages >> pages;
+        return pages * sysconf(_SC_PAGESIZE) / 1024;
+    };
+    const std::string large(50000, 'A');
+    const pid_t rogue = elsewhere([&] {
+        Bus bus = open_bus(domain, Bus::Role::node);
+        for (int i = 0; i < 4000 && getppid() != 1; ++i) {
+            bus.send(ConfigMessage{"rogue " + std::to_string(i), {{"a file", large}}, {}});
+            std::this_thread::sleep_for(1ms);
+        }
+        for (;;) {
+            bus.send(ConfigMessage{"left", {{"the program", "11"}}, {}});
+            std::this_thread::sleep_for(20ms);
+        }
+        return true;
+    });
+    std::vector<std::string> said;
+    Bus bus = open_bus(domain, Bus::Role::master, "dome", &said);
+    const long before = resident_kb();
+    std::vector<ConfigMessage> configs;
+    EXPECT_TRUE(in_time(bus, [&] {
+        bus.follow();
+        for (ConfigMessage& config : bus.configs())
+            configs.push_back(std::move(config));
+        return !configs.empty() && configs.back().node == "left";
+    }));
+    EXPECT_LE(configs.size(), 17u); // a few strangers, as a layout to come may have them
+    EXPECT_LT(resident_kb() - before, 40000); // 4000 times 50 kB are 200 MB
+    EXPECT_EQ(said.size(), 1u);
+    kill(rogue, SIGKILL);
+    waitpid(rogue, nullptr, 0);
+}
+
+/// An interface that this machine lacks is waited for.
+TEST(BusTest, AnInterfaceMayComeLater)
+{
+    std::vector<std::string> said;
+    Bus bus(
+        {"203.0.113.0/24", 7, "dome"}, Bus::Role::master, [&](LogKind, const std::string& line) { said.push_back(line); });
+    EXPECT_FALSE(bus.follow());
+    EXPECT_FALSE(bus.follow());
+    bus.send(StateMessage{1, {1}});
+    EXPECT_FALSE(bus.state() || bus.go() || bus.page());
+    EXPECT_TRUE(bus.readies().empty() && bus.configs().empty());
+    bus.wait(1ms);
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_TRUE(
+        said[0].starts_with("the network of the exhibit's machines can't be had (interface \"203.0.113.0/24\" is none "
+                            "of this machine"))
+        << said[0];
+    EXPECT_THROW(Bus({"203.0.113.0/99", 7, "dome"}, Bus::Role::master, [](LogKind, const std::string&) {}), InputError);
 }
 
 TEST(BusTest, InterfacesAreNamesOrNetworks)

@@ -96,6 +96,27 @@ TEST(Log, LevelsBelowTheLowestAreLeftOut)
     EXPECT_EQ(file.lines().size(), 1u);
 }
 
+/// Whatever comes over a network, the log stays readable, and small.
+TEST(Log, LinesThatStrangersCauseAreFew)
+{
+    using namespace std::chrono_literals;
+    LogFile file("log-limited");
+    file.open();
+    const auto start = std::chrono::steady_clock::now() + 1h; // after what other tests of this process have written
+    for (int i = 0; i < 1000; ++i)
+        write_limited(LogKind::node_differs, "line " + std::to_string(i), start + i * 10ms);
+    write_limited(LogKind::node_refused, "of another kind", start + 10s);
+    write_limited(LogKind::node_differs, "a minute later", start + 60s);
+    write_limited(LogKind::node_differs, "then as before", start + 61s);
+    const std::vector<std::string> lines = file.lines();
+    ASSERT_EQ(lines.size(), 13u);
+    EXPECT_TRUE(lines[0].ends_with("machines: line 0"));
+    EXPECT_TRUE(lines[9].ends_with("machines: line 9"));
+    EXPECT_TRUE(lines[10].ends_with("machines: of another kind"));
+    EXPECT_TRUE(lines[11].ends_with("machines: a minute later (990 such lines before are left out)")) << lines[11];
+    EXPECT_TRUE(lines[12].ends_with("machines: then as before"));
+}
+
 TEST(Log, AMessageStaysOneLineAndSteersNoTerminal)
 {
     LogFile file("log-control");

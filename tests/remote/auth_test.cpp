@@ -26,7 +26,7 @@ std::filesystem::path pin_file(const std::string& text, mode_t mode = 0640)
 
 std::string token(Logins& logins, std::string_view pin, Logins::Time now = start)
 {
-    return logins.attempt("10.0.0.1", pin, now).token;
+    return logins.attempt({"10.0.0.1"}, pin, now).token;
 }
 
 } // namespace
@@ -80,7 +80,7 @@ TEST(Logins, APinGivesItsRoleAndATokenOf128Bits)
     Logins logins(pins);
     std::set<std::string> tokens;
     for (std::size_t i = 0; i < pins.size(); ++i) {
-        const Logins::Attempt attempt = logins.attempt("10.0.0.1", pins[i], start);
+        const Logins::Attempt attempt = logins.attempt({"10.0.0.1"}, pins[i], start);
         EXPECT_EQ(attempt.answer, Logins::Answer::right);
         EXPECT_EQ(attempt.role, Role(i));
         EXPECT_TRUE(std::regex_match(attempt.token, std::regex("[0-9a-f]{32}"))) << attempt.token;
@@ -99,29 +99,29 @@ TEST(Logins, APinGivesItsRoleAndATokenOf128Bits)
 TEST(Logins, ARoleWithoutAPinIsForNobody)
 {
     Logins logins(Pins{"", "222222", ""});
-    EXPECT_EQ(logins.attempt("10.0.0.1", "", start).answer, Logins::Answer::wrong);
-    EXPECT_EQ(logins.attempt("10.0.0.1", "222222", start).answer, Logins::Answer::right);
+    EXPECT_EQ(logins.attempt({"10.0.0.1"}, "", start).answer, Logins::Answer::wrong);
+    EXPECT_EQ(logins.attempt({"10.0.0.1"}, "222222", start).answer, Logins::Answer::right);
 }
 
 TEST(Logins, FiveWrongPinsLockAnAddressForFiveMinutes)
 {
     Logins logins(pins);
     for (int i = 0; i < 4; ++i)
-        EXPECT_EQ(logins.attempt("10.0.0.1", "999999", start + i * 1s).answer, Logins::Answer::wrong);
-    EXPECT_EQ(logins.attempt("10.0.0.1", "111111", start + 10s).answer, Logins::Answer::right); // which forgives nothing
-    const Logins::Attempt fifth = logins.attempt("10.0.0.1", "999999", start + 20s);
+        EXPECT_EQ(logins.attempt({"10.0.0.1"}, "999999", start + i * 1s).answer, Logins::Answer::wrong);
+    EXPECT_EQ(logins.attempt({"10.0.0.1"}, "111111", start + 10s).answer, Logins::Answer::right); // which forgives nothing
+    const Logins::Attempt fifth = logins.attempt({"10.0.0.1"}, "999999", start + 20s);
     EXPECT_EQ(fifth.answer, Logins::Answer::locked);
     EXPECT_EQ(fifth.left, 300s);
-    const Logins::Attempt right = logins.attempt("10.0.0.1", "222222", start + 80s);
+    const Logins::Attempt right = logins.attempt({"10.0.0.1"}, "222222", start + 80s);
     EXPECT_EQ(right.answer, Logins::Answer::locked);
     EXPECT_EQ(right.left, 240s);
     EXPECT_EQ(right.token, "");
-    EXPECT_EQ(logins.attempt("10.0.0.2", "222222", start + 80s).answer, Logins::Answer::right);
-    EXPECT_EQ(logins.attempt("10.0.0.1", "222222", start + 319s).answer, Logins::Answer::locked);
-    EXPECT_EQ(logins.attempt("10.0.0.1", "222222", start + 321s).answer, Logins::Answer::right);
+    EXPECT_EQ(logins.attempt({"10.0.0.2"}, "222222", start + 80s).answer, Logins::Answer::right);
+    EXPECT_EQ(logins.attempt({"10.0.0.1"}, "222222", start + 319s).answer, Logins::Answer::locked);
+    EXPECT_EQ(logins.attempt({"10.0.0.1"}, "222222", start + 321s).answer, Logins::Answer::right);
     // A docent who mistypes once a day is never locked out.
     for (int day = 1; day < 30; ++day)
-        EXPECT_EQ(logins.attempt("10.0.0.1", "222223", start + day * 24h).answer, Logins::Answer::wrong);
+        EXPECT_EQ(logins.attempt({"10.0.0.1"}, "222223", start + day * 24h).answer, Logins::Answer::wrong);
 }
 
 TEST(Logins, ManyAddressesGuessNoFasterThanSixteen)
@@ -131,11 +131,73 @@ TEST(Logins, ManyAddressesGuessNoFasterThanSixteen)
     for (int address = 0; address < 1000; ++address)
         for (int i = 0; i < 5; ++i) {
             const std::string from = "10.0." + std::to_string(address / 256) + "." + std::to_string(address % 256);
-            guesses += logins.attempt(from, "999999", start + 1s * i).answer == Logins::Answer::wrong;
+            guesses += logins.attempt({from}, "999999", start + 1s * i).answer == Logins::Answer::wrong;
         }
     EXPECT_EQ(guesses, 16 * 4); // the fifth wrong one of an address is answered by the lock
-    EXPECT_EQ(logins.attempt("10.9.9.9", "222222", start + 10s).answer, Logins::Answer::locked);
-    EXPECT_EQ(logins.attempt("10.9.9.9", "222222", start + 310s).answer, Logins::Answer::right);
+    EXPECT_EQ(logins.attempt({"10.9.9.9"}, "222222", start + 10s).answer, Logins::Answer::locked);
+    EXPECT_EQ(logins.attempt({"10.9.9.9"}, "222222", start + 310s).answer, Logins::Answer::right);
+}
+
+/// A lock that begins again within a day is twice as long; after a day without one it is as at first.
+TEST(Logins, EachLockIsLongerThanTheOneBefore)
+{
+    Logins logins(pins);
+    Logins::Time now = start;
+    const auto locked_s = [&] {
+        for (int i = 0; i < 4; ++i)
+            EXPECT_EQ(logins.attempt({"10.0.0.1"}, "999999", now).begins, Logins::Lock::none);
+        const Logins::Attempt fifth = logins.attempt({"10.0.0.1"}, "999999", now);
+        EXPECT_EQ(fifth.begins, Logins::Lock::address);
+        EXPECT_EQ(fifth.left, fifth.length);
+        EXPECT_EQ(logins.attempt({"10.0.0.1"}, "111111", now + fifth.length - 1s).answer, Logins::Answer::locked);
+        EXPECT_EQ(logins.attempt({"10.0.0.1"}, "111111", now + fifth.length - 1s).begins, Logins::Lock::none);
+        now += fifth.length;
+        return fifth.length;
+    };
+    EXPECT_EQ(locked_s(), 300s);
+    EXPECT_EQ(locked_s(), 600s);
+    EXPECT_EQ(locked_s(), 1200s);
+    for (int i = 0; i < 3; ++i)
+        locked_s();
+    EXPECT_EQ(locked_s(), 64 * 300s);
+    EXPECT_EQ(locked_s(), 64 * 300s); // and no longer
+    now += 25h;
+    EXPECT_EQ(locked_s(), 300s);
+}
+
+/// Wrong PINs from many addresses lock out strangers, but not this machine, and not those that have logged in within a day.
+TEST(Logins, ManyDoubtfulAddressesLockOutStrangersAlone)
+{
+    Logins logins(pins);
+    EXPECT_EQ(logins.attempt({"10.0.9.1"}, "222222", start).answer, Logins::Answer::right);
+    const auto attack = [&](Logins::Time now) {
+        int begun = 0;
+        for (int i = 0; i < 200; ++i) {
+            const Logins::Attempt attempt = logins.attempt({"10.0.1." + std::to_string(i)}, "999999", now);
+            EXPECT_EQ(attempt.answer, i < 16 ? Logins::Answer::wrong : Logins::Answer::locked) << i;
+            EXPECT_EQ(attempt.begins, i == 15 ? Logins::Lock::strangers : Logins::Lock::none) << i;
+            begun += attempt.begins == Logins::Lock::strangers;
+        }
+        return begun;
+    };
+    EXPECT_EQ(attack(start + 1h), 1);
+    EXPECT_EQ(logins.attempt({"10.0.9.9"}, "222222", start + 1h).answer, Logins::Answer::locked);
+    EXPECT_EQ(logins.attempt({"10.0.9.9"}, "222222", start + 1h).left, 300s);
+    EXPECT_EQ(logins.attempt({"10.0.9.1"}, "222222", start + 1h).answer, Logins::Answer::right);
+    EXPECT_EQ(logins.attempt({"127.0.0.1", true}, "333333", start + 1h).answer, Logins::Answer::right);
+    EXPECT_EQ(logins.attempt({"192.168.7.20", true}, "333333", start + 1h).answer, Logins::Answer::right);
+    EXPECT_EQ(logins.attempt({"127.0.0.2"}, "333333", start + 1h).answer, Logins::Answer::locked); // loopback is no password
+    // The next round is longer, and a day later nobody is known any more.
+    attack(start + 2h);
+    EXPECT_EQ(logins.attempt({"10.0.9.9"}, "222222", start + 2h).left, 600s);
+    EXPECT_EQ(logins.attempt({"10.0.9.1"}, "222222", start + 2h).answer, Logins::Answer::right);
+    attack(start + 50h);
+    EXPECT_EQ(logins.attempt({"10.0.9.1"}, "222222", start + 50h).answer, Logins::Answer::locked);
+    // Who may log in while strangers are locked out may guess no more than others.
+    int guesses = 0;
+    for (int i = 0; i < 100; ++i)
+        guesses += logins.attempt({"127.0.0.1", true}, "999999", start + 50h).answer == Logins::Answer::wrong;
+    EXPECT_EQ(guesses, 4);
 }
 
 TEST(Logins, ATokenEndsTwelveHoursAfterItsLastUse)

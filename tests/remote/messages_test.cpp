@@ -188,18 +188,49 @@ TEST(Osc, MessagesAndBundlesAreRead)
     EXPECT_EQ(commands(osc("/starbow/doppler", "s", text_value("on")))[0].on, true);
     EXPECT_EQ(commands(osc("/starbow/stop", "i", word_value(1))).size(), 1u);
     EXPECT_TRUE(commands(bundle({})).empty());
+    EXPECT_EQ(commands(bundle({bundle({osc("/starbow/stop", "")}), osc("/starbow/reset", "")})).size(), 2u);
+}
+
+/// What consoles send for a button: 1, 127 of a MIDI note, a fader's part, true, an impulse or a word; 0 or false when it is
+/// let go.
+TEST(Osc, TrueAndPositiveNumbersActFalseAndZeroDoNot)
+{
+    const std::string one = word_value(1), zero = word_value(0), note = word_value(127), half = word_value(0x3f000000),
+                      whole_double = word_value(0x3ff00000) + word_value(0), long_one = word_value(0) + word_value(1);
+    const std::vector<std::pair<std::string, std::string>> on{{"T", ""}, {"I", ""}, {"i", one}, {"i", note}, {"f", half},
+        {"f", word_value(0x3f800000)}, {"f", word_value(0x42fe0000)}, {"d", whole_double}, {"h", long_one},
+        {"s", text_value("on")}, {"s", text_value("true")}, {"s", text_value("1")}},
+        off{{"F", ""}, {"i", zero}, {"f", zero}, {"d", zero + zero}, {"h", zero + zero}, {"s", text_value("off")},
+            {"s", text_value("false")}, {"s", text_value("0")}};
+    for (const auto& [types, values] : on) {
+        EXPECT_EQ(
+            commands(osc("/starbow/fade", types, values)), (std::vector<Command>{{.kind = CommandKind::fade, .on = true}}))
+            << types;
+        EXPECT_EQ(commands(osc("/starbow/stop", types, values)), (std::vector<Command>{{.kind = CommandKind::stop}}))
+            << types;
+    }
+    for (const auto& [types, values] : off) {
+        EXPECT_EQ(commands(osc("/starbow/fade", types, values)), (std::vector<Command>{{.kind = CommandKind::fade}}))
+            << types;
+        EXPECT_TRUE(commands(osc("/starbow/stop", types, values)).empty()) << types;
+    }
+    for (const auto& [types, values] : std::vector<std::pair<std::string, std::string>>{
+             {"i", word_value(0xffffffff)}, {"f", word_value(0x7fc00000)}, {"s", text_value("maybe")}, {"N", ""}}) {
+        EXPECT_NE(refusal(osc("/starbow/fade", types, values)), "") << types;
+        EXPECT_NE(refusal(osc("/starbow/stop", types, values)), "") << types;
+    }
 }
 
 TEST(Osc, WrongMessagesAreRefusedInOneSentence)
 {
-    for (const std::string& wrong :
-        {std::string(), std::string("/"), std::string(4, '\0'), osc("/other/stop", ""), osc("/starbow/none", ""),
-            osc("/starbow/doppler", "i", word_value(2)), osc("/starbow/scene", "ss", text_value("a") + text_value("b")),
-            osc("/starbow/scene", "i", ""), osc("/starbow/scene", "s", text_value("../x")),
-            osc("/starbow/scene", "b", word_value(0xffffffff)), osc("/starbow/doppler", "N"),
-            osc("/starbow/stop", "i", word_value(0)), bundle({bundle({osc("/starbow/stop", "")})}), bundle({""}),
-            bundle({"x"}), std::string("#bundle\0", 8) + std::string(8, '\1') + word_value(0x7fffffff),
-            bundle(std::vector<std::string>(65, osc("/starbow/stop", "")))})
+    for (const std::string& wrong : {std::string(), std::string("/"), std::string(4, '\0'), osc("/other/stop", ""),
+             osc("/starbow/none", ""), osc("/starbow/doppler", "ii", word_value(1) + word_value(1)),
+             osc("/starbow/scene", "ss", text_value("a") + text_value("b")), osc("/starbow/scene", "i", ""),
+             osc("/starbow/scene", "s", text_value("../x")), osc("/starbow/scene", "b", word_value(0xffffffff)),
+             osc("/starbow/doppler", "N"),
+             bundle({bundle({bundle({bundle({bundle({bundle({bundle({bundle({bundle({})})})})})})})})}), bundle({""}),
+             bundle({"x"}), std::string("#bundle\0", 8) + std::string(8, '\1') + word_value(0x7fffffff),
+             bundle(std::vector<std::string>(65, osc("/starbow/stop", "")))})
         EXPECT_NE(refusal(wrong), "") << wrong;
 }
 

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <thread>
@@ -50,10 +51,11 @@ int free_port(int type)
 /// A connection that reads with a limit of time.
 class Wire {
 public:
-    explicit Wire(int port)
+    explicit Wire(int port, const char* from = "127.0.0.1")
         : socket_(socket(AF_INET, SOCK_STREAM, 0))
     {
-        const sockaddr_in address = address_of("127.0.0.1", port);
+        const sockaddr_in address = address_of("127.0.0.1", port), own = address_of(from, 0);
+        EXPECT_EQ(bind(socket_, reinterpret_cast<const sockaddr*>(&own), sizeof own), 0);
         const timeval limit{.tv_sec = 10, .tv_usec = 0};
         setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
         setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
@@ -185,18 +187,20 @@ public:
 
     std::string host() const { return "127.0.0.1:" + std::to_string(settings.port); }
     /// The whole answer to a request; headers end with \r\n each.
-    std::string http(const std::string& line, const std::string& headers = "", const std::string& body = "") const
+    std::string http(const std::string& line, const std::string& headers = "", const std::string& body = "",
+        const char* from = "127.0.0.1") const
     {
-        Wire wire(settings.port);
+        Wire wire(settings.port, from);
         wire.send(line + " HTTP/1.1\r\nHost: " + host() + "\r\n" + headers
             + (body.empty() ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") + "\r\n" + body);
         const std::string head = wire.read_head();
         const std::size_t length = head.find("content-length: ");
         return head + (length == head.npos ? "" : wire.read(std::stoul(head.substr(length + 16))));
     }
-    int status(const std::string& line, const std::string& headers = "", const std::string& body = "") const
+    int status(const std::string& line, const std::string& headers = "", const std::string& body = "",
+        const char* from = "127.0.0.1") const
     {
-        const std::string answer = http(line, headers, body);
+        const std::string answer = http(line, headers, body, from);
         return answer.size() > 12 ? std::stoi(answer.substr(9, 3)) : 0;
     }
     std::string origin() const { return "Origin: http://" + host() + "\r\n"; }
@@ -495,19 +499,149 @@ TEST(Server, TheLogWarnsOfAnOpenNetworkAndHoldsNoPin)
 
 TEST(Server, AWrongStartIsRefused)
 {
-    Running running;
     for (const auto& [change, says] :
         {std::pair<std::function<void(RemoteSettings&)>, const char*>{
-             [&](RemoteSettings& settings) { settings.port = running.settings.port; }, "can't be opened at port"},
-            {[](RemoteSettings& settings) { settings.address = "192.0.2.7"; }, "does not have this address"},
-            {[&](RemoteSettings& settings) { settings.osc.port = running.settings.osc.port; }, "OSC can't be opened"},
-            {[](RemoteSettings& settings) { settings.pins = "/nowhere/pins"; }, "does not exist"},
+             [](RemoteSettings& settings) { settings.pins = "/nowhere/pins"; }, "does not exist"},
             {[](RemoteSettings& settings) { settings.certificate = settings.key = "/nowhere/pem"; }, "does not exist"},
             {[](RemoteSettings& settings) { settings.certificate = settings.key = settings.pins; },
+                "can't be opened at port"},
+            {[](RemoteSettings& settings) {
+                 settings.certificate = settings.key = settings.pins;
+                 settings.address = "192.0.2.7"; // which comes later, if ever
+             },
                 "can't be opened at port"}}) {
         const std::string message = complaint([&] { Running another(change); });
         EXPECT_NE(message.find(says), message.npos) << message;
         EXPECT_TRUE(message.ends_with("is right")) << message;
+    }
+}
+
+/// The exhibit begins without the ports that it can't have, and takes them up once they are free.
+TEST(Server, PortsThatAreInUseAreWaitedForAndTakenUp)
+{
+    const std::filesystem::path file = scratch("remote-waits");
+    std::FILE* stream = std::fopen(file.c_str(), "w");
+    open_log({.stream = stream});
+    auto first = std::make_unique<Running>();
+    const RemoteSettings wanted = first->settings;
+    {
+        Running second([&](RemoteSettings& settings) { settings.port = wanted.port, settings.osc = wanted.osc; });
+        EXPECT_TRUE(until([&] { return !second.remote->lack().empty(); }));
+        EXPECT_EQ(second.remote->lack(),
+            "the remote's port " + std::to_string(wanted.port) + " of 127.0.0.1 can't be had (Address already in use)");
+        EXPECT_EQ(first->status("GET /"), 200);
+        first.reset();
+        EXPECT_TRUE(until([&] { return second.remote->lack().empty(); }));
+        EXPECT_EQ(second.status("GET /"), 200);
+        second.osc("127.0.0.1", std::string("/starbow/stop\0\0\0,\0\0\0", 20));
+        second.wait_for(1);
+    }
+    Running nowhere([](RemoteSettings& settings) { settings.address = "192.0.2.7"; });
+    EXPECT_TRUE(until([&] { return nowhere.remote->lack().find("192.0.2.7") != std::string::npos; }));
+    flush_messages(10);
+    open_log({});
+    std::fclose(stream);
+    const std::string text = read_text(file);
+    for (const char* line : {"of 127.0.0.1 can't be had (Address already in use)", "of 127.0.0.1 is there now"})
+        for (const char* what : {"network: the remote's port ", "network: OSC's UDP port "})
+            EXPECT_TRUE(std::regex_search(
+                text, std::regex(std::string(what) + "[0-9]+ " + std::regex_replace(line, std::regex("[().]"), "\\$&"))))
+                << what << line << text;
+    EXPECT_NE(text.find("of 192.0.2.7 can't be had (Cannot assign requested address)"), text.npos) << text;
+}
+
+/// One wrong PIN from each of 16 addresses locks out strangers; this machine logs in as before, and the log names no
+/// innocent.
+TEST(Server, WrongPinsOfManyAddressesDoNotLockOutThisMachine)
+{
+    const std::filesystem::path file = scratch("remote-locked");
+    std::FILE* stream = std::fopen(file.c_str(), "w");
+    open_log({.stream = stream});
+    {
+        Running running;
+        const std::string right = R"({"pin":"222222"})", wrong = R"({"pin":"999999"})";
+        EXPECT_EQ(running.status("POST /login", running.origin(), right, "127.0.5.1"), 200);
+        for (int i = 1; i <= 16; ++i)
+            EXPECT_EQ(running.status("POST /login", running.origin(), wrong, ("127.0.3." + std::to_string(i)).c_str()), 401);
+        EXPECT_EQ(running.status("POST /login", running.origin(), right, "127.0.4.1"), 429);
+        EXPECT_EQ(running.status("POST /login", running.origin(), right, "127.0.5.1"), 200);
+        EXPECT_EQ(running.status("POST /login", running.origin(), right), 200);
+    }
+    flush_messages(10);
+    open_log({});
+    std::fclose(stream);
+    const std::string text = read_text(file);
+    EXPECT_NE(
+        text.find("wrong PINs at 16 addresses, the last of them 127.0.3.16: for 5 minutes logins are refused but from this "
+                  "machine and from addresses that have logged in within a day"),
+        text.npos)
+        << text;
+    EXPECT_EQ(text.find("127.0.4.1"), text.npos) << text;
+    EXPECT_EQ(text.find("five wrong PINs"), text.npos) << text;
+}
+
+/// Nobody holds all connections: neither one address, nor many, nor a program on this machine.
+TEST(Server, OneAddressHoldsOnlyItsShareOfTheConnections)
+{
+    Running running;
+    std::vector<std::unique_ptr<Wire>> held;
+    for (int i = 0; i < 300; ++i)
+        held.push_back(std::make_unique<Wire>(running.settings.port, "127.0.3.1"));
+    for (int i = 0; i < 20; ++i)
+        EXPECT_EQ(running.status("GET /", "", "", "127.0.3.2"), 200);
+    held.clear();
+    EXPECT_EQ(running.status("POST /login", running.origin(), R"({"pin":"222222"})", "127.0.5.1"), 200);
+    for (int i = 0; i < 300; ++i)
+        held.push_back(std::make_unique<Wire>(running.settings.port, ("127.0.4." + std::to_string(i / 25 + 1)).c_str()));
+    EXPECT_EQ(running.status("GET /"), 200);
+    EXPECT_EQ(running.status("GET /", "", "", "127.0.5.1"), 200);
+}
+
+TEST(Server, RefusedOscIsLoggedOnceInAWhile)
+{
+    const std::filesystem::path file = scratch("remote-osc");
+    std::FILE* stream = std::fopen(file.c_str(), "w");
+    open_log({.stream = stream});
+    {
+        Running running;
+        for (int i = 0; i < 200; ++i)
+            running.osc("127.0.0.1", "damaged");
+        running.osc("127.0.0.2", std::string("/starbow/stop\0\0\0,\0\0\0", 20));
+        EXPECT_TRUE(until([&] {
+            return running.http("GET /metrics").find("starbow_remote_refused_datagrams_total 201\n") != std::string::npos;
+        }));
+    }
+    flush_messages(10);
+    open_log({});
+    std::fclose(stream);
+    const std::string text = read_text(file);
+    const std::size_t at = text.find("info remote: OSC from 127.0.0.1: a datagram is not an OSC message");
+    ASSERT_NE(at, text.npos) << text;
+    EXPECT_EQ(text.find("OSC from", at + 20), text.npos) << text; // further ones within ten seconds are counted
+}
+
+TEST(Server, AKeyThatAllMayReadIsWarnedOf)
+{
+    for (const mode_t mode : {0644, 0640}) {
+        const std::filesystem::path file = scratch("remote-key-log"), key = scratch("remote-key.pem");
+        std::filesystem::copy_file(
+            source_dir() / "tests/remote/key.pem", key, std::filesystem::copy_options::overwrite_existing);
+        chmod(key.c_str(), mode);
+        std::FILE* stream = std::fopen(file.c_str(), "w");
+        open_log({.stream = stream});
+        {
+            Running running([&](RemoteSettings& settings) {
+                settings.certificate = source_dir() / "tests/remote/certificate.pem";
+                settings.key = key;
+            });
+        }
+        flush_messages(10);
+        open_log({});
+        std::fclose(stream);
+        EXPECT_EQ(read_text(file).find("has the rights 644, which let every user of this machine read the key; 640 is right")
+                != std::string::npos,
+            mode == 0644)
+            << read_text(file);
     }
 }
 
@@ -523,8 +657,8 @@ TEST(Server, DamagedBytesDoItNoHarm)
         Wire wire(running.settings.port);
         wire.send(mutated(seeds[random() % seeds.size()], random));
         running.osc("127.0.0.1", mutated(std::string("/starbow/doppler\0\0\0\0,i\0\0\0\0\0\0", 28), random));
-        // An answer shows that the connections before it were accepted: on a busy machine this loop would otherwise run ahead of
-        // the server, which then refuses the 257th open connection, as it should.
+        // An answer shows that the connections before it were accepted: on a busy machine this loop would otherwise run
+        // ahead of the server, which then refuses the 257th open connection, as it should.
         if (i % 64 == 63) {
             ASSERT_EQ(running.status("GET /"), 200) << "after " << i + 1 << " damaged requests";
         }

@@ -17,6 +17,7 @@ void print_machines(const Machines& machines, const Layout& layout)
                 outputs += (outputs.empty() ? "" : ", ") + output.name;
         std::printf("machine %s%s: %s\n", node.c_str(), node == machines.master ? ", the master" : "", outputs.c_str());
     }
+    std::printf("exhibit's identity on the network: %s\n", identity_of(machines, layout).c_str());
     try {
         const NetworkInterface interface = interface_of(machines.interface);
         std::printf("network: interface %s, %s here, domain %d\n", interface.name.c_str(), interface.address.c_str(),
@@ -27,7 +28,7 @@ void print_machines(const Machines& machines, const Layout& layout)
         if (const std::string warning = warning_of_routes(interface); !warning.empty())
             std::printf("note: %s\n", warning.c_str());
     } catch (const NoInterface& error) { // the check may run at a desk, before anything is wired
-        std::printf("note: %s. This machine can't take part; one of the exhibit's can\n", error.what());
+        std::printf("note: %s. Here the machine would show its outputs alone, and wait for the network\n", error.what());
     }
 }
 
