@@ -12,6 +12,7 @@
 #include "runtime/exhibit/desktop.h"
 #include "runtime/exhibit/outputs.h"
 #include "runtime/hud/hud.h"
+#include "runtime/machines/interface.h"
 #include "runtime/render/render_context.h"
 #include "runtime/world/open_scene.h"
 #include "version.h"
@@ -23,6 +24,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sys/stat.h>
 #include <sys/utsname.h>
 #include <thread>
@@ -398,6 +400,44 @@ void examine_files(Report& report)
     report.line("", std::to_string(own) + " profiles of your own in " + own_profiles().string());
 }
 
+/// The places on the network that the site's exhibit needs. It shows its pictures without them, so nobody else may notice.
+/// Ports are not tried: the exhibit itself may have them.
+void examine_network(Report& report)
+{
+    json& facts = report.facts["network"] = json::array();
+    const fs::path folder = site(), file = folder / "exhibit.json";
+    if (folder.empty() || !fs::exists(file))
+        return;
+    Exhibit exhibit;
+    std::optional<HeadTracking> tracker;
+    try {
+        exhibit = load_exhibit(file);
+        tracker = load_layout(shipped_file("layouts", exhibit.layout)).head_tracker;
+    } catch (const InputError&) { // the examination of the files reports it
+        return;
+    }
+    const auto add = [&](const std::string& what, const std::string& place, bool here, const std::string& mend) {
+        facts.push_back({{"what", what}, {"place", place}, {"here", here}});
+        report.line(facts.size() == 1 ? "network" : "", what + ": " + place + (here ? "" : ", which this machine lacks"));
+        if (!here)
+            report.problem("The exhibit's " + what + " waits for " + place + ", which this machine lacks", mend);
+    };
+    const std::string mend = "look at the network's cable and at ip addr, or change the address in the file";
+    if (exhibit.remote.port != 0)
+        add("remote", exhibit.remote.address, is_here(exhibit.remote.address), mend);
+    if (tracker)
+        add("head tracker", tracker->address, is_here(tracker->address), mend);
+    if (exhibit.machines) {
+        bool here = true;
+        try {
+            interface_of(exhibit.machines->interface);
+        } catch (const InputError&) {
+            here = false;
+        }
+        add("machines", "interface " + exhibit.machines->interface, here, mend);
+    }
+}
+
 int doctor(bool as_json)
 {
     Report report;
@@ -423,6 +463,7 @@ int doctor(bool as_json)
     examine("font", [&] { examine_font(report); });
     examine("disk", [&] { examine_disk(report); });
     examine("files", [&] { examine_files(report); });
+    examine("network", [&] { examine_network(report); });
 
     json& wrong = report.facts["wrong"] = json::array();
     for (const auto& [what, mend] : report.wrong)
@@ -445,7 +486,8 @@ void add_doctor(Subcommand& app, std::function<int()>& chosen)
 {
     auto as_json = std::make_shared<bool>(false);
     Subcommand* command = app.add_subcommand("doctor",
-        "Examine this machine: GPU, monitors, sticks, font, disk, files; and say what is wrong. Exit 0: nothing, 1: "
+        "Examine this machine: GPU, monitors, sticks, font, disk, files, network; and say what is wrong. Exit 0: nothing, "
+        "1: "
         "something.");
     command->add_flag("--json", *as_json, "Print the same as JSON");
     command->footer("Examples:\n  starbow doctor\n  starbow doctor --json > out/doctor.json");

@@ -244,7 +244,7 @@ void Node::follow_files()
     try {
         apply(LayoutLoader::loaded_of(*std::move(result)));
     } catch (const InputError& error) {
-        write_log(LogKind::layout_refused, one_line(error.what()) + "; the exhibit stays as it was");
+        write_limited(LogKind::layout_refused, one_line(error.what()) + "; the exhibit stays as it was");
     }
 }
 
@@ -253,7 +253,7 @@ void Node::apply(LayoutLoader::Loaded loaded)
     const LimitedWait applying("the changed layout", loading_limit_s);
     make_frame(loaded.fresh, std::move(loaded.prepared));
     screens_.adopt(loaded.fresh);
-    write_log(LogKind::layout_applied, loaded.fresh.file.string() + ": applied");
+    write_limited(LogKind::layout_applied, loaded.fresh.file.string() + ": applied");
     layout_.take(std::move(loaded));
     bus_.send(layout_.config());
     if (shared_)

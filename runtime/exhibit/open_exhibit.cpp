@@ -1,5 +1,6 @@
 #include "open_exhibit.h"
 #include "config/model/shipped.h"
+#include "runtime/machines/interface.h"
 #include "runtime/operation/state_folder.h"
 #include <algorithm>
 
@@ -56,6 +57,10 @@ void check_machines(const Machines& machines, const Layout& layout, const std::s
     if (std::ranges::find(nodes, machines.master) == nodes.end())
         throw InputError("The master of the exhibit's machines, \"" + machines.master + "\", is not a node of the layout "
             + layout.name + "; one of these is right: " + list);
+    try {
+        interface_of(machines.interface);
+    } catch (const NoInterface&) { // it may come; a text that is no network won't
+    }
 }
 
 std::string identity_of(const Machines& machines, const Layout& layout)

@@ -3,9 +3,11 @@
 #include <arpa/inet.h>
 #include <charconv>
 #include <cstdint>
+#include <cstring>
 #include <ifaddrs.h>
 #include <memory>
 #include <net/if.h>
+#include <netinet/in.h>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -54,6 +56,32 @@ NetworkInterface interface_of(const std::string& wanted)
         known += (known.empty() ? "" : ", ") + std::string(at->ifa_name) + " (" + text + ")";
     }
     throw NoInterface("interface \"" + wanted + "\" is none of this machine; one of these is right: " + known);
+}
+
+bool is_here(const std::string& address)
+{
+    in6_addr six{};
+    in_addr four{};
+    const bool v6 = inet_pton(AF_INET6, address.c_str(), &six) == 1;
+    if (!v6 && inet_pton(AF_INET, address.c_str(), &four) != 1)
+        return false;
+    if (v6 ? IN6_IS_ADDR_UNSPECIFIED(&six) : four.s_addr == INADDR_ANY)
+        return true;
+    if (!v6 && ntohl(four.s_addr) >> 24 == IN_LOOPBACKNET)
+        return true; // each of 127.0.0.0/8, of which one alone is listed
+    ifaddrs* first = nullptr;
+    if (getifaddrs(&first) != 0)
+        return false;
+    const std::unique_ptr<ifaddrs, void (*)(ifaddrs*)> list(first, freeifaddrs);
+    for (const ifaddrs* at = first; at; at = at->ifa_next) {
+        if (!at->ifa_addr || at->ifa_addr->sa_family != (v6 ? AF_INET6 : AF_INET))
+            continue;
+        const in6_addr& one = reinterpret_cast<const sockaddr_in6*>(at->ifa_addr)->sin6_addr;
+        if (v6 ? std::memcmp(&one, &six, sizeof six) == 0
+               : reinterpret_cast<const sockaddr_in*>(at->ifa_addr)->sin_addr.s_addr == four.s_addr)
+            return true;
+    }
+    return false;
 }
 
 bool leads_elsewhere(const NetworkInterface& interface, const std::string& routes)

@@ -20,6 +20,9 @@ struct NoInterface : InputError {
 /// NoInterface, with those that this machine has, and InputError for a text that is no network.
 NetworkInterface interface_of(const std::string& wanted);
 
+/// True where this machine has an address, IPv4 or IPv6; of 0.0.0.0 and ::, too, which are all of them.
+bool is_here(const std::string& address);
+
 /// True where a route through a gateway leads out of the interface's network. routes: the file of the system's routes.
 bool leads_elsewhere(const NetworkInterface& interface, const std::string& routes = "/proc/net/route");
 

@@ -14,7 +14,7 @@ constexpr std::size_t most_name = 64, most_file_name = 300, most_digest = 64;
 constexpr double longest_frame_ms = 1e6, whole_sphere_sr = 12.57;
 /// No panel is wider: a texture that every GPU can hold.
 constexpr std::int32_t most_page_side = 8192;
-constexpr std::size_t most_sign_lines = 8, most_sign_letters = 200, most_choices = 64;
+constexpr std::size_t most_sign_lines = 8, most_sign_letters = 200, most_choices = 256;
 
 /// Collects the first fault.
 struct Faults {

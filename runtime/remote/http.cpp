@@ -167,15 +167,19 @@ void Server::log_lock(const Logins::Attempt& attempt, const std::string& peer)
                 + time + " logins are refused but from this machine and from addresses that have logged in within a day");
 }
 
-/// Some connections are left for this machine and for those that have logged in lately, whoever else comes.
+/// This machine's own connections are counted by themselves: neither its programs nor anybody else can shut the other out.
+/// Of the others some are left for those that have logged in lately, whoever else comes.
 bool Server::is_full(const Origin& from) const
 {
-    constexpr std::size_t most = 256, kept = 32, most_of_one = 32;
-    const auto of_one
-        = std::size_t(std::ranges::count_if(connections_, [&](const auto& one) { return one.second == from.address; }));
-    if (connections_.size() >= most || of_one >= (from.here ? most - kept : most_of_one))
-        return true;
-    return connections_.size() >= most - kept && !logins_.trusts(from, std::chrono::steady_clock::now());
+    const auto count = [&](const auto& counts) { return std::size_t(std::ranges::count_if(connections_, counts)); };
+    const std::size_t here = count([](const auto& one) { return one.second.here; });
+    if (from.here)
+        return here >= most_connections_here;
+    constexpr std::size_t kept = 32, most_of_one = 32;
+    const std::size_t others = connections_.size() - here,
+                      of_one = count([&](const auto&one) { return one.second.address == from.address; });
+    const bool trusted = others < most_connections - kept || logins_.trusts(from, std::chrono::steady_clock::now());
+    return others >= most_connections || of_one >= most_of_one || !trusted;
 }
 
 HttpAnswer Server::log_out(lws* wsi)
@@ -210,7 +214,7 @@ int Server::http(lws* wsi, lws_callback_reasons reason, void* room, void* in, st
     case LWS_CALLBACK_FILTER_NETWORK_CONNECTION:
         return is_full(origin_of(int(reinterpret_cast<std::intptr_t>(in)))) ? 1 : 0;
     case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
-        connections_[wsi] = origin_of(lws_get_socket_fd(wsi)).address;
+        connections_[wsi] = origin_of(lws_get_socket_fd(wsi));
         return 0;
     case LWS_CALLBACK_WSI_DESTROY:
         connections_.erase(wsi);

@@ -26,7 +26,8 @@ constexpr lws_usec_t tick_us = 100000; ///< of the status: ten a second
 constexpr unsigned ticks_of_login = 50; ///< between two looks whether a page's token is still valid
 constexpr std::chrono::seconds most_wait{120}; ///< for an answer of the frame thread
 constexpr std::size_t most_page_bytes = 1 << 20; ///< of each file of the page, and of a certificate
-constexpr unsigned most_files = 300; ///< descriptors of the context: the connections, and the server's own
+/// Descriptors of the context: the connections, and the server's own.
+constexpr unsigned most_files = most_connections + most_connections_here + 44;
 
 /// The last error that libwebsockets spoke of, for the message of a start that fails. Its own lines are for debugging: a
 /// stranger's damaged requests must not fill the log.

@@ -10,6 +10,9 @@
 
 namespace starbow {
 
+/// The most connections at a time, from other machines and from this one.
+constexpr std::size_t most_connections = 256, most_connections_here = 255;
+
 /// The answer to one request of a browser.
 struct HttpAnswer {
     unsigned status = 200;
@@ -121,7 +124,7 @@ private:
     std::string lack_; ///< as published
     Tick tick_{};
     int osc_ = -1;
-    std::map<lws*, std::string> connections_; ///< the address of each, as it is counted
+    std::map<lws*, Origin> connections_;
     std::list<Client> clients_;
     std::map<std::uint64_t, Pending> pending_; ///< by the command's number
     std::uint64_t last_number_ = 0, ticks_ = 0;

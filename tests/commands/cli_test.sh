@@ -293,6 +293,17 @@ said=$(VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent doctor env STA
 if [ $? = 1 ] && [[ $said == *"Vulkan finds none"*"font "*"files "*"Wrong:"*$'\n- Vulkan finds no GPU: install '*$'\n- The cache folder /dev/null/cache can\'t be written'* ]]; then passed=$((passed + 1)); else fail "doctor without a GPU and a cache: $said"; fi
 said=$(doctor env DISPLAY=:4711 "$program" doctor)
 if [ $? = 1 ] && [[ $said == *"- The display server that DISPLAY=:4711 names does not answer: "* ]]; then passed=$((passed + 1)); else fail "doctor with a dead display: $said"; fi
+# Of an installed exhibit it says which addresses the machine lacks (192.0.2.0/24 is nobody's).
+house=$folder/house
+mkdir -p "$house/usr/bin" "$house/usr/share/starbow" "$house/etc/starbow"
+cp "$program" "$house/usr/bin/starbow"
+ln -s "$(realpath "$(dirname "$0")/../../config")" "$house/usr/share/starbow/config"
+cat >"$house/etc/starbow/exhibit.json" <<'END'
+{ "layout": "desk", "remote": { "port": 8080, "address": "192.0.2.7" }, "machines": { "master": "a", "interface": "lo" } }
+END
+said=$(cd / && doctor "$house/usr/bin/starbow" doctor)
+if [ $? = 1 ] && [[ $said == *"network   remote: 192.0.2.7, which this machine lacks"*"machines: interface lo"*"- The exhibit's remote waits for 192.0.2.7, which this machine lacks: look at "* ]] && [[ $said != *"interface lo, which"* ]]; then passed=$((passed + 1)); else fail "doctor of an exhibit without its address: $said"; fi
+rm -r "$house"
 mkdir -p "$folder/own/starbow/profiles"
 echo '{ "name": 7 }' > "$folder/own/starbow/profiles/mine.json"
 said=$(doctor env XDG_CONFIG_HOME="$folder/own" STARBOW_GPU=Voodoo "$program" doctor --json)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # One exhibit on several machines, here three programs on the loopback interface under Xvfb: they show what one program would,
-# in step, also while a builder changes the layout; nodes and the master are killed and come back; a node with another file is
-# refused.
+# in step, also while a builder changes the layout; nodes and the master are killed and come back; a second master
+# stands back; a node with another file is refused.
 # It bears any load under which a frame takes at most a second.
 # Usage: machines_test.sh PROGRAM FOLDER_OF_THE_RIG
 set -u
@@ -209,6 +209,22 @@ ok
 until_true 20 alike || fail "after a restart something else is shown"
 ok
 
+# A second master hears the first one, says so, and stands back. Its windows cover the first one's; the nodes go on as before.
+cp -r "$folder/left" "$folder/second"
+sed -i "s/\"port\": $port/\"port\": $((port + 2))/" "$folder/second/exhibit.json"
+"$program" run --exhibit "$folder/second/exhibit.json" --node left --scene chart --quality fine >"$folder/second.log" 2>&1 &
+second=$!
+started+=($second)
+until_true 60 says second "another master of this exhibit, 'walls: left, middle, right', sends states; this one shows its own outputs alone" ||
+    fail "a second master does not stand back: $(cat "$folder/second.log")"
+until_true 20 says middle 'it comes from a second master of this exhibit' || fail "middle does not say that there is a second master"
+more_frames middle 20
+until_true 20 in_step || fail "with a second master: $(now error)"
+kill -INT $second
+wait $second || fail "the second master: exit $?"
+until_true 20 alike || fail "after a second master something else is shown"
+ok
+
 # The master is killed: the others fade, and take up with its first state.
 stop left
 cp "$folder/left.csv" "$folder/left-first.csv"
@@ -270,7 +286,7 @@ said=$(timeout 60 "$program" check "$folder/no-network.json" --svg "$folder/none
 ok
 # check reads an exhibit, and says who shows what on which network.
 said=$("$program" check "$folder/exhibit.json" --svg "$folder/plan.svg") || fail "check: $said"
-for line in 'exhibit exhibit: layout walls, world avenue, words en' 'machine left, the master: one, two' 'machine right: four' \
+for line in 'exhibit exhibit: layout walls, world avenue, words en' 'machine left, the master: one, two' 'machine right: four' "exhibit's identity on the network: walls: left, middle, right" \
     "network: interface lo, 127.0.0.1 here, domain $domain" 'note: interface lo reaches no other machine'; do
     [[ $said == *"$line"* ]] || fail "check does not say '$line': $said"
 done

@@ -91,6 +91,29 @@ TEST(ExhibitFileTest, EveryMemberIsRead)
     EXPECT_FALSE(load_exhibit(write_text("exhibit.json", "{}")).visiting);
 }
 
+TEST(ExhibitFileTest, MachinesAreRead)
+{
+    EXPECT_FALSE(load_exhibit(write_text("exhibit.json", "{}")).machines);
+    const std::string text = R"({ "machines": { "master": "left", "interface": "lo", "domain": 7, "exhibit": "east dome" } })";
+    EXPECT_TRUE(schema_accepts(json::parse(text)));
+    const Exhibit exhibit = load_exhibit(write_text("exhibit.json", text));
+    ASSERT_TRUE(exhibit.machines);
+    EXPECT_EQ(exhibit.machines->master, "left");
+    EXPECT_EQ(exhibit.machines->interface, "lo");
+    EXPECT_EQ(exhibit.machines->domain, 7);
+    EXPECT_EQ(exhibit.machines->exhibit, "east dome");
+    const Exhibit usual
+        = load_exhibit(write_text("exhibit.json", R"({ "machines": { "master": "left", "interface": "lo" } })"));
+    EXPECT_EQ(usual.machines->domain, 0);
+    EXPECT_EQ(usual.machines->exhibit, "");
+    const std::string message = complaint([] {
+        load_exhibit(write_text("exhibit.json",
+            R"({ "machines": { "master": "left", "interface": "lo", "exhibit": ")" + std::string(65, 'x') + R"(" } })"));
+    });
+    EXPECT_NE(message.find("/machines/exhibit"), message.npos) << message;
+    EXPECT_TRUE(message.ends_with("right")) << message;
+}
+
 TEST(ExhibitFileTest, OneButtonAndTheLeftHandAreRead)
 {
     EXPECT_FALSE(load_exhibit(write_text("exhibit.json", "{}")).one_button);

@@ -57,6 +57,11 @@ std::unique_ptr<HeadTracker> listener(std::vector<std::string>* said = nullptr)
     }
 }
 
+void expect_near(const dvec3& a, const dvec3& b, double within)
+{
+    EXPECT_LE(glm::distance(a, b), within) << a.x << " " << a.y << " " << a.z;
+}
+
 } // namespace
 
 TEST(HeadTrackerTest, PacketsAreCentimetresAndDegrees)
