@@ -16,13 +16,8 @@ NodeLayout::NodeLayout(const ExhibitOptions& options)
 void NodeLayout::compare(const ConfigMessage& master, bool was_in_step)
 {
     master_ = master;
-    if (const std::string why = difference(config_, master); !why.empty()) {
-        if (!was_in_step)
-            throw InputError(why);
-        if (std::exchange(difference_, why) != why) // the master leaves this one out
-            write_limited(LogKind::node_refused, why);
-        return;
-    }
+    if (const std::string why = difference(config_, master); !why.empty())
+        throw InputError(why);
     const std::string why = layout_difference(config_, master);
     const bool other_name
         = !master.layout.empty() && !config_.layout.empty() && master.layout.front().first != config_.layout.front().first;

@@ -15,8 +15,8 @@ public:
     const ConfigMessage& config() const { return config_; } ///< for the master
 
     /// The master's files, which must be this node's. Numbers that the builder has kept in the master's file are kept in
-    /// this one's, if that makes them equal. Throws InputError where they differ before this node was ever in step; later a
-    /// difference is logged.
+    /// this one's, if that makes them equal. Throws InputError where the difference is not one of the layout, and before
+    /// this node was ever in step.
     void compare(const ConfigMessage& master, bool was_in_step);
 
     /// The layout by a state's numbers, if it is another than the shown one. A layout of another name is loaded. Throws
