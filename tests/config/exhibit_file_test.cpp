@@ -87,14 +87,16 @@ TEST(ExhibitFileTest, EveryMemberIsRead)
     EXPECT_EQ(exhibit.visiting->longest_s, 300);
     EXPECT_EQ(exhibit.visiting->fade_s, 0.5);
     EXPECT_EQ(exhibit.visiting->unlock, "red5");
-    EXPECT_EQ(exhibit.visiting->attract, (std::vector<std::string>{"rainbow", folder / "own/tour.json", folder / "kept.jsonl"}));
+    EXPECT_EQ(
+        exhibit.visiting->attract, (std::vector<std::string>{"rainbow", folder / "own/tour.json", folder / "kept.jsonl"}));
     EXPECT_FALSE(load_exhibit(write_text("exhibit.json", "{}")).visiting);
 }
 
 TEST(ExhibitFileTest, MachinesAreRead)
 {
     EXPECT_FALSE(load_exhibit(write_text("exhibit.json", "{}")).machines);
-    const std::string text = R"({ "machines": { "master": "left", "interface": "lo", "domain": 7, "exhibit": "east dome" } })";
+    const std::string text
+        = R"({ "machines": { "master": "left", "interface": "lo", "domain": 7, "exhibit": "east dome" } })";
     EXPECT_TRUE(schema_accepts(json::parse(text)));
     const Exhibit exhibit = load_exhibit(write_text("exhibit.json", text));
     ASSERT_TRUE(exhibit.machines);
