@@ -404,10 +404,10 @@ void examine_files(Report& report)
 /// Ports are not tried: the exhibit itself may have them.
 void examine_network(Report& report)
 {
-    json& facts = report.facts["network"] = json::array();
     const fs::path folder = site(), file = folder / "exhibit.json";
     if (folder.empty() || !fs::exists(file))
         return;
+    json& facts = report.facts["files"]["network"] = json::array();
     Exhibit exhibit;
     std::optional<HeadTracking> tracker;
     try {
