@@ -24,9 +24,6 @@ constexpr double display_gamma = 2.2;
 /// The factor of the shipped stereo layouts, for worlds whose unit is a light-second.
 constexpr double light_seconds_hyper_stereo = 1.5e8;
 
-/// The head-up display of a dome, as in config/layouts/dome.json.
-constexpr double hud_above_rim_deg = 9, hud_width_deg = 60;
-
 /// An SGCT user: the eyes' place.
 struct User {
     std::string name;
@@ -84,7 +81,6 @@ private:
     Json outputs_ = Json::array();
     std::vector<std::string> to_mend_;
     bool two_eyes_ = false; ///< some viewport shows the picture of one of two eyes
-    std::optional<double> front_elevation_deg_; ///< of the first dome
     std::vector<User> users_;
     std::vector<std::string> names_; ///< of outputs so far
 };
@@ -144,12 +140,6 @@ Import Importer::run()
             + shown(light_seconds_hyper_stereo)
             + ", for the shipped worlds, whose unit is a light-second; 1 for worlds in "
               "metres");
-    }
-    if (front_elevation_deg_) {
-        const double elevation = std::clamp(*front_elevation_deg_ + hud_above_rim_deg, -90.0, 90.0);
-        layout["hud"] = {{"azimuth_deg", 0}, {"elevation_deg", elevation}, {"width_deg", hud_width_deg}};
-        report_.lines.push_back("/nodes/" + std::to_string(node_) + "  -> /hud/elevation_deg " + shown(elevation)
-            + ", just above the dome's rim in front");
     }
     layout["outputs"] = std::move(outputs_);
     return {std::move(layout), std::move(report_.lines), std::move(to_mend_)};
@@ -552,8 +542,6 @@ std::vector<Json> Importer::viewport(const Place& place, glm::ivec2 window_size,
         return {};
     }
     two_eyes_ |= view.two_eyes;
-    if (!front_elevation_deg_)
-        front_elevation_deg_ = picture.front_elevation_deg;
     return placed(out, picture, {low.x, 1 - high.y, high.x - low.x, high.y - low.y});
 }
 

@@ -187,16 +187,6 @@ void read_crop(SgctReport& report, const Place& place, glm::dvec2 pixels, Json& 
     report.became(place, "centre and diameter; the circle goes on where SGCT's cut leaves a margin");
 }
 
-/// The lowest shown elevation in front of a dome's visitor: at the circle's rim, or at the picture's lower edge above it.
-double front_elevation(const Json& dome, glm::dvec2 pixels)
-{
-    const double aperture = dome["aperture_deg"], tilt = dome.value("tilt_deg", 0.0);
-    const double middle = dome.contains("centre") ? dome["centre"][1].get<double>() : 0.5;
-    const double radius = dome.value("diameter", 1.0) * std::min(pixels.x, pixels.y) / 2;
-    const double reach = std::clamp((1 - middle) * pixels.y / radius, 0.0, 1.0) * aperture / 2;
-    return 90 - tilt - reach;
-}
-
 SgctPicture read_fisheye(SgctReport& report, const Place& place, const SgctView& view)
 {
     Json out{{"type", "fisheye"}, {"aperture_deg", 180}};
@@ -230,7 +220,7 @@ SgctPicture read_fisheye(SgctReport& report, const Place& place, const SgctView&
             return true;
         });
     report_skew(report, place, view);
-    return {{{.projection = out}}, front_elevation(out, view.pixels)};
+    return {{{.projection = out}}};
 }
 
 Json read_cylinder(SgctReport& report, const Place& place, const SgctView& view)
@@ -336,7 +326,7 @@ SgctPicture read_mirror_meshes(SgctReport& report, const Place& place, const Sgc
     };
     const std::array<Face, 4> faces{{{"bottom", "front", {0, up, 0}}, {"left", "left", {-90, 0, -up}},
         {"right", "right", {90, 0, up}}, {"top", "top", {0, 90 + up, 0}}}};
-    SgctPicture picture{{}, -tilt};
+    SgctPicture picture;
     const Place geometry = member(place, "geometry");
     for (std::size_t i = 0; i < faces.size(); ++i) {
         const Place at = member(geometry, faces[i].mesh);
@@ -390,7 +380,7 @@ Json sgct_wall(const Planar& frustum) { return as_wall({.sides = frustum.sides, 
 
 SgctPicture sgct_projection(SgctReport& report, const Place& place, const SgctView& view)
 {
-    const auto whole = [](Json projection) { return SgctPicture{{{.projection = std::move(projection)}}, {}}; };
+    const auto whole = [](Json projection) { return SgctPicture{{{.projection = std::move(projection)}}}; };
     const Place type_at = member(place, "type");
     const std::string type = text(type_at);
     if (type == "PlanarProjection" || type == "TextureMappedProjection")
@@ -404,7 +394,7 @@ SgctPicture sgct_projection(SgctReport& report, const Place& place, const SgctVi
     if (type == "EquirectangularProjection")
         return whole(read_equirectangular(report, place, view));
     if (type == "CubemapProjection")
-        return {read_cube_map(report, place, view), {}};
+        return {read_cube_map(report, place, view)};
     if (type == "SphericalMirrorProjection")
         return read_mirror_meshes(report, place, view);
     for (const auto& [name, value] : place.json->items()) {

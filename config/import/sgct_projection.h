@@ -25,7 +25,6 @@ struct SgctPart {
 struct SgctPicture {
     /// One, six for a cube map's faces, four for a mirror's meshes, none for a projection that is not mapped.
     std::vector<SgctPart> parts;
-    std::optional<double> front_elevation_deg; ///< of a dome: the lowest shown direction in front
 };
 
 /// True for a flat projection, which SGCT draws without a cube map.

@@ -30,7 +30,7 @@ double* place_of(Layout& layout, const Adjustable& a, const Adjustable::Spot& sp
     if (a.kind == Kind::blend_power)
         return &layout.blend.power;
     if (a.kind == Kind::hud_elevation)
-        return &layout.hud.elevation_deg;
+        return &layout.hud.value().elevation_deg;
     Projection& projection = layout.outputs[spot.output].viewports[spot.viewport].projection;
     if (auto* dome = std::get_if<Fisheye>(&projection))
         return a.kind == Kind::tilt ? &dome->tilt_deg : &dome->rotation_deg;
@@ -121,7 +121,8 @@ std::vector<Adjustable> adjustables(const Layout& layout)
     all.insert(all.end(), each.begin(), each.end());
     if (layout.blend.ramps)
         all.push_back({"blend, power", {{"/blend/power"}}, Kind::blend_power, 0.05});
-    all.push_back({"head-up display, height", {{"/hud/elevation_deg"}}, Kind::hud_elevation, 0.5});
+    if (layout.hud)
+        all.push_back({"head-up display, height", {{"/hud/elevation_deg"}}, Kind::hud_elevation, 0.5});
     return all;
 }
 

@@ -232,7 +232,7 @@ struct Layout {
     std::filesystem::path file;
     Stereo stereo;
     Blend blend;
-    HudPlacement hud;
+    std::optional<HudPlacement> hud; ///< none: found from the views, by placed_hud in runtime/hud/hud_place.h
     std::optional<HeadTracking> head_tracker;
     std::vector<Output> outputs;
 };

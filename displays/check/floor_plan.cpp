@@ -138,9 +138,11 @@ Box around(glm::dvec2 at, const std::string& words, double size)
 /// A map of the sky: straight ahead is in the middle, and degrees have the same length across and up.
 class Map {
 public:
-    Map(Svg& svg, const Layout& layout, const std::vector<Coverage>& all, Eye eye, double top, int number)
+    Map(Svg& svg, const Layout& layout, const std::vector<Coverage>& all, const std::optional<HudPlacement>& hud, Eye eye,
+        double top, int number)
         : svg_(svg)
         , layout_(layout)
+        , hud_(hud)
         , top_(top)
         , number_(number)
     {
@@ -160,7 +162,8 @@ public:
         svg_.add("<g clip-path=\"url(#map%d)\">\n", number_);
         for (const Coverage* coverage : shown_)
             region(*coverage);
-        hud();
+        if (hud_)
+            hud(*hud_);
         svg_.add("</g>\n");
         svg_.rect({at({-180, 90}), at({180, -90})}, "fill=\"none\" stroke=\"#444\"");
         for (const Coverage* coverage : shown_)
@@ -212,9 +215,8 @@ private:
         svg_.add("\"/>\n");
     }
 
-    void hud()
+    void hud(const HudPlacement& hud)
     {
-        const HudPlacement& hud = layout_.hud;
         const glm::dvec2 middle(hud.azimuth_deg, hud.elevation_deg), half(hud.width_deg / 2, 0);
         svg_.line(at(middle - half), at(middle + half), "stroke=\"#222\" stroke-width=\"1.5\" stroke-dasharray=\"5 3\"");
         const glm::dvec2 below = at(middle) + glm::dvec2(0, 13);
@@ -281,6 +283,7 @@ private:
 
     Svg& svg_;
     const Layout& layout_;
+    const std::optional<HudPlacement>& hud_;
     double top_;
     int number_;
     std::vector<const Coverage*> shown_;
@@ -622,7 +625,8 @@ double draw_overlaps(Svg& svg, const Layout& layout, const std::vector<Coverage>
 
 } // namespace
 
-std::string draw_floor_plan(const Layout& layout, const std::vector<Coverage>& coverages)
+std::string draw_floor_plan(
+    const Layout& layout, const std::vector<Coverage>& coverages, const std::optional<HudPlacement>& hud)
 {
     Svg svg;
     svg.write({margin, margin + 20}, layout.name.empty() ? "Layout" : layout.name, 26, "font-weight=\"bold\"");
@@ -635,7 +639,7 @@ std::string draw_floor_plan(const Layout& layout, const std::vector<Coverage>& c
                 + (eye == Eye::left         ? " the left eye"
                         : eye == Eye::right ? " the right eye"
                                             : ""));
-        Map(svg, layout, coverages, eye, left + 26, number++).draw();
+        Map(svg, layout, coverages, hud, eye, left + 26, number++).draw();
         left += 26 + Map::height + 40;
     }
     double right = draw_outputs(svg, layout, margin + 44);

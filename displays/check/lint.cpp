@@ -57,33 +57,6 @@ double pixel_shape(const Wall& wall, glm::ivec2 pixels)
     return width / (glm::distance(wall.lower_left_m, wall.upper_left_m) / pixels.y);
 }
 
-bool lit(const std::vector<Coverage>& coverages, const Layout& layout, double azimuth_deg, double elevation_deg)
-{
-    const int column = int(std::floor((azimuth_deg + 180) * lattice) + 2 * lattice_columns) % lattice_columns;
-    const int row = std::clamp(int(std::floor((elevation_deg + 90) * lattice)), 0, lattice_rows - 1);
-    return std::any_of(coverages.begin(), coverages.end(), [&](const Coverage& c) {
-        return !layout.outputs[c.output].preview && c.cells[std::size_t(row) * lattice_columns + column];
-    });
-}
-
-/// The approximate share of the panel that some viewport shows, as if the panel lay on a sphere.
-double panel_seen(const Layout& layout, const std::vector<Coverage>& coverages)
-{
-    constexpr int across = 12, high = 4;
-    constexpr double aspect = 5; // width to height
-    int seen = 0;
-    for (int j = 0; j < high; ++j)
-        for (int i = 0; i < across; ++i) {
-            const double up = ((j + 0.5) / high - 0.5) * layout.hud.width_deg / aspect,
-                         right = ((i + 0.5) / across - 0.5) * layout.hud.width_deg;
-            const double elevation = layout.hud.elevation_deg + up;
-            seen += std::abs(elevation) < 90
-                && lit(coverages, layout, layout.hud.azimuth_deg + right / std::max(0.1, std::cos(glm::radians(elevation))),
-                    elevation);
-        }
-    return double(seen) / (across * high);
-}
-
 bool masked(const Layout& layout, const Coverage& c)
 {
     const Viewport& viewport = layout.outputs[c.output].viewports[c.viewport];
@@ -162,10 +135,6 @@ std::vector<std::string> lint(const Layout& layout, const std::vector<Coverage>&
             doubt(viewport_name(layout, a.output, a.viewport) + " and " + viewport_name(layout, b.output, b.viewport)
                 + " overlap, with neither masks nor \"blend\": where they do, two projectors would light it twice");
         }
-    if (const double seen = panel_seen(layout, coverages); seen < 0.6)
-        doubt("the head-up display, at azimuth " + rounded(layout.hud.azimuth_deg) + "° and elevation "
-            + rounded(layout.hud.elevation_deg) + "°, is "
-            + (seen == 0 ? "seen nowhere" : "seen in part (" + rounded(100 * seen) + " %)") + "; \"hud\" puts it elsewhere");
     for (const std::string& line : eye_warnings(layout, coverages))
         doubt(line);
     for (const Output& output : layout.outputs)

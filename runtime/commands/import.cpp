@@ -82,8 +82,6 @@ int import(const ImportOptions& options)
     } catch (const InputError&) {
         // A program outside its checkout has no schema to refer to.
     }
-    const HudPlacement hud;
-    layout["hud"] = {{"azimuth_deg", hud.azimuth_deg}, {"elevation_deg", hud.elevation_deg}, {"width_deg", hud.width_deg}};
     layout.update(import.layout);
     std::ostringstream text;
     text << "// Made of SGCT's " << one_line(options.file)

@@ -1,6 +1,7 @@
 #pragma once
 #include "displays/compile/compiled_view.h"
 #include <span>
+#include <string>
 
 namespace starbow {
 
@@ -8,6 +9,17 @@ namespace starbow {
 /// flat screen the panel is parallel to the screen, so that its lines stay level; elsewhere it faces the visitor. views: of
 /// each output.
 glm::dmat3 panel_from_cockpit(const HudPlacement& hud, std::span<const std::vector<CompiledView>> views);
+
+/// The head-up display's placement: the layout's own, or one that is found from its views. Found ones are seen whole, by
+/// both eyes and by each observer who sees the middle; they are straight ahead if that can be, low in the picture, 48
+/// degrees wide, 60 on domes and walls at least 120 degrees wide, and narrower in narrow pictures. A layout's own placement
+/// is used as it is while the outputs have the layout's shape; in a window of another shape, where it would be cut, one is
+/// found. sizes: of the outputs, pixels. views: of each output. Where nothing fits: the layout's own, or the default one.
+HudPlacement placed_hud(
+    const Layout& layout, std::span<const glm::ivec2> sizes, std::span<const std::vector<CompiledView>> views);
+
+/// A line of warning about a placement that is not seen whole, or "".
+std::string hud_warning(const Layout& layout, const HudPlacement& hud, std::span<const std::vector<CompiledView>> views);
 
 /// The placement of the instruments' panel. It lies opposite the head-up display, its far edge where the display's would
 /// be. If it would not be seen whole there, it lies right above the display, or right below. It never covers the display.

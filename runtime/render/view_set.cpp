@@ -72,18 +72,21 @@ const ViewState& ViewSet::probed_view(std::optional<std::size_t> view) const
     return all.front();
 }
 
-LayoutParts ViewSet::parts(bool rejects_empty)
+LayoutParts ViewSet::parts(bool rejects_empty) { return layout_parts(store, state_.layout, sizes(), rejects_empty); }
+
+std::vector<glm::ivec2> ViewSet::sizes() const
 {
-    std::vector<glm::ivec2> sizes;
+    std::vector<glm::ivec2> all_sizes;
     for (const OutputState& output : outputs)
-        sizes.push_back(output.size);
-    return layout_parts(store, state_.layout, sizes, rejects_empty);
+        all_sizes.push_back(output.size);
+    return all_sizes;
 }
 
 void ViewSet::apply_layout(LayoutParts parts)
 {
-    hud_place = {panel_from_cockpit(state_.layout.hud, parts.views),
-        std::tan(0.5 * state_.layout.hud.width_deg * degree) * glm::dvec2(1, panel_aspect)};
+    hud_ = placed_hud(state_.layout, sizes(), parts.views);
+    hud_place
+        = {panel_from_cockpit(hud_, parts.views), std::tan(0.5 * hud_.width_deg * degree) * glm::dvec2(1, panel_aspect)};
     std::vector<ViewState> before = std::exchange(all, {}); // their maps are reused
     std::vector<MapImage> maps_before = std::exchange(maps, {});
     for (std::size_t output = 0; output < outputs.size(); ++output)
@@ -239,15 +242,15 @@ PanelPass::Place ViewSet::place_above(const glm::dvec3& towards, const glm::dvec
 PanelPass::Place ViewSet::place_beside_hud(const glm::dvec2& half, double off) const
 {
     const double gap = 0.02, up = hud_place.half.y + gap + half.y + off;
-    const bool low = state_.layout.hud.elevation_deg < 0;
+    const bool low = hud_.elevation_deg < 0;
     return {moved(hud_place.panel_from_cockpit, {hud_place.half.x - half.x, low ? up : -up}), half};
 }
 
 PanelPass::Place ViewSet::lab_place(double aspect) const
 {
     const std::vector<std::vector<CompiledView>> shown = compiled_views();
-    return {panel_from_cockpit(instruments_place(state_.layout.hud, aspect, shown), shown),
-        std::tan(0.5 * state_.layout.hud.width_deg * degree) * glm::dvec2(1, aspect)};
+    return {panel_from_cockpit(instruments_place(hud_, aspect, shown), shown),
+        std::tan(0.5 * hud_.width_deg * degree) * glm::dvec2(1, aspect)};
 }
 
 int ViewSet::lab_panel_width(double aspect) const

@@ -101,6 +101,7 @@ private:
     std::vector<std::vector<CompiledView>> compiled_views() const;
     PixelBox panel_in(const ConeHierarchy& cones) const;
     void find_hud_box(ViewState& view) const;
+    std::vector<glm::ivec2> sizes() const; ///< of the outputs
 
     Device& device_;
     Pipelines& pipelines_;
@@ -108,6 +109,7 @@ private:
     double unit_m_, light_speed_m_s_;
     bool has_stars_;
     Image no_map_;
+    HudPlacement hud_;
 };
 
 } // namespace starbow

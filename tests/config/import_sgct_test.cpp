@@ -316,21 +316,6 @@ TEST(ImportSgctTest, AWindowOfControlsIsLeftOut)
     EXPECT_TRUE(has(import, "/nodes/0/windows/1/draw3d  -> the output shows the world"));
 }
 
-TEST(ImportSgctTest, DomesGetAHeadUpDisplayAboveTheirRim)
-{
-    const auto elevation = [](const std::string& projection, const std::string& members = "") {
-        return imported(config(with(projection), members)).layout["hud"]["elevation_deg"].get<double>();
-    };
-    // config() has a window of 800 x 400. The dome's front rim stands at the tilt below the horizon.
-    EXPECT_NEAR(elevation(R"({ "type": "FisheyeProjection" })"), 9, 1e-12);
-    EXPECT_NEAR(elevation(R"({ "type": "FisheyeProjection", "fov": 200, "tilt": 27 })"), -28, 1e-12);
-    // A quarter of the square is cut off at the bottom: the lower edge is half way from the zenith to the rim.
-    EXPECT_NEAR(
-        elevation(R"({ "type": "FisheyeProjection", "crop": { "left": 0, "right": 0, "bottom": 0.25, "top": 0.25 } })"), 54,
-        1e-12);
-    EXPECT_FALSE(imported(config(with(sphere))).layout.contains("hud"));
-}
-
 TEST(ImportSgctTest, TwoEyesGetTheFactorOfTheShippedWorlds)
 {
     const std::string users = R"([{ "eyeseparation": 0.07 }])";

@@ -111,9 +111,9 @@ TEST(LayoutMembersTest, StereoBlendAndHudAreRead)
     EXPECT_EQ(layout.stereo.full_from_zenith_deg, 30);
     EXPECT_TRUE(layout.blend.ramps);
     EXPECT_EQ(layout.blend.power, 2.5);
-    EXPECT_EQ(layout.hud.azimuth_deg, 5);
-    EXPECT_EQ(layout.hud.elevation_deg, -6);
-    EXPECT_EQ(layout.hud.width_deg, 70);
+    EXPECT_EQ(layout.hud.value().azimuth_deg, 5);
+    EXPECT_EQ(layout.hud.value().elevation_deg, -6);
+    EXPECT_EQ(layout.hud.value().width_deg, 70);
     expect_right({top(R"("stereo": {})"), top(R"("stereo": { "method": "shared", "separation_m": 0 })"),
         top(R"("stereo": { "method": "exact", "baseline": "fixed" })"), top(R"("stereo": { "separation_m": 10 })"),
         top(R"("stereo": { "full_from_zenith_deg": 0 })"), top(R"("blend": {})"), top(R"("blend": { "power": 0.1 })")});

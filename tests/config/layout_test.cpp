@@ -59,7 +59,7 @@ TEST(LayoutTest, ShippedLayoutsLoad)
     const Layout dome = load_layout(folder / "dome.json");
     const Fisheye fisheye = std::get<Fisheye>(dome.outputs.at(0).viewports.at(0).projection);
     EXPECT_EQ(fisheye.aperture_deg, 180);
-    EXPECT_GT(dome.hud.elevation_deg, -fisheye.tilt_deg); // above the spring line
+    EXPECT_GT(dome.hud.value().elevation_deg, -fisheye.tilt_deg); // above the spring line
 
     const Layout stereo = load_layout(folder / "stereo.json");
     EXPECT_EQ(stereo.outputs.at(0).packing, Packing::side_by_side);

@@ -60,11 +60,6 @@ TEST(LintTest, WrongUnitsPixelsAndOverlapsGiveWarnings)
     EXPECT_TRUE(has(warnings(twice), "light it twice"));
     twice.blend.ramps = true;
     EXPECT_EQ(warnings(twice), "");
-
-    Layout high = of({{Planar{40, {}, {0, 60, 0}}, {400, 300}}});
-    EXPECT_TRUE(has(warnings(high), "is seen nowhere"));
-    high.hud.elevation_deg = 60;
-    EXPECT_EQ(warnings(high), "");
 }
 
 TEST(LintTest, ExchangedCornersGiveWarnings)

@@ -115,4 +115,119 @@ TEST(HudPlaceTest, TheBoxHoldsThePanelsPixelsAndFewOthers)
             }
 }
 
+namespace {
+
+/// A layout of one output with these viewports.
+Layout one_output(std::vector<Viewport> viewports, glm::ivec2 size)
+{
+    Layout layout;
+    layout.outputs.resize(1);
+    layout.outputs[0].size = size;
+    layout.outputs[0].viewports = std::move(viewports);
+    return layout;
+}
+
+std::vector<std::vector<CompiledView>> compiled(const Layout& layout, glm::ivec2 size)
+{
+    MapStore store{std::filesystem::path()};
+    return {compile_output(store, layout, 0, size)};
+}
+
+/// The direction of a point of the display by its definition: it lies on a plane across the direction that it faces, its
+/// middle in the placement's direction, x and y in halves of its width and height.
+dvec3 on_display(const HudPlacement& hud, const dvec3& faces, double x, double y)
+{
+    const dvec3 across = glm::normalize(glm::cross(faces, dvec3(0, 1, 0))), up = glm::cross(across, faces);
+    const dvec3 middle = towards(hud.azimuth_deg, hud.elevation_deg);
+    const double half = std::tan(glm::radians(hud.width_deg / 2));
+    return glm::normalize(middle / glm::dot(middle, faces) + half * (x * across + y * 0.2 * up));
+}
+
+} // namespace
+
+// The test has the pictures' borders in its own form: a flat picture's from its angle and its shape, a dome's from its rim.
+TEST(HudPlaceTest, ALayoutWithoutAPlacementShowsTheWholeDisplayOnAnyShape)
+{
+    for (const glm::ivec2 size : {glm::ivec2(160, 90), {120, 90}, {90, 120}, {90, 160}, {600, 1067}, {256, 96}, {64, 192}})
+        for (const double fov_y_deg : {20.0, 40.0, 60.0, 90.0}) {
+            SCOPED_TRACE(std::to_string(size.x) + " x " + std::to_string(size.y) + ", " + std::to_string(fov_y_deg));
+            const Layout layout = one_output({{.projection = Planar{fov_y_deg}}}, size);
+            const HudPlacement hud = placed_hud(layout, std::vector{size}, compiled(layout, size));
+            const double high = std::tan(glm::radians(fov_y_deg / 2)), wide = high * size.x / size.y;
+            const double middle = std::tan(glm::radians(hud.elevation_deg)),
+                         half = std::tan(glm::radians(hud.width_deg / 2));
+            EXPECT_EQ(hud.azimuth_deg, 0);
+            EXPECT_LE(half, wide);
+            EXPECT_GE(middle - 0.2 * half, -high);
+            EXPECT_LE(middle + 0.2 * half, 0) << "below the middle, where the flight leads";
+            EXPECT_GE(half, 0.9 * std::min({wide, std::tan(glm::radians(24.0)), 0.28 * high / 0.2}))
+                << "as wide as it may be";
+            EXPECT_EQ(hud_warning(layout, hud, compiled(layout, size)), "");
+        }
+    for (const double tilt : {0.0, 15.0, 30.0, 60.0, 90.0})
+        for (const double aperture : {120.0, 180.0, 220.0}) {
+            SCOPED_TRACE(std::to_string(tilt) + " tilted, " + std::to_string(aperture));
+            const Layout layout = one_output({{.projection = Fisheye{aperture, tilt}}}, {400, 400});
+            const HudPlacement hud = placed_hud(layout, std::vector{glm::ivec2(400)}, compiled(layout, {400, 400}));
+            const dvec3 zenith = towards(0, 90 - tilt);
+            for (const double x : {-1.0, 0.0, 1.0})
+                for (const double y : {-1.0, 0.0, 1.0})
+                    EXPECT_LE(glm::degrees(std::acos(
+                                  glm::dot(zenith, on_display(hud, towards(hud.azimuth_deg, hud.elevation_deg), x, y)))),
+                        aperture / 2);
+            EXPECT_EQ(hud.azimuth_deg, 0);
+            EXPECT_GE(hud.width_deg, 40);
+        }
+}
+
+TEST(HudPlaceTest, OnADividedWallTheDisplayIsWholeOnOneScreenAndForBothEyes)
+{
+    const auto wall = [](double left, double right) { return Wall{{left, -0.5, -1}, {right, -0.5, -1}, {left, 0.5, -1}}; };
+    // Three upright screens with frames of 0.1 m between them.
+    const Layout three = one_output(
+        {{.rect = {0, 0, 0.3, 1}, .projection = wall(-1, -0.4)}, {.rect = {0.33, 0, 0.34, 1}, .projection = wall(-0.3, 0.3)},
+            {.rect = {0.7, 0, 0.3, 1}, .projection = wall(0.4, 1)}},
+        {300, 150});
+    const HudPlacement hud = placed_hud(three, {}, compiled(three, {300, 150}));
+    EXPECT_EQ(hud.azimuth_deg, 0);
+    EXPECT_LT(std::tan(glm::radians(hud.width_deg / 2)), 0.3);
+    EXPECT_GT(std::tan(glm::radians(hud.width_deg / 2)), 0.26);
+    // A screen to the right alone.
+    const Layout right = one_output({{.projection = Planar{40, {}, {70, 0, 0}}}}, {160, 120});
+    EXPECT_NEAR(placed_hud(right, {}, compiled(right, {160, 120})).azimuth_deg, 70, 27);
+    EXPECT_EQ(hud_warning(right, placed_hud(right, {}, compiled(right, {160, 120})), compiled(right, {160, 120})), "");
+    // Two eyes 0.4 m apart at 1 m before a wall 0.8 m wide: what both see is from -31 to 31 degrees for neither alone.
+    Layout two = one_output({{.projection = wall(-0.4, 0.4)}}, {160, 200});
+    two.outputs[0].packing = Packing::side_by_side;
+    two.stereo.separation_m = 0.4;
+    const HudPlacement shared = placed_hud(two, {}, compiled(two, {320, 200}));
+    EXPECT_LT(std::tan(glm::radians(shared.width_deg / 2)), 0.2 + 0.01) << "the left eye sees 0.2 m of it on its left";
+    // A viewport on top of the picture's lower half.
+    const Layout covered = one_output(
+        {{.projection = Planar{60}}, {.rect = {0, 0.5, 1, 0.5}, .projection = Planar{30, {}, {180, 0, 0}}, .order = 1}},
+        {160, 120});
+    const HudPlacement above = placed_hud(covered, {}, compiled(covered, {160, 120}));
+    EXPECT_GT(std::tan(glm::radians(above.elevation_deg)), 0.2 * std::tan(glm::radians(above.width_deg / 2)));
+}
+
+TEST(HudPlaceTest, ALayoutsOwnPlacementIsKeptAndItsCutIsSaid)
+{
+    Layout layout = one_output({{.projection = Planar{60}}}, {540, 960});
+    layout.hud = HudPlacement{0, 0, 48};
+    const auto views = compiled(layout, {540, 960});
+    const std::vector own{glm::ivec2(540, 960)};
+    EXPECT_EQ(placed_hud(layout, own, views).width_deg, 48);
+    EXPECT_NE(hud_warning(layout, *layout.hud, views).find("is cut: "), std::string::npos)
+        << hud_warning(layout, *layout.hud, views);
+    layout.hud->elevation_deg = 60;
+    EXPECT_NE(hud_warning(layout, *layout.hud, views).find("is seen nowhere"), std::string::npos);
+    layout.hud = HudPlacement{0, 20, 30};
+    EXPECT_EQ(hud_warning(layout, *layout.hud, views), "");
+    // The same layout in a window of another shape, where its own place would be cut.
+    layout.hud = HudPlacement{0, -26, 34};
+    const glm::ivec2 narrow(300, 960);
+    EXPECT_LT(placed_hud(layout, std::vector{narrow}, compiled(layout, narrow)).width_deg, 21);
+    EXPECT_EQ(placed_hud(layout, std::vector{glm::ivec2(270, 480)}, compiled(layout, {270, 480})).width_deg, 34);
+}
+
 } // namespace hud_place_test

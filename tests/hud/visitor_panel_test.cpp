@@ -320,12 +320,14 @@ TEST(VisitorPanel, OnEveryLayoutItsLettersAreReadableAndItCoversLittle)
         SCOPED_TRACE(file.filename());
         const Layout layout = load_layout(file);
         std::vector<std::vector<CompiledView>> views;
+        std::vector<glm::ivec2> sizes;
         for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
-            const glm::ivec2 size = layout.outputs[i].size / (layout.outputs[i].size.x > 1000 ? 8 : 4);
-            views.push_back(compile_output(store, layout, i, size));
+            sizes.push_back(layout.outputs[i].size / (layout.outputs[i].size.x > 1000 ? 8 : 4));
+            views.push_back(compile_output(store, layout, i, sizes.back()));
         }
-        const glm::dmat3 panel = panel_from_cockpit(layout.hud, views);
-        const double half = std::tan(glm::radians(0.5 * layout.hud.width_deg));
+        const HudPlacement hud = placed_hud(layout, sizes, views);
+        const glm::dmat3 panel = panel_from_cockpit(hud, views);
+        const double half = std::tan(glm::radians(0.5 * hud.width_deg));
         const double height_deg = 2 * glm::degrees(std::atan(half * panel_aspect));
         const double capitals_deg = 0.63 * least_lettering * height_deg;
         EXPECT_LE(0.63 * 0.26 * height_deg, 3);

@@ -13,6 +13,7 @@
 #include "flashes.h"
 #include "runtime/commands/commands.h"
 #include "runtime/commands/options/command_line.h"
+#include "runtime/hud/hud_place.h"
 #include "runtime/images/capture.h"
 #include "runtime/shadow/still_things.h"
 #include "runtime/world/blended.h"
@@ -37,26 +38,35 @@ struct CheckOptions {
     FlashOptions flashes;
 };
 
-/// The directions of warped viewports' pixels, from their compiled maps; adds the warnings about their meshes. Throws
-/// InputError for a layout that can be read but not drawn.
-ViewRegion compiled_region(const Layout& layout, std::vector<std::string>& mesh_warnings)
+/// The views of each output, none of a preview; adds the warnings about their meshes. Throws InputError for a layout that
+/// can be read but not drawn.
+std::vector<std::vector<CompiledView>> compiled(const Layout& layout, std::vector<std::string>& mesh_warnings)
 {
     MapStore store;
-    auto maps = std::make_shared<std::map<const Viewport*, CompiledView>>();
+    std::vector<std::vector<CompiledView>> all(layout.outputs.size());
     for (std::size_t output = 0; output < layout.outputs.size(); ++output)
         if (!layout.outputs[output].preview) {
-            const std::vector<CompiledView> views = compile_output(store, layout, output, layout.outputs[output].size);
+            const std::vector<CompiledView> views = all[output]
+                = compile_output(store, layout, output, layout.outputs[output].size);
             reject_empty(layout, views);
             (void)shade_of(layout, output, layout.outputs[output].size, views, {});
-            for (const CompiledView& view : views) {
-                (*maps)[&layout.outputs[output].viewports[view.view.viewport]] = view;
+            for (const CompiledView& view : views)
                 if (view.mesh && view.view.eye != Eye::right) // the left eye has the same mesh
                     for (const std::string& warning : view.mesh->warnings)
                         mesh_warnings.push_back(viewport_name(layout, int(output), int(view.view.viewport)) + ", "
                             + one_line(layout.outputs[output].viewports[view.view.viewport].warp->file.filename().string())
                             + ": " + warning);
-            }
         }
+    return all;
+}
+
+/// The directions of warped viewports' pixels, from their compiled maps.
+ViewRegion region_of(const Layout& layout, const std::vector<std::vector<CompiledView>>& views)
+{
+    auto maps = std::make_shared<std::map<const Viewport*, CompiledView>>();
+    for (std::size_t output = 0; output < layout.outputs.size(); ++output)
+        for (const CompiledView& view : views[output])
+            (*maps)[&layout.outputs[output].viewports[view.view.viewport]] = view;
     return [maps](const Output&, const Viewport& viewport, glm::dvec2 pixel) -> std::optional<glm::dvec3> {
         const DirectionMap& map = *maps->at(&viewport).map;
         const glm::ivec2 at = glm::clamp(glm::ivec2(glm::floor(pixel)), glm::ivec2(0), map.size - 1);
@@ -74,7 +84,9 @@ int check(const CheckOptions& options)
     check_ending(file, ".svg");
     check_writable(file);
     std::vector<std::string> mesh_warnings;
-    const std::vector<Coverage> shown = coverages(layout, compiled_region(layout, mesh_warnings));
+    const std::vector<std::vector<CompiledView>> views = compiled(layout, mesh_warnings);
+    const std::vector<Coverage> shown = coverages(layout, region_of(layout, views));
+    const HudPlacement hud = placed_hud(layout, {}, views);
     for (const FloorPlanRow& row : floor_plan_rows(layout, shown))
         std::printf("%s: %s; %s, %s of the sky; %s pixels, %s per degree\n", row.name.c_str(), row.projection.c_str(),
             row.spans.c_str(), row.sky.c_str(), row.pixels.c_str(),
@@ -84,9 +96,11 @@ int check(const CheckOptions& options)
     for (const auto& lines : {mesh_warnings, lint(layout, shown)})
         for (const std::string& line : lines)
             std::printf("note: %s\n", line.c_str());
+    if (const std::string line = hud_warning(layout, hud, views); !line.empty())
+        std::printf("note: %s\n", line.c_str());
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path());
-    write_whole(file, draw_floor_plan(layout, shown));
+    write_whole(file, draw_floor_plan(layout, shown, hud));
     std::printf("%s\n", file.c_str());
     return 0;
 }
