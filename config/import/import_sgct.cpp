@@ -33,7 +33,7 @@ struct User {
 
 class Importer {
 public:
-    Importer(const Document& document, int node, std::filesystem::path folder, LookInto look_into)
+    Importer(const Document& document, std::optional<int> node, std::filesystem::path folder, LookInto look_into)
         : document_(document)
         , node_(node)
         , folder_(std::move(folder))
@@ -60,6 +60,7 @@ private:
     std::vector<Place> nodes(const Place& top);
     void user(const Place& place);
     void node(const Place& place);
+    std::string master_of(const std::vector<Place>& all, const std::string& address);
     glm::ivec2 window_size(const Place& window);
     void monitor(const Place& window, bool alone, Json& output);
     std::optional<Json> window(const Place& place, std::size_t index, bool alone);
@@ -74,7 +75,8 @@ private:
     std::string output_name(const std::string& wanted);
 
     const Document& document_;
-    int node_;
+    std::optional<int> node_; ///< the only one that is taken
+    std::string machine_; ///< of the node that is read now; empty: the layout has one
     std::filesystem::path folder_;
     LookInto look_into_;
     SgctReport report_;
@@ -89,9 +91,10 @@ Import Importer::run()
 {
     const Place top = root(document_);
     const std::vector<Place> all = nodes(top);
-    if (node_ < 0 || node_ >= int(all.size()))
+    if (node_ && (*node_ < 0 || *node_ >= int(all.size())))
         throw InputError(document_.file, "/nodes",
-            "has no node " + std::to_string(node_) + "; one from 0 to " + std::to_string(int(all.size()) - 1) + " is right");
+            "has no node " + std::to_string(*node_) + "; one from 0 to " + std::to_string(int(all.size()) - 1)
+                + " is right");
     // Users are read before the viewports, whatever their order in the file.
     std::vector<std::string> before;
     if (const auto users = find_member(top, "users"))
@@ -100,23 +103,29 @@ Import Importer::run()
     std::swap(before, report_.lines);
 
     members(top,
-        {{"masteraddress", "one machine shows a layout"}, {"debuglog", elsewhere}, {"threadaffinity", elsewhere},
-            {"firmsync", "one machine shows a layout"}, {"scene", "a shot says where in the world the visitor is"},
-            {"capture", "starbow render takes its own options"}, {"trackers", other_tracker}, {"settings", elsewhere},
-            {"generator", elsewhere}, {"meta", "a layout is named by its file"}, {"$schema", elsewhere}},
+        {{"masteraddress", "one machine shows this layout"}, {"debuglog", elsewhere}, {"threadaffinity", elsewhere},
+            {"firmsync", "the machines of an exhibit wait for each other"},
+            {"scene", "a shot says where in the world the visitor is"}, {"capture", "starbow render takes its own options"},
+            {"trackers", other_tracker}, {"settings", elsewhere}, {"generator", elsewhere},
+            {"meta", "a layout is named by its file"}, {"$schema", elsewhere}},
         [&](const std::string& name, const Place& place) {
             if (name == "version")
                 became(place, "read as SGCT's JSON format, version " + std::to_string(integer(place, 1, 1)));
             else if (name == "users")
                 report_.lines.insert(report_.lines.end(), before.begin(), before.end());
             else if (name == "nodes") {
-                for (std::size_t i = 0; i < all.size(); ++i)
-                    if (int(i) == node_)
+                for (std::size_t i = 0; i < all.size(); ++i) {
+                    machine_ = node_ || all.size() == 1 ? "" : "node" + std::to_string(i);
+                    if (!node_ || int(i) == *node_)
                         node(all[i]);
                     else
                         not_mapped(all[i],
-                            "node " + std::to_string(node_) + " is taken; --node " + std::to_string(i) + " takes this one");
-            } else
+                            "node " + std::to_string(*node_) + " is taken; --node " + std::to_string(i)
+                                + " takes this one, and all are taken without --node");
+                }
+            } else if (name == "masteraddress" && !node_ && all.size() > 1)
+                became(place, master_of(all, text(place)));
+            else
                 return false;
             return true;
         });
@@ -124,7 +133,7 @@ Import Importer::run()
         std::string reasons;
         for (const std::string& line : report_.left_out)
             reasons += (reasons.empty() ? ": " : ", and ") + line;
-        throw InputError(document_.file, "/nodes/" + std::to_string(node_),
+        throw InputError(document_.file, node_ || all.size() == 1 ? "/nodes/" + std::to_string(node_.value_or(0)) : "/nodes",
             "has no window that can be imported" + one_line(reasons, 600)
                 + "; one with a PlanarProjection, TextureMappedProjection, ProjectionPlane, FisheyeProjection, "
                   "CylindricalProjection, EquirectangularProjection, CubemapProjection or SphericalMirrorProjection is "
@@ -136,8 +145,7 @@ Import Importer::run()
             layout["stereo"] = {{"separation_m", each.separation}};
     if (two_eyes_) {
         layout["stereo"]["hyper_stereo"] = light_seconds_hyper_stereo;
-        report_.lines.push_back("/nodes/" + std::to_string(node_) + "  -> /stereo/hyper_stereo "
-            + shown(light_seconds_hyper_stereo)
+        report_.lines.push_back("/nodes  -> /stereo/hyper_stereo " + shown(light_seconds_hyper_stereo)
             + ", for the shipped worlds, whose unit is a light-second; 1 for worlds in "
               "metres");
     }
@@ -145,12 +153,29 @@ Import Importer::run()
     return {std::move(layout), std::move(report_.lines), std::move(to_mend_)};
 }
 
+/// The master's name among the machines of a cluster: that of the node which has its address.
+std::string Importer::master_of(const std::vector<Place>& all, const std::string& address)
+{
+    std::size_t master = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (const auto own = find_member(all[i], "address"); own && text(*own) == address)
+            master = i;
+    return "in the exhibit's file \"machines\": { \"master\": \"node" + std::to_string(master)
+        + "\" } and an \"interface\"; each machine starts with its own --node";
+}
+
 void Importer::node(const Place& place)
 {
     members(place,
-        {{"address", "one machine shows a layout"}, {"port", "one machine shows a layout"},
-            {"datatransferport", "one machine shows a layout"}, {"swaplock", "one machine shows a layout"}},
+        {{"address", "one machine shows this layout"},
+            {"port", "machines find each other on the network that the exhibit's file names"},
+            {"datatransferport", "machines send each other no files"},
+            {"swaplock", "the machines of an exhibit show each frame together"}},
         [&](const std::string& part, const Place& windows) {
+            if (part == "address" && !machine_.empty()) {
+                became(windows, "the machine " + machine_ + ", which has any address in its exhibit's network");
+                return true;
+            }
             if (part != "windows")
                 return false;
             std::size_t index = 0;
@@ -190,7 +215,7 @@ void Importer::user(const Place& place)
                     became(at, "/stereo/separation_m " + shown(user.separation));
                 else
                     not_mapped(at, "all viewports of a layout share one separation, that of the user without a name");
-            } else if (name == "pos") {
+            } else if (name == "pos" || name == "position") {
                 user.pos = sgct_xyz(at);
                 became(at, "eye_m " + whose);
             } else
@@ -274,6 +299,8 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index, bool
     const glm::ivec2 size = window_size(place);
     const auto name_at = find_member(place, "name");
     output["name"] = output_name(name_at ? text(*name_at) : "window" + std::to_string(index));
+    if (!machine_.empty())
+        output["node"] = machine_;
     output["size"] = Json::array({size.x, size.y});
     monitor(place, alone, output);
     if (const auto stereo = find_member(place, "stereo"))
@@ -559,7 +586,8 @@ Document read_sgct(const std::filesystem::path& file)
     return read_document(file);
 }
 
-Import import_sgct(const Document& document, int node, const std::filesystem::path& folder, const LookInto& look_into)
+Import import_sgct(
+    const Document& document, std::optional<int> node, const std::filesystem::path& folder, const LookInto& look_into)
 {
     return Importer(document, node, folder, look_into).run();
 }

@@ -3,6 +3,7 @@
 #include "config/model/layout.h"
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 namespace starbow {
 
@@ -28,11 +29,12 @@ using LookInto = std::function<MeshView(const std::filesystem::path& mesh)>;
 /// Reads an SGCT configuration. Throws InputError as read_document does, and for the XML of SGCT's older versions.
 Document read_sgct(const std::filesystem::path& file);
 
-/// Makes a layout from one node of an SGCT configuration (its JSON format, version 1). `folder` leads from the layout's
-/// folder to the configuration's, for the names of meshes and masks. look_into reads meshes of the kinds that may have a
-/// frustum. Throws InputError for a value that SGCT would reject, for a missing node, and for a node without viewports.
+/// Makes a layout from an SGCT configuration (its JSON format, version 1): of all its nodes, each a machine of the layout,
+/// "node0" and so on; or of the one named by its number. `folder` leads from the layout's folder to the configuration's, for
+/// the names of meshes and masks. look_into reads meshes of the kinds that may have a frustum. Throws InputError for a value
+/// that SGCT would reject, for a missing node, and for a node without viewports.
 Import import_sgct(
-    const Document& document, int node, const std::filesystem::path& folder,
+    const Document& document, std::optional<int> node, const std::filesystem::path& folder,
     const LookInto& look_into = [](const std::filesystem::path&) { return MeshView{}; });
 
 } // namespace starbow

@@ -120,8 +120,10 @@ Json read_flat(SgctReport& report, const Place& place, const SgctView& view)
     const bool wall = looks_askew(view) || flat.offset_m != glm::dvec3(0);
     report.members(place, {}, [&](const std::string& name, const Place& at) {
         if (name == "type")
-            report.became(
-                at, wall ? "projection wall, which stays where it is for eyes off the origin" : "projection planar");
+            report.became(at,
+                !wall               ? "projection planar"
+                    : view.two_eyes ? "projection wall, one plane through which both eyes look, as SGCT's do"
+                                    : "projection wall, which stays where it is for eyes off the origin");
         else if (name == "fov")
             flat.sides = read_fov(report, at, flat, beside.has_value(), wall);
         else if (name == "orientation")

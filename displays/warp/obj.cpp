@@ -18,6 +18,26 @@ std::uint32_t index(const Lines& lines, std::string_view text, std::size_t count
     return std::uint32_t(*value > 0 ? *value - 1 : *value + most);
 }
 
+/// Puts the vertices on the viewport, -1 to 1 of x to the right and of y upwards. A mesh without any height in y that has
+/// one in z lies on the ground: Blender exports a plane so by default (forward -Z, up Y), its own y as -z.
+void place_on_screen(WarpMesh& mesh, const std::vector<glm::dvec3>& positions, const std::vector<std::uint32_t>& used)
+{
+    glm::dvec3 low(1e300), high(-1e300);
+    for (const std::uint32_t at : used)
+        low = glm::min(low, positions[at]), high = glm::max(high, positions[at]);
+    const glm::dvec3 size = high - low;
+    const bool lies = size.y <= 1e-6 * size.x && size.z > 1e-6 * size.x;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        const glm::dvec3& at = positions[used[i]];
+        const double up = lies ? -at.z : at.y;
+        mesh.vertices[i].at = {(at.x + 1) / 2, (1 - up) / 2};
+    }
+    if (lies)
+        mesh.notes.push_back("it lies in x and z, as Blender exports a plane by default; -z is taken upwards");
+    else if (!used.empty() && (low.z != 0 || high.z != 0))
+        mesh.notes.push_back("z is not 0 everywhere, and is not used");
+}
+
 } // namespace
 
 WarpMesh read_obj(const WarpFile& file)
@@ -25,21 +45,26 @@ WarpMesh read_obj(const WarpFile& file)
     Lines lines(file);
     WarpMesh mesh;
     mesh.format = "OBJ mesh";
-    std::vector<glm::dvec2> positions, places;
+    std::vector<glm::dvec3> positions; // as in the file
+    std::vector<glm::dvec2> places;
     std::unordered_map<std::uint64_t, std::uint32_t> vertices; // by position and place
-    std::vector<std::uint32_t> corners;
+    std::vector<std::uint32_t> corners, used; // used: the position of each vertex
     std::vector<std::string> unused;
-    bool deep = false;
+    bool coloured = false;
     while (lines.next()) {
         const auto& f = lines.fields();
         if (f[0].starts_with('#'))
             continue;
         if (f[0] == "v") {
-            if (f.size() < 4 || f.size() > 5)
-                lines.refuse(in_quotes(lines.text()) + " is not a vertex; v x y z is right");
+            // A weight may follow, or a vertex' colour, with its opacity or without.
+            if (f.size() < 4 || f.size() > 8 || f.size() == 6)
+                lines.refuse(in_quotes(lines.text())
+                    + " is not a vertex; v x y z, with a colour r g b after it or without, is right");
+            for (std::size_t i = 4; i < f.size(); ++i)
+                (void)lines.number(f[i], {-1e30, 1e30});
+            coloured |= f.size() > 5;
             positions.push_back(
-                {(lines.number(f[1], position_range) + 1) / 2, (1 - lines.number(f[2], position_range)) / 2});
-            deep |= lines.number(f[3], {-1e30, 1e30}) != 0;
+                {lines.number(f[1], position_range), lines.number(f[2], position_range), lines.number(f[3], {-1e30, 1e30})});
         } else if (f[0] == "vt") {
             if (f.size() < 3 || f.size() > 4)
                 lines.refuse(in_quotes(lines.text()) + " is not a place in the picture; vt u v is right");
@@ -57,7 +82,8 @@ WarpMesh read_obj(const WarpFile& file)
                 const std::uint64_t place = index(lines, t, places.size(), "vt before it");
                 const auto [at, fresh] = vertices.try_emplace(position << 32 | place, std::uint32_t(mesh.vertices.size()));
                 if (fresh)
-                    mesh.vertices.push_back({positions[position], 1, {glm::dvec3(places[place], 0)}});
+                    used.push_back(std::uint32_t(position)),
+                        mesh.vertices.push_back({glm::dvec2(0), 1, {glm::dvec3(places[place], 0)}});
                 corners.push_back(at->second);
             }
             for (std::size_t i = 2; i < corners.size(); ++i)
@@ -68,8 +94,9 @@ WarpMesh read_obj(const WarpFile& file)
             mesh.notes.push_back("lines that begin with " + unused.back() + " are not used");
         }
     }
-    if (deep)
-        mesh.notes.push_back("z is not 0 everywhere, and is not used");
+    place_on_screen(mesh, positions, used);
+    if (coloured)
+        mesh.notes.push_back("colours of vertices are not used");
     check_mesh(mesh, file);
     return mesh;
 }

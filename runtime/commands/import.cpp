@@ -15,7 +15,7 @@ namespace {
 
 struct ImportOptions {
     std::string file, out;
-    int node = 0;
+    long node = -1; ///< below 0: all
     bool force = false;
 };
 
@@ -72,8 +72,8 @@ int import(const ImportOptions& options)
     check_writable(options.out);
     const std::filesystem::path from = std::filesystem::absolute(options.file).parent_path().lexically_normal(),
                                 to = std::filesystem::absolute(options.out).parent_path().lexically_normal();
-    const Import import = import_sgct(document, options.node, from.lexically_relative(to),
-        [&](const std::filesystem::path& mesh) { return view_of(from / mesh); });
+    const Import import = import_sgct(document, options.node < 0 ? std::nullopt : std::optional(int(options.node)),
+        from.lexically_relative(to), [&](const std::filesystem::path& mesh) { return view_of(from / mesh); });
     std::error_code ignored; // the stream reports it
     std::filesystem::create_directories(to, ignored);
     nlohmann::ordered_json layout;
@@ -107,9 +107,9 @@ void add_import(Subcommand& app, std::function<int()>& chosen)
     Subcommand* sgct = command->add_subcommand("sgct", "Import SGCT's JSON, and print the new place of each member");
     sgct->add_option("file", options->file, "SGCT's configuration")->required();
     sgct->add_option("--out", options->out, "The layout's file")->required();
-    sgct->add_option("--node", options->node, "The machine's number among several, from 0")
-        ->check(whole_number(0, 1023))
-        ->capture_default_str();
+    sgct->add_option("--node", options->node,
+            "Only the machine of this number, from 0; without it the layout has the outputs of all, each with its \"node\"")
+        ->check(whole_number(0, 1023));
     sgct->add_flag("--force", options->force, "Replace a file of that name");
     sgct->footer("If values must be mended before the layout loads, the last lines name them, and the exit status is 1.\n\n"
                  "Example:\n  starbow import sgct single_fisheye.json --out my/dome.json");

@@ -220,7 +220,9 @@ TEST(ImportSgctTest, UsersMasksEyesAndNodesAreImported)
         + with(sphere) + R"(] }] }, { "windows": [{ "size": { "x": 20, "y": 10 }, "name": "two", "viewports": [)"
         + with(sphere) + "] }] }] }";
     EXPECT_EQ(imported(two, 1).layout["outputs"][0]["name"], "two");
-    EXPECT_TRUE(has(imported(two), "/nodes/1  not mapped: node 0 is taken; --node 1 takes this one"));
+    EXPECT_TRUE(has(
+        imported(two), "/nodes/1  not mapped: node 0 is taken; --node 1 takes this one, and all are taken without --node"));
+    EXPECT_FALSE(imported(two, 1).layout["outputs"][0].contains("node"));
     EXPECT_NE(
         complaint([&] { imported(two, 2); }).find("/nodes: has no node 2; one from 0 to 1 is right"), std::string::npos);
 }
@@ -298,6 +300,32 @@ TEST(ImportSgctTest, AWindowWithoutSizeGetsOne)
     EXPECT_EQ(of(R"("res": { "x": 4096, "y": 4096 },)").layout["outputs"][0]["size"], Json::parse("[720, 720]"));
     EXPECT_EQ(of("").layout["outputs"][0]["size"], Json::parse("[1280, 720]"));
     EXPECT_TRUE(of(R"("size": { "x": 10, "y": 20 },)").to_mend.empty());
+}
+
+TEST(ImportSgctTest, AClusterComesOverWhole)
+{
+    const auto node = [](const std::string& address, const std::string& name) {
+        return R"({ "address": ")" + address + R"(", "port": 20401, "windows": [{ "name": ")" + name
+            + R"(", "fullscreen": true, "size": { "x": 640, "y": 480 }, "viewports": [)" + with(sphere) + "] }] }";
+    };
+    const std::string text
+        = R"({ "version": 1, "masteraddress": "10.0.0.2", "users": [{ "position": { "x": 0, "y": 0, "z": 4 },
+        "eyeseparation": 0.06 }], "nodes": [)"
+        + node("10.0.0.1", "wall") + ", " + node("10.0.0.2", "wall") + "] }";
+    const Import import = import_sgct(read_document(write_text("cluster.json", text)), {}, "from");
+    const Json& outputs = import.layout["outputs"];
+    ASSERT_EQ(outputs.size(), 2u);
+    EXPECT_EQ(outputs[0]["node"], "node0");
+    EXPECT_EQ(outputs[1]["node"], "node1");
+    EXPECT_NE(outputs[0]["name"], outputs[1]["name"]);
+    EXPECT_FALSE(outputs[0].contains("monitor")) << "each covers the only monitor of its own machine";
+    EXPECT_EQ(outputs[1]["viewports"][0]["eye_m"], Json::parse("[0.0, 0.0, 4.0]"));
+    EXPECT_TRUE(has(import, "/users/0/position  -> eye_m of every viewport without a user of its own"));
+    EXPECT_TRUE(std::ranges::any_of(import.lines, [](const std::string& line) {
+        return line.starts_with("/masteraddress  -> ") && line.find(R"("master": "node1")") != line.npos;
+    }));
+    const Layout layout = load_layout(write_text("cluster-layout.json", import.layout.dump()));
+    EXPECT_EQ(nodes_of(layout), (std::vector<std::string>{"node0", "node1"}));
 }
 
 TEST(ImportSgctTest, AWindowOfControlsIsLeftOut)

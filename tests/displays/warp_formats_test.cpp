@@ -233,6 +233,30 @@ TEST(WarpFormatsTest, ObjIndicesMayCountFromTheEnd)
     EXPECT_EQ(other.vertices.size(), 7u);
 }
 
+TEST(WarpFormatsTest, ObjMeshesAreReadAsBlenderAndMeshLabWriteThem)
+{
+    const std::string rest = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    const WarpMesh plain = read("a.obj", "v -1 -1 0\nv 1 -1 0\nv 1 0.5 0\nv -1 0.5 0\n" + rest);
+    EXPECT_TRUE(plain.notes.empty());
+    // Blender's default axes: its plane's y becomes -z.
+    const WarpMesh lying = read("a.obj", "v -1 0 1\nv 1 0 1\nv 1 -0.000000 -0.5\nv -1 0 -0.5\n" + rest);
+    // Colours after the place, with opacity and without; and the weight that the format knows.
+    const WarpMesh coloured
+        = read("a.obj", "v -1 -1 0 1 0.5 0.2\nv 1 -1 0 1 0.5 0.2\nv 1 0.5 0 0.1 0.2 0.3 1\nv -1 0.5 0 1\n" + rest);
+    for (const WarpMesh& mesh : {lying, coloured}) {
+        ASSERT_EQ(mesh.vertices.size(), plain.vertices.size());
+        for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+            EXPECT_EQ(mesh.vertices[i].at, plain.vertices[i].at) << i;
+            EXPECT_EQ(mesh.vertices[i].sees[0], plain.vertices[i].sees[0]) << i;
+        }
+    }
+    EXPECT_EQ(plain.vertices[2].at, glm::dvec2(1, 0.25));
+    EXPECT_EQ(lying.notes.size(), 1u);
+    EXPECT_EQ(coloured.notes, std::vector<std::string>{"colours of vertices are not used"});
+    EXPECT_THROW(read("a.obj", "v -1 -1 0 1 0.5\n" + rest), InputError);
+    EXPECT_THROW(read("a.obj", "v -1 -1 0 1 red 0.2\n" + rest), InputError);
+}
+
 TEST(WarpFormatsTest, HeadsetMeshesHaveThreeDirections)
 {
     const WarpMesh mesh = read("a.mesh", headset);
