@@ -1,5 +1,6 @@
 #include "whole_file.h"
 #include "error.h"
+#include "file_name.h"
 #include "reader.h"
 #include <algorithm>
 #include <atomic>
@@ -64,12 +65,14 @@ void replace(const std::filesystem::path& file, const std::filesystem::path& tar
 
 } // namespace
 
-RegularFile::RegularFile(const std::filesystem::path& file)
+RegularFile::RegularFile(const std::filesystem::path& name)
 {
+    const std::filesystem::path file = as_stored(name);
     // Opening a device may do something; so its kind is looked at before, and again after, when nobody can exchange it.
     struct stat found { };
     if (stat(file.c_str(), &found) != 0)
-        fault_ = errno == ENOENT ? "does not exist" : std::string("can't be opened (") + std::strerror(errno) + ")";
+        fault_ = errno == ENOENT ? "does not exist" + nearest_names(file)
+                                 : std::string("can't be opened (") + std::strerror(errno) + ")";
     else
         fault_ = fault_of(found.st_mode);
     if (!fault_.empty())

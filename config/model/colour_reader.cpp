@@ -1,3 +1,4 @@
+#include "config/json/file_name.h"
 #include "config/json/whole_file.h"
 #include "layout_reader.h"
 #include <charconv>
@@ -138,13 +139,13 @@ std::vector<glm::dvec3> read_table(const Place& place, const std::filesystem::pa
 
 std::filesystem::path existing_file(const Place& place, const std::filesystem::path& folder)
 {
-    const std::filesystem::path file = folder / text(place);
+    const std::filesystem::path file = as_stored(folder / text(place));
     std::error_code error;
     if (std::filesystem::is_directory(file, error))
         complain(place, "is a folder; the path of a file, from the layout's folder on, is right");
     if (!std::filesystem::is_regular_file(file, error))
         complain(place,
-            "names no file in " + (folder.empty() ? "this folder" : one_line(folder.string(), 200))
+            "names no file in " + (folder.empty() ? "this folder" : one_line(folder.string(), 200)) + nearest_names(file)
                 + "; the path of a file, from the layout's folder on, is right");
     return file;
 }

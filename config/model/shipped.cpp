@@ -1,5 +1,6 @@
 #include "shipped.h"
 #include "config/json/error.h"
+#include "config/json/file_name.h"
 #include "config/json/reader.h"
 #include "file_kind.h"
 #include <algorithm>
@@ -104,9 +105,10 @@ fs::path shipped_file(const std::string& kind, const std::string& name)
 {
     std::error_code error;
     if (is_path(name)) {
+        const fs::path file = as_stored(name);
         if (const std::optional<FileKind> wanted = kind_in(kind))
-            reject_other_kind(name, *wanted);
-        return name;
+            reject_other_kind(file, *wanted);
+        return file;
     }
     const std::vector<fs::path> folders = folders_of(kind);
     for (const fs::path& folder : folders)

@@ -1,4 +1,5 @@
 #include "file.h"
+#include "config/json/file_name.h"
 #include "config/json/whole_file.h"
 #include <algorithm>
 #include <array>
@@ -182,9 +183,10 @@ fs::path resolve_inside(const fs::path& folder, const std::string& uri, const Js
         || path.find_first_of(std::string("\\:\0", 3)) != std::string::npos)
         spot.fail("is " + in_quotes(uri) + right);
     std::error_code error;
-    fs::path place = fs::canonical(folder / path, error);
+    const fs::path file = as_stored(folder / path);
+    fs::path place = fs::canonical(file, error);
     if (error)
-        spot.fail("names " + in_quotes(uri) + ", which cannot be found: " + error.message());
+        spot.fail("names " + in_quotes(uri) + ", which cannot be found: " + error.message() + nearest_names(file));
     auto [rest, _] = std::mismatch(folder.begin(), folder.end(), place.begin(), place.end());
     if (rest != folder.end())
         spot.fail("is " + in_quotes(uri) + ", which leads out of the file's folder" + right);
@@ -199,7 +201,7 @@ GltfFile named(const fs::path& file)
     std::replace_if(
         out.name.begin(), out.name.end(), [](unsigned char c) { return c < ' '; }, '?');
     std::error_code error;
-    const fs::path real = fs::canonical(file, error);
+    const fs::path real = fs::canonical(as_stored(file), error);
     if (!error)
         out.folder = real.parent_path();
     return out;
