@@ -68,9 +68,11 @@ FrameLoop::~FrameLoop()
 
 bool FrameLoop::fly_frame()
 {
-    // The first frame is a part of loading: drivers compile shaders in it.
-    const LimitedWait working = fresh_ ? LimitedWait("the end of the first frame's work", loading_limit_s)
-                                       : LimitedWait("the end of one frame's work");
+    // The first frame is a part of loading: drivers compile shaders in it. So are the frames while another world is read:
+    // the threads that read it may take the processor.
+    const LimitedWait working = fresh_ || !worlds_.coming().empty()
+        ? LimitedWait("the end of a frame's work beside a world's loading", loading_limit_s)
+        : LimitedWait("the end of one frame's work");
     // One frame is in flight at a time, for the least delay between a control and its picture.
     Metered metered = await_device();
 

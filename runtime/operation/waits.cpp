@@ -1,15 +1,19 @@
 #include "waits.h"
+#include "config/json/whole_file.h"
 #include "log.h"
 #include "messages.h"
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
+#include <filesystem>
 #include <mutex>
 #include <new>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace starbow {
@@ -31,7 +35,34 @@ OpenWaits& open_waits()
     return only;
 }
 
+/// The time that this process' threads have computed, and have waited for a processor while they could compute, s; zeros
+/// where the system does not say.
+std::pair<double, double> thread_times()
+{
+    std::pair<double, double> sum{0, 0};
+    std::error_code error;
+    try {
+        for (std::filesystem::directory_iterator at("/proc/self/task", error), end; !error && at != end;
+             at.increment(error)) {
+            double computed_ns = 0, starved_ns = 0;
+            std::array<char, 100> text{};
+            RegularFile(at->path() / "schedstat").read(std::span(text).first(text.size() - 1));
+            if (std::sscanf(text.data(), "%lf %lf", &computed_ns, &starved_ns) == 2)
+                sum.first += 1e-9 * computed_ns, sum.second += 1e-9 * starved_ns;
+        }
+    } catch (const std::bad_alloc&) { // all of the time counts then
+    }
+    return sum;
+}
+
 } // namespace
+
+double counted_s(double ran_s, double computed_s, double starved_s, bool loads)
+{
+    const double progress = std::max(starved_s, 0.0) + (loads ? std::max(computed_s, 0.0) : 0);
+    constexpr double least = 0.05; // threads that compute or starve without an end are a hang, too
+    return std::max(ran_s - progress, least * ran_s);
+}
 
 LimitedWait::LimitedWait(std::string_view what) noexcept
 {
@@ -114,15 +145,18 @@ struct WaitWatch::Thread {
         }
     }
 
+    std::pair<double, double> times{0, 0}; ///< thread_times at the last look
+
     /// Adds the time to the innermost wait. Returns its name once it is beyond its limit.
-    static std::pair<std::string, double> overdue(double ran_s)
+    std::pair<std::string, double> overdue(double ran_s)
     {
+        const auto [computed_s, starved_s] = std::exchange(times, thread_times());
         OpenWaits& now = open_waits();
         const std::lock_guard lock(now.mutex);
         if (now.waits.empty())
             return {};
         LimitedWait& inner = *now.waits.back();
-        inner.waited_s_ += ran_s;
+        inner.waited_s_ += counted_s(ran_s, times.first - computed_s, times.second - starved_s, inner.long_);
         return {inner.waited_s_ > inner.limit_s_ ? inner.what_ : "", inner.waited_s_};
     }
 };

@@ -36,8 +36,13 @@ private:
 /// the same device. A record and a log of readings are on the disk by then: their last lines are written within a second.
 [[noreturn]] void give_up(const std::string& what, double waited_s);
 
-/// Ends the process where a wait has no end. Only time in which this process ran counts, so that a stopped or starved
-/// program is not taken for a hung one.
+/// The part of a wait's time that counts, s, where all threads of the process together computed for so long, and for so long
+/// could have computed but got no processor. Neither is a hang: on a busy machine everything takes longer, and while it
+/// loads, a program computes. At least a twentieth counts.
+double counted_s(double ran_s, double computed_s, double starved_s, bool loads);
+
+/// Ends the process where a wait has no end. Only time in which this process ran counts (counted_s), so that a stopped or
+/// starved program is not taken for a hung one.
 class WaitWatch {
 public:
     /// limit_s: of a wait that names none, from here on.

@@ -140,6 +140,17 @@ TEST(Waits, AWaitInsideAnotherTakesTheFlightsLimitAndFourTimesThatInLongWork)
     EXPECT_EQ(LimitedWait("a wait in a wait in loading").limit_s(), 2);
 }
 
+TEST(Waits, TimeWithoutAProcessorAndALoadingsOwnWorkAreNoHang)
+{
+    EXPECT_EQ(counted_s(0.1, 0, 0, false), 0.1);
+    EXPECT_EQ(counted_s(0.1, 0, 0, true), 0.1);
+    EXPECT_EQ(counted_s(0.1, 0.1, 0, false), 0.1) << "a frame that computes without an end hangs";
+    EXPECT_DOUBLE_EQ(counted_s(0.1, 0.04, 0, true), 0.06);
+    EXPECT_DOUBLE_EQ(counted_s(0.1, 0, 0.07, false), 0.03);
+    EXPECT_DOUBLE_EQ(counted_s(0.1, 3, 3, true), 0.005) << "several threads";
+    EXPECT_EQ(counted_s(0.1, -1, -1, true), 0.1) << "threads that ended took their times with them";
+}
+
 TEST(Waits, TheInnermostWaitBeyondItsLimitEndsTheProcess)
 {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
