@@ -14,6 +14,8 @@ shot() { # FILE VELOCITY [MORE]
 refused 'there are:' render --shot no-such-shot
 refused 'there are:' render --shot start --layout no-such-layout
 refused 'no-such.json' render --shot "$folder/no-such.json"
+refused 'None of --shot, --scene' render --size 8x8 --out x
+refused 'there are:' render --scene no-such-scene --out x
 refused '--size' render --shot start --size 800
 refused '--size' render --shot start --size 0x600
 refused '--size' render --shot start --size 800x600x2

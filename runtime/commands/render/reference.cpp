@@ -1,13 +1,14 @@
+#include "runtime/reference/reference.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/model/shipped.h"
 #include "runtime/commands/commands.h"
 #include "runtime/commands/options/command_line.h"
 #include "runtime/commands/options/size.h"
+#include "runtime/commands/options/still_shot.h"
 #include "runtime/commands/tools.h"
 #include "runtime/images/capture.h"
 #include "runtime/operation/progress.h"
-#include "runtime/reference/reference.h"
 #include <cstdio>
 #include <memory>
 
@@ -15,7 +16,7 @@ namespace starbow {
 namespace {
 
 struct ReferencePictures {
-    std::string layout, shot, out, size; ///< layout, size: "" for the desk, and as the layout's
+    std::string layout, shot, scene, out, size; ///< layout, size: "" for the desk, and as the layout's
     long samples = 16;
     bool exr = false;
 };
@@ -24,8 +25,7 @@ struct ReferencePictures {
 /// OUT/<output>.rows until the picture is written. Returns the exit status.
 int render_reference(const ReferencePictures& command)
 {
-    const std::filesystem::path shot_file = shipped_file("shots", command.shot);
-    const Shot shot = load_shot(shot_file);
+    const auto [shot, scene, file] = still_shot(command.shot, command.scene);
     Layout layout = load_layout(shipped_file("layouts", command.layout.empty() ? "desk" : command.layout));
     if (!command.size.empty())
         for (Output& output : layout.outputs)
@@ -46,7 +46,7 @@ int render_reference(const ReferencePictures& command)
             check_not_read(folder / (output.name + kind), pictures);
             check_writable(folder / (output.name + kind));
         }
-    const ReferenceWorld world = open_reference_world(scene_of(shot, shot_file));
+    const ReferenceWorld world = open_reference_world(scene);
     for (const std::string& note : world.world.notes)
         std::fprintf(stderr, "starbow: %s: %s\n", one_line(world.scene.gltf.string()).c_str(), one_line(note).c_str());
     std::error_code error;
@@ -84,6 +84,7 @@ void add_reference(Subcommand& app, std::function<int()>& chosen)
     Subcommand* command = app.add_subcommand(reference_tool.name, reference_tool.help);
     command->add_option("--layout", options->layout, "");
     command->add_option("--shot", options->shot, "");
+    command->add_option("--scene", options->scene, "");
     command->add_option("--out", options->out, "");
     command->add_option("--size", options->size, "");
     command->add_option("--samples", options->samples, "");

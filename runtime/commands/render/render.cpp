@@ -9,6 +9,7 @@
 #include "runtime/commands/options/quality.h"
 #include "runtime/commands/options/size.h"
 #include "runtime/commands/options/spectra.h"
+#include "runtime/commands/options/still_shot.h"
 #include "runtime/commands/tools.h"
 #include "runtime/exhibit/still_measurement.h"
 #include "runtime/render/offscreen.h"
@@ -24,7 +25,7 @@ namespace {
 struct RenderOptions {
     std::string layout, shot, out, size, pattern = "none", exposure = "shot", mode = "eye", spectra = "needed", replay,
                                          frames, language = "en", information = "laboratory", tour, movie, points,
-                                         overlay = "off", why = "none", quality, part;
+                                         overlay = "off", why = "none", quality, part, scene;
     std::vector<std::string> others;
     long frames_per_s = 30;
     long every = 1, samples = 16;
@@ -34,8 +35,8 @@ struct RenderOptions {
 
 std::vector<std::string> reference_arguments(const RenderOptions& options)
 {
-    std::vector<std::string> arguments{
-        reference_tool.name, "--samples=" + std::to_string(options.samples), "--shot=" + options.shot, "--out=" + options.out};
+    std::vector<std::string> arguments{reference_tool.name, "--samples=" + std::to_string(options.samples),
+        "--shot=" + options.shot, "--scene=" + options.scene, "--out=" + options.out};
     if (!options.layout.empty())
         arguments.push_back("--layout=" + options.layout);
     if (!options.size.empty())
@@ -58,15 +59,13 @@ int render(const RenderOptions& options)
             film, options.every, options.hud, information_named(options.information)});
     if (!options.tour.empty())
         return render_tour({options.tour, options.layout, options.size, options.language, film, options.bloom});
-    if (options.shot.empty())
-        throw InputError("None of --shot, --replay and --tour is given; one of them is right");
+    const StillShot still = still_shot(options.shot, options.scene);
     if (options.reference && options.exposure != "shot")
         throw InputError("--exposure " + options.exposure + " is not known to --reference; shot is right there");
     if (options.reference)
         become_tools(reference_arguments(options));
     const Words words = words_in(options.language);
-    std::filesystem::path shot_file = shipped_file("shots", options.shot);
-    Shot shot = load_shot(shot_file);
+    Shot shot = still.shot;
     Layout layout = load_layout(shipped_file("layouts", options.layout.empty() ? "desk" : options.layout));
     if (!options.size.empty())
         for (Output& output : layout.outputs)
@@ -87,7 +86,7 @@ int render(const RenderOptions& options)
     // Errors in the files are reported before the device is opened.
     const std::optional<Quality> quality = chosen_quality(options.quality);
     const auto level = options.spectra == "needed" && quality ? quality->spectra : level_of(options.spectra);
-    RenderContext context(scene_of(shot, shot_file), device_options(false), level);
+    RenderContext context(still.scene, device_options(false), level);
     for (const std::string& note : context.world.world.notes)
         std::fprintf(
             stderr, "starbow: %s: %s\n", one_line(context.world.scene.gltf.string()).c_str(), one_line(note).c_str());
@@ -140,6 +139,8 @@ void add_render(Subcommand& app, std::function<int()>& chosen)
     command->add_option("--layout", options->layout,
         "A layout file, or the name of one in config/layouts [desk; for a replay the record's]");
     Option* shot = command->add_option("--shot", options->shot, "A shot file, or the name of one in config/shots");
+    Option* scene = command->add_option("--scene", options->scene,
+        "A scene or glTF file, or the name of a scene in config/scenes: its start; with --shot: the shot in this scene");
     Option* out = command->add_option("--out", options->out,
         "The folder for OUTPUT.png (and OUTPUT.exr), or with --replay OUTPUT-FRAME.png; made if it is not there");
     command->add_option("--size", options->size, "Pixels of every output, WIDTHxHEIGHT, instead of the layout's");
@@ -152,30 +153,30 @@ void add_render(Subcommand& app, std::function<int()>& chosen)
         ->check(one_of({"shot", "auto"}))
         ->capture_default_str();
     Option* mode = command
-                            ->add_option("--exposure-mode", options->mode,
-                                "As an eye sees it (eye), or by one curve that shows everything at once (range)")
-                            ->check(one_of({"eye", "range"}))
-                            ->capture_default_str();
+                       ->add_option("--exposure-mode", options->mode,
+                           "As an eye sees it (eye), or by one curve that shows everything at once (range)")
+                       ->check(one_of({"eye", "range"}))
+                       ->capture_default_str();
     Option* bloom = command
-                             ->add_option("--bloom", options->bloom,
-                                 "The share of the light brighter than the screen's white that glows around it, 0 to 1")
-                             ->check(number_between(0.0, 1.0))
-                             ->capture_default_str();
+                        ->add_option("--bloom", options->bloom,
+                            "The share of the light brighter than the screen's white that glows around it, 0 to 1")
+                        ->check(number_between(0.0, 1.0))
+                        ->capture_default_str();
     Option* spectra = add_spectra(*command, options->spectra);
     Option* quality = command->add_option("--quality", options->quality, quality_help + std::string(" [fine]"));
     Option* points = command->add_option("--measure", options->points, measure_help);
     Option* overlay = command
-                               ->add_option("--overlay", options->overlay,
-                                   "With instruments over the picture, and their readings: off, "
-                                   "aim, grid, ring (D = 1), distance or emission")
-                               ->check(one_of(std::vector<std::string>(overlay_names.begin(), overlay_names.end())))
-                               ->capture_default_str();
+                          ->add_option("--overlay", options->overlay,
+                              "With instruments over the picture, and their readings: off, "
+                              "aim, grid, ring (D = 1), distance or emission")
+                          ->check(one_of(std::vector<std::string>(overlay_names.begin(), overlay_names.end())))
+                          ->capture_default_str();
     Option* why = command
-                           ->add_option("--why", options->why,
-                               "With the page that explains one effect: aberration, doppler, headlight, delay, "
-                               "dilation or length")
-                           ->check(one_of(std::vector<std::string>(why_names.begin(), why_names.end())))
-                           ->capture_default_str();
+                      ->add_option("--why", options->why,
+                          "With the page that explains one effect: aberration, doppler, headlight, delay, "
+                          "dilation or length")
+                      ->check(one_of(std::vector<std::string>(why_names.begin(), why_names.end())))
+                      ->capture_default_str();
     Option* hud = command->add_flag("--hud", options->hud, "With the head-up display");
     const std::vector<std::string_view> displays = names_of(informations);
     command->add_option("--information", options->information, "The head-up display for a visitor, guide or laboratory")
@@ -185,14 +186,14 @@ void add_render(Subcommand& app, std::function<int()>& chosen)
     add_language(*command, options->language);
     Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
-    for (Option* other : {shot, exr, pattern, points, overlay, why, mode}) // a record has its own mode
+    for (Option* other : {shot, scene, exr, pattern, points, overlay, why, mode}) // a record has its own mode
         replay->excludes(other);
     Option* frames
         = command->add_option("--frames", options->frames, "With --replay: the frames from A to B, counted from 0, as A:B")
               ->needs(replay);
     Option* every = command->add_option("--every", options->every, "With --replay: every N-th frame")
-                             ->check(whole_number(1, 1000000000))
-                             ->needs(replay);
+                        ->check(whole_number(1, 1000000000))
+                        ->needs(replay);
     Option* tour = command->add_option("--tour", options->tour,
         "Instead of a shot: a movie of a tour, a file or the name of one in config/tours, as it is shown when nobody flies");
     Option* movie
@@ -210,14 +211,14 @@ void add_render(Subcommand& app, std::function<int()>& chosen)
                   "work; no movie is made")
               ->needs(movie);
     Option* join = command
-                            ->add_flag("--join", options->join,
-                                "With --movie: make the movie from parts that are all drawn, without a GPU")
-                            ->needs(movie)
-                            ->excludes(part);
+                       ->add_flag("--join", options->join,
+                           "With --movie: make the movie from parts that are all drawn, without a GPU")
+                       ->needs(movie)
+                       ->excludes(part);
     command->add_option("--others", options->others, "With --join: folders of frames from other machines' disks")
         ->needs(join);
     tour->needs(movie);
-    for (Option* other : {shot, out, exr, pattern, replay, points, overlay, why, mode})
+    for (Option* other : {shot, scene, out, exr, pattern, replay, points, overlay, why, mode})
         tour->excludes(other);
     Option* reference = command->add_flag("--reference", options->reference,
         "Trace rays in double precision and with whole spectra, without a GPU: slow, the reference for the other pictures");
@@ -230,6 +231,7 @@ void add_render(Subcommand& app, std::function<int()>& chosen)
     command->footer(
         "Examples:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr\n"
         "  starbow render --layout dome --shot starbow --out out/range --exposure-mode range --hud\n"
+        "  starbow render --scene my-world.glb --out out/mine --exposure auto\n"
         "  starbow render --shot gamma100 --out out/right --reference --samples 64\n"
         "  starbow render --replay flight.jsonl --out out/flight --frames 0:599\n"
         "  starbow render --replay flight.jsonl --movie out/flight.mp4 --hud\n"
