@@ -33,6 +33,7 @@ layout(constant_id = 21) const bool BLENDED = false; // over what is behind it, 
 // constant_id 22 is cube.vert's
 layout(constant_id = 23) const bool CONES = false; // some lamps shine in cones
 layout(constant_id = 24) const bool WITH_ALPHA = false; // some of the world's surfaces are blended
+// constant_id 25 is cube.vert's
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // Spectra::columns

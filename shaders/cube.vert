@@ -8,6 +8,7 @@ layout(constant_id = 10) const bool FINITE_EXISTENCE = false;
 layout(constant_id = 13) const bool BLINK = false;
 layout(constant_id = 14) const bool MOVES = false; // animated
 layout(constant_id = 22) const bool DEFORMS = false; // and of a changing shape
+layout(constant_id = 25) const bool POINTS = false;
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 1) readonly buffer Instances { InstanceEntry instances[]; };
@@ -65,10 +66,11 @@ Surface deformed(TimeEntry time, int before, float part)
     int row = floatBitsToInt(time.deforming.z) + DEFORMING_VERTEX_ROWS * gl_VertexIndex;
     int displacement = floatBitsToInt(time.deforming.w) + DISPLACEMENT_ROWS * targets * gl_VertexIndex;
     Surface surface = Surface(nothing, deforming[row].xyz, deforming[row + 1].xyz, deforming[row + 2].xyz);
-    vec4 weights = deforming[row + 3], bones = deforming[row + 4];
-    for (int k = 0; k < 4; ++k)
-        if (weights[k] > 0.0)
-            add_pose(surface.at, weights[k], before + int(bones[k]), entries, part);
+    for (int k = 0; k < BONES_PER_VERTEX; ++k) {
+        float weight = deforming[row + WEIGHTS_ROW + k / 4][k % 4];
+        if (weight > 0.0)
+            add_pose(surface.at, weight, before + int(deforming[row + BONES_ROW + k / 4][k % 4]), entries, part);
+    }
     int first_weights = before + entries - (targets + WEIGHTS_PER_ENTRY - 1) / WEIGHTS_PER_ENTRY;
     InstanceEntry own = nothing;
     for (int target = 0; target < targets; ++target) {
@@ -134,4 +136,11 @@ void main()
     if (CLOCK || FINITE_EXISTENCE || BLINK)
         out_instance = visible[gl_InstanceIndex];
     gl_Position = vec4(dot(push.clip_x, place), dot(push.clip_y, place), push.surface.x, dot(push.clip_w, place));
+    if (POINTS) {
+        // A pixel's angle grows by D from the ship to this frame; on the face it grows with the distance from its middle.
+        vec3 n = normalize(place.xyz);
+        float middle = gl_Position.w * inversesqrt(dot(place.xyz, place.xyz));
+        float size = push.surface.z * (cube.growth[0].w + dot(cube.growth[0].xyz, n)) * pow(max(middle, 0.1), -1.5);
+        gl_PointSize = clamp(size, 1.0, 64.0);
+    }
 }

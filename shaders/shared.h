@@ -119,6 +119,7 @@ struct CubeConstants {
     vec4 sky_cells[3]; // rows: the cells of Shadows::sky of a place from the eye, in the cube map's axes
     ShadowEntry shadows[MAX_LIGHTS];
     vec4 now[1]; // w: 1 where everything is shown at the ship's present; xyz: the ship's velocity here
+    vec4 growth[1]; // an angle here over that in the ship, in a unit direction n: w + dot(xyz, n)
     LightEntry lights[MAX_LIGHTS];
 };
 
@@ -131,10 +132,13 @@ struct InstanceEntry {
 // A vertex of a deforming surface before it deforms, in its mesh's coordinates.
 struct DeformingVertex {
     vec4 position, normal, tangent; // w: not used
-    vec4 weights; // of its bones; their sum is 1
-    vec4 bones; // their indices
+    vec4 weights[2]; // of its bones; their sum is 1
+    vec4 bones[2]; // their indices
 };
-#define DEFORMING_VERTEX_ROWS 5
+#define DEFORMING_VERTEX_ROWS 7
+#define BONES_PER_VERTEX 8
+#define WEIGHTS_ROW 3 // of `weights`
+#define BONES_ROW 5 // of `bones`
 
 // The displacement of a vertex by a morph target of weight 1.
 struct Displacement {
@@ -162,7 +166,8 @@ struct CubePush {
     vec4 clip_x, clip_y, clip_w; // rows of clip_from_cube. In the sky: the directions of the image's low corner, and from
                                  // there to its other two
     vec4 surface; // x: z in clip space of all vertices, as z is reversed and the far plane infinite; y: how far
-                  // the drawn surface may lie below the full one, scene units
+                  // the drawn surface may lie below the full one, scene units; z: texels of a pixel of the ship in the
+                  // middle of the face
     vec4 base_colour;
     vec4 emissive; // pre-exposed; w: alpha cut-off
     vec4 beyond; // reflectance in the ultraviolet and the infrared, below 0: the colour's mean; z: index of the matrices;

@@ -16,7 +16,7 @@ static_assert(sizeof(TileTable) == 16 * TILE_ENTRY(MAX_REST_FRAMES * TILE_COUNT,
 static_assert(sizeof(LightEntry) == 112);
 static_assert(sizeof(SkyConstants) == 4 * 16 + 6 * MAX_GROUPS * 16);
 static_assert(sizeof(ShadowEntry) == 80);
-static_assert(sizeof(CubeConstants) == 9 * 16 + sizeof(SkyConstants) + MAX_LIGHTS * (112 + 80));
+static_assert(sizeof(CubeConstants) == 10 * 16 + sizeof(SkyConstants) + MAX_LIGHTS * (112 + 80));
 static_assert(sizeof(MaterialEntry) == 10 * 16);
 static_assert(sizeof(RestFrameEntry) == 160);
 static_assert(sizeof(RestFrameConstants) == 2 * 16 + sizeof(SkyConstants) + MAX_REST_FRAMES * 160);

@@ -1,4 +1,5 @@
 #include "scene_file.h"
+#include "config/json/file_name.h"
 #include "goal_reader.h"
 #include "shot_reader.h"
 #include <algorithm>
@@ -154,18 +155,26 @@ SceneFile load_scene_file(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     reject_unknown_members(top,
-        {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "globes", "ambient", "shadows", "lights", "bodies", "boundary",
-            "flight", "goals", "start"});
+        {"gltf", "unit_m", "light_speed_m_s", "sky", "ground", "stars", "globes", "ambient", "shadows", "lights", "bodies",
+            "boundary", "flight", "goals", "start"});
     SceneFile scene;
     scene.name = file.stem().string();
     scene.file = document.file;
-    scene.gltf = file.parent_path() / text(member(top, "gltf"));
+    scene.gltf = as_stored(file.parent_path() / text(member(top, "gltf")));
     if (auto p = find_member(top, "unit_m"))
         scene.unit_m = number(*p, measure);
     if (auto p = find_member(top, "light_speed_m_s"))
         scene.light_speed_m_s = number(*p, measure);
     if (auto p = find_member(top, "sky"))
         scene.sky = read_sky(*p);
+    if (auto p = find_member(top, "ground")) {
+        reject_unknown_members(*p, {"middle", "half_width", "colour"});
+        Ground& ground = scene.ground.emplace();
+        ground.middle = vec3(member(*p, "middle"), {-1e9, 1e9});
+        ground.half_width = number(member(*p, "half_width"), {0, 1e9, true});
+        if (auto colour = find_member(*p, "colour"))
+            ground.colour = vec3(*colour, {0, 1});
+    }
     if (auto p = find_member(top, "stars"))
         scene.stars = read_stars(*p, file.parent_path());
     if (auto p = find_member(top, "ambient"))

@@ -73,6 +73,13 @@ struct StarSky {
     std::size_t in_depth = std::numeric_limits<std::size_t>::max();
 };
 
+/// A level square of tiles below a world that brings no ground of its own.
+struct Ground {
+    glm::dvec3 middle{0}; ///< scene units
+    double half_width = 100;
+    glm::dvec3 colour{0.3}; ///< Rec. 709 linear reflectance; every other tile is a little darker
+};
+
 struct SceneFile {
     std::string name;
     std::string file; ///< as messages show it
@@ -80,6 +87,7 @@ struct SceneFile {
     double unit_m = 299792458; ///< one scene unit in metres
     double light_speed_m_s = 299792458; ///< the real one, or a slow one as in Gamow's tales
     Sky sky;
+    std::optional<Ground> ground;
     std::optional<StarSky> stars;
     std::optional<GlobeSky> globes; ///< the Sun, planets and moons; only where nothing else moves
     bool shadows = false; ///< still things hide the light of resting lamps and of the sky from others

@@ -280,6 +280,15 @@ CompiledView MapStore::compile(const Layout& layout, const View& view)
     return compiled;
 }
 
+double pixel_angle(std::span<const CompiledView> views)
+{
+    double finest = 0;
+    for (const CompiledView& view : views)
+        if (const BoundingCone all = view.cones->cone(0, {0, 0}); !all.empty())
+            finest = finest == 0 ? double(all.coarsest) : std::min(finest, double(all.coarsest));
+    return finest;
+}
+
 bool has_mask(const Layout& layout, const CompiledView& view)
 {
     return !layout.outputs[view.view.output].viewports[view.view.viewport].alpha_mask.empty()

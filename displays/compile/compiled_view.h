@@ -52,6 +52,10 @@ private:
     std::shared_ptr<Kept> kept_;
 };
 
+/// The angle of a pixel of the finest view, radians: where its pixels look widest, as in a flat picture's middle. Points and
+/// lines of a world are as wide. 0 without views.
+double pixel_angle(std::span<const CompiledView> views);
+
 /// True for a view with an alpha mask, from the layout or from its warp file.
 bool has_mask(const Layout& layout, const CompiledView& view);
 

@@ -413,11 +413,12 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
                 const Material& material = world.materials[std::size_t(primitive.material)];
                 if (material.blended) {
                     const std::span<const BlendedTriangle> triangles = blended_triangles(world, primitive, level);
+                    const std::uint32_t corners = corners_of(primitive.topology);
                     Draw own = draw;
-                    own.blended = true, own.count = 1, own.index_count = 3 * std::uint32_t(triangles.size());
+                    own.blended = true, own.count = 1, own.index_count = corners * std::uint32_t(triangles.size());
                     for (std::size_t k = 0; k < seen.size(); ++k, ++own.first) {
                         own.farthest = boxes[seen[k]].farthest;
-                        own.first_index = sorted_from_behind(list, seen[k], level, triangles);
+                        own.first_index = sorted_from_behind(list, seen[k], level, triangles, corners);
                         list.draws.push_back(own);
                     }
                 }

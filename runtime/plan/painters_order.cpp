@@ -54,8 +54,8 @@ void sort_from_behind(std::span<Draw> draws, const DrawList& list)
             std::swap(draws[k], draws[k - 1]);
 }
 
-std::uint32_t sorted_from_behind(
-    DrawList& list, std::uint32_t instance, std::size_t level, std::span<const BlendedTriangle> triangles)
+std::uint32_t sorted_from_behind(DrawList& list, std::uint32_t instance, std::size_t level,
+    std::span<const BlendedTriangle> triangles, std::uint32_t corners)
 {
     // Several images of one eye show the same surface, mostly at one level.
     DrawList::SortedSurface& sorted = list.sorted_surfaces[instance];
@@ -72,7 +72,7 @@ std::uint32_t sorted_from_behind(
     std::sort(list.distances.begin(), list.distances.end(), std::greater());
     for (const auto& [distance, triangle] : list.distances)
         list.sorted_indices.insert(
-            list.sorted_indices.end(), triangles[triangle].corners.begin(), triangles[triangle].corners.end());
+            list.sorted_indices.end(), triangles[triangle].corners.begin(), triangles[triangle].corners.begin() + corners);
     return sorted.first_index;
 }
 

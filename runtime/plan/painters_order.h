@@ -9,8 +9,8 @@ void sort_from_behind(std::span<Draw> draws, const DrawList& list);
 
 /// Adds the triangles of an instance of a blended surface to the list's sorted_indices, those with the farthest middles
 /// first, unless they are there. Returns the first index. instance: of the list. level: 0: the full surface. triangles:
-/// World::blended_triangles of that level.
-std::uint32_t sorted_from_behind(
-    DrawList& list, std::uint32_t instance, std::size_t level, std::span<const BlendedTriangle> triangles);
+/// World::blended_triangles of that level; corners: of each.
+std::uint32_t sorted_from_behind(DrawList& list, std::uint32_t instance, std::size_t level,
+    std::span<const BlendedTriangle> triangles, std::uint32_t corners);
 
 } // namespace starbow

@@ -7,13 +7,15 @@
 namespace starbow {
 
 TracingEye::TracingEye(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
-    const GlobeColours* globes, const Occluders* occluders, const Observer& observer, const glm::dvec3& place, double beside)
+    const GlobeColours* globes, const Occluders* occluders, const Observer& observer, const glm::dvec3& place, double beside,
+    double pixel_rad)
     : world_(world)
     , scene_(scene)
     , pictures_(pictures)
     , colours_(colours)
     , observer_(observer)
     , place_(place)
+    , pixel_rad_(pixel_rad)
     , globe_colours_(globes)
 {
     if (scene.stars)
@@ -23,7 +25,7 @@ TracingEye::TracingEye(const World& world, const SceneFile& scene, const Picture
         const EyeEvent eye_event = eye_event_of(rest_frame, int(i), place);
         // A distance beside the eye in the ship is longer in the frame.
         const double reach = beside * physics::gamma_of(rest_frame.shot.u);
-        views_.push_back({&rest_frame, Tracer(world, pictures, eye_event, reach),
+        views_.push_back({&rest_frame, Tracer(world, pictures, eye_event, reach, pixel_rad),
             Lighting(world, scene, pictures, colours, eye_event, occluders)});
     }
     if (globes) {
@@ -76,7 +78,7 @@ TracingEye::Nearest TracingEye::nearest(
         const double stretch = glm::length(stretched);
         const glm::dvec3 apart = rest_frame.shot.ship_from_cockpit * beside;
         SightLine line{glm::dvec3(0), glm::transpose(rest_frame.motion_from_frame) * (stretched / stretch),
-            view.tracer.eye_event().time};
+            view.tracer.eye_event().time, pixel_rad_ * (worlds && !aberration ? 1 : own.D)};
         if (beside != glm::dvec3(0)) {
             line.from = physics::eye_place(rest_frame.shot.u, apart);
             line.time += physics::eye_time(rest_frame.shot.u, apart);

@@ -19,11 +19,11 @@ struct LookedAt {
 class TracingEye {
 public:
     /// place: from the ship's event, in the observer's axes (the cockpit's), scene units; look() may use eyes up to
-    /// `beside` from it. globes: null in a world without globes; occluders: in a scene without shadows. All arguments must
-    /// outlive the object.
+    /// `beside` from it. pixel_rad: the angle of a pixel, as wide as which points and lines are. globes: null in a world
+    /// without globes; occluders: in a scene without shadows. All arguments must outlive the object.
     TracingEye(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
         const GlobeColours* globes, const Occluders* occluders, const Observer& observer, const glm::dvec3& place,
-        double beside);
+        double beside, double pixel_rad);
 
     /// Looks along a unit direction of the cockpit. beside: the eye's place from the constructor's. parts: for each globe
     /// the part of it that is drawn as a disc; empty: all.
@@ -87,6 +87,7 @@ private:
     glm::dmat3 equatorial_from_world_{1};
     Observer observer_;
     glm::dvec3 place_;
+    double pixel_rad_;
     const GlobeColours* globe_colours_;
     double farthest_among_globes_ = 0; ///< an eye's distance from the ship, scene units: docs/physics/solar-system.md
     std::unique_ptr<const GlobeSight> globes_;

@@ -1,4 +1,5 @@
 #include "trace.h"
+#include "config/model/angles.h"
 #include "runtime/shadow/embree_scene.h"
 #include "runtime/world/moving.h"
 #include "runtime/world/shape.h"
@@ -73,14 +74,14 @@ float above(double x) { return std::nextafter(float(std::clamp(x, -1e37, 1e37)),
 struct Tracer::Scene {
     struct Triangle {
         std::uint32_t instance;
-        std::uint32_t corners[3]; ///< of World::vertices
+        std::uint32_t corners[3]; ///< of World::vertices; of lines and points as Met's
         glm::dvec3 places[3]; ///< from the eye event's; of an animated instance, at each corner's retarded time
     };
 
     const World& world;
     const Pictures& pictures;
     EyeEvent eye_event;
-    double farthest_eye;
+    double farthest_eye, pixel_rad;
     std::vector<Triangle> triangles;
     EmbreeScene embree;
 
@@ -129,11 +130,12 @@ struct Tracer::Scene {
                 at->second = seen_corner(instance, vertex);
             return at->second;
         };
-        for (std::uint32_t i = 0; i + 2 < primitive.index_count; i += 3) {
+        const std::uint32_t corners = corners_of(primitive.topology);
+        for (std::uint32_t i = 0; i + corners <= primitive.index_count; i += corners) {
             Triangle triangle{index, {}, {}};
             for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t vertex
-                    = world.indices[primitive.first_index + i + k] + std::uint32_t(primitive.vertex_offset);
+                const std::uint32_t vertex = world.indices[primitive.first_index + i + std::min(k, corners - 1)]
+                    + std::uint32_t(primitive.vertex_offset);
                 triangle.corners[k] = vertex;
                 triangle.places[k] = place_of(vertex);
             }
@@ -170,6 +172,12 @@ struct Tracer::Scene {
             const double bend = 0.5 * size + 2 * most_own_speed * farthest_eye;
             low -= bend, high += bend;
         }
+        if (topology_of(triangle) != Topology::triangles) {
+            // Half a pixel around it, where an angle is widest: as far away as its farther end.
+            const glm::dvec3 farther = glm::max(glm::abs(low), glm::abs(high));
+            const double width = pixel_rad * std::max(eye_event.E, 1 / eye_event.E) * (glm::length(farther) + farthest_eye);
+            low -= width, high += width;
+        }
         // A float line is off by its place's rounding and by its direction's, as far out as the box reaches.
         const glm::dvec3 most = glm::max(glm::abs(low), glm::abs(high));
         const double lost = 4e-7 * (std::max({most.x, most.y, most.z}) + farthest_eye) + 1e-30;
@@ -178,11 +186,51 @@ struct Tracer::Scene {
         box.upper_x = above(high.x), box.upper_y = above(high.y), box.upper_z = above(high.z);
     }
 
+    Topology topology_of(const Triangle& triangle) const
+    {
+        return world.primitives[world.instances[triangle.instance].primitive].topology;
+    }
+
+    /// The line's passage by a line or a point of the world, in less than half a pixel's angle. A point is round, and its
+    /// disc has the area of a square pixel.
+    std::optional<Crossing> passage(const glm::dvec3 (&p)[3], const SightLine& line, bool point) const
+    {
+        const LineAxes axes(line.way);
+        glm::dvec3 ends[2];
+        for (int k = 0; k < 2; ++k)
+            ends[k] = {glm::dot(axes.x, p[k]), glm::dot(axes.y, p[k]), glm::dot(axes.z, p[k])};
+        if (!point) { // of a line that begins behind the eye, what is in front of it
+            constexpr double nearest = 1e-9;
+            for (int k = 0; k < 2; ++k)
+                if (ends[k].z <= 0 && ends[1 - k].z > 0)
+                    ends[k]
+                        += (ends[1 - k] - ends[k]) * ((nearest * ends[1 - k].z - ends[k].z) / (ends[1 - k].z - ends[k].z));
+        }
+        if (!(ends[0].z > 0 && ends[1].z > 0))
+            return {};
+        const glm::dvec2 a = glm::dvec2(ends[0]) / ends[0].z, b = glm::dvec2(ends[1]) / ends[1].z;
+        const double length = glm::dot(b - a, b - a);
+        const double along = length > 0 ? -glm::dot(a, b - a) / length : 0, on = std::clamp(along, 0.0, 1.0);
+        if (!point && (along < 0 || along > 1))
+            return {};
+        const double half = (point ? std::sqrt(1 / pi) : 0.5) * line.pixel_rad;
+        if (!(glm::length(a + on * (b - a)) <= half))
+            return {};
+        // Halfway in the picture is nearer than halfway along the line.
+        const double part = on * ends[0].z / (on * ends[0].z + (1 - on) * ends[1].z);
+        const double z = ends[0].z + part * (ends[1].z - ends[0].z);
+        return Crossing{{1 - part, part, 0}, z, true, true};
+    }
+
     std::optional<Crossing> crossing_of(const Triangle& triangle, const SightLine& line, double& time) const
     {
         glm::dvec3 p[3] = {triangle.places[0] - line.from, triangle.places[1] - line.from, triangle.places[2] - line.from};
         const LineAxes axes(line.way);
-        std::optional<Crossing> at = crossing(p, axes);
+        const Topology topology = topology_of(triangle);
+        const auto cross = [&] {
+            return topology == Topology::triangles ? crossing(p, axes) : passage(p, line, topology == Topology::points);
+        };
+        std::optional<Crossing> at = cross();
         if (!at)
             return {};
         const Instance& instance = world.instances[triangle.instance];
@@ -195,7 +243,7 @@ struct Tracer::Scene {
             const auto places = places_at(world, instance, triangle.corners, t);
             for (int k = 0; k < 3; ++k)
                 p[k] = places[std::size_t(k)] - eye_event.place - line.from;
-            return crossing(p, axes);
+            return cross();
         };
         double before = 0, off_before = 0;
         for (int round = 0; round < 60; ++round) {
@@ -267,8 +315,9 @@ glm::dvec4 base_of(const World& world, const Pictures& pictures, const Met& met)
     return colour * glm::dvec4(material.base_colour) * pictures.at(material.base_texture, uv_of(world, met));
 }
 
-Tracer::Tracer(const World& world, const Pictures& pictures, const EyeEvent& eye_event, double farthest_eye)
-    : scene_(new Scene{world, pictures, eye_event, farthest_eye, {}, {}})
+Tracer::Tracer(
+    const World& world, const Pictures& pictures, const EyeEvent& eye_event, double farthest_eye, double pixel_rad)
+    : scene_(new Scene{world, pictures, eye_event, farthest_eye, pixel_rad, {}, {}})
 {
     for (std::uint32_t i = 0; i < world.instances.size(); ++i)
         if (world.instances[i].frame == eye_event.frame && scene_->may_be_seen(world.instances[i]))

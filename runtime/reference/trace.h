@@ -11,6 +11,7 @@ struct SightLine {
     glm::dvec3 from{0}; ///< the eye's place from the eye event's, in the frame's axes
     glm::dvec3 way; ///< unit
     double time; ///< the eye's, in the frame
+    double pixel_rad = 0; ///< the angle of a pixel in the frame there: the width of lines and points
 };
 
 /// A line's own axes: z is its unit direction, from which x and y are at right angles to rounding.
@@ -31,7 +32,7 @@ struct LineAxes {
 /// The hit of a line of sight on a surface.
 struct Met {
     std::uint32_t instance; ///< index into World::instances
-    std::uint32_t corners[3]; ///< index into World::vertices
+    std::uint32_t corners[3]; ///< index into World::vertices; of a line both ends and one again, of a point it thrice
     glm::dvec3 weights; ///< of these corners
     glm::dvec3 place; ///< from the eye event's
     glm::dvec3 way; ///< unit, from the eye
@@ -44,14 +45,14 @@ struct Met {
 glm::dvec2 uv_of(const World& world, const Met& met);
 glm::dvec4 base_of(const World& world, const Pictures& pictures, const Met& met);
 
-/// All triangles of one rest frame around an eye event, for intersection with lines of sight. Embree finds the candidate
-/// boxes in float, widened by float's rounding; the hit itself is computed in double. Straight behind at gamma 1000, a
-/// pixel is a millionth of a radian of the world.
+/// All triangles, lines and points of one rest frame around an eye event, for intersection with lines of sight. Embree finds
+/// the candidate boxes in float, widened by float's rounding; the hit itself is computed in double. Straight behind at gamma
+/// 1000, a pixel is a millionth of a radian of the world.
 class Tracer {
 public:
     /// All arguments must outlive the object. farthest_eye: the greatest distance of a line's beginning from the eye
-    /// event's place, scene units.
-    Tracer(const World& world, const Pictures& pictures, const EyeEvent& eye_event, double farthest_eye);
+    /// event's place, scene units. pixel_rad: the angle of a pixel in the ship.
+    Tracer(const World& world, const Pictures& pictures, const EyeEvent& eye_event, double farthest_eye, double pixel_rad);
     ~Tracer();
     Tracer(Tracer&&) noexcept;
 

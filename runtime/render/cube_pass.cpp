@@ -52,9 +52,7 @@ void CubePass::prepare(const CubeMapPlan& plan, std::span<const EyeEvent> eye_ev
         list_ = cull(world_.world, eye_events, images_, quality_, std::move(list_));
     }
     const Trace::Span span(device_.trace, "upload");
-    contractions_.clear();
-    for (const EyeEvent& eye_event : eye_events)
-        contractions_.push_back(eye_event.contraction);
+    eye_events_.assign(eye_events.begin(), eye_events.end());
     target_.fit(plan.atlas_size, plan.levels);
     uploads_.write(list_, eye_events, light, pre_exposure_);
     uploads_.write_tile_table(plan);
@@ -65,7 +63,7 @@ void CubePass::prepare_plain(const PlannedImage& image, const EyeEvent& eye_even
     images_ = {image};
     use_ = {false, StoredLight::plain};
     list_ = cull(world_.world, {&eye_event, 1}, images_, quality_, std::move(list_));
-    contractions_ = {1};
+    eye_events_ = {eye_event};
     uploads_.write(list_, {&eye_event, 1}, use_.light, pre_exposure_);
     target_.fit_depth(image.size);
 }
@@ -74,7 +72,8 @@ std::size_t CubePass::triangles() const
 {
     std::size_t triangles = 0;
     for (const Draw& draw : list_.draws)
-        triangles += std::size_t(draw.count) * draw.index_count / 3;
+        if (world_.world.primitives[draw.primitive].topology == Topology::triangles)
+            triangles += std::size_t(draw.count) * draw.index_count / 3;
     return triangles;
 }
 
@@ -91,7 +90,9 @@ void CubePass::record(vk::CommandBuffer commands)
 
 SurfaceVariant CubePass::variant_of(const Draw& draw, StoredLight light) const
 {
-    SurfaceVariant variant = world_.variant(world_.world.primitives[draw.primitive].material, light);
+    const Primitive& primitive = world_.world.primitives[draw.primitive];
+    SurfaceVariant variant = world_.variant(primitive.material, light);
+    variant.topology = primitive.topology;
     const bool plain = light == StoredLight::plain;
     variant.finite_existence = draw.finite_existence && !plain;
     variant.several_rest_frames = use_.several_rest_frames;
@@ -101,6 +102,15 @@ SurfaceVariant CubePass::variant_of(const Draw& draw, StoredLight light) const
     if (!plain && !variant.unlit && !draw.moves && images_[draw.image].rest_frame == 0)
         variant.shadows = world_.shadows;
     return variant;
+}
+
+float CubePass::line_width(const PlannedImage& image) const
+{
+    const glm::dvec2 middle = 0.5 * (image.low + image.high);
+    const EyeEvent& eye_event = eye_events_[std::size_t(image.rest_frame)];
+    const double width = pixel_rad_ * image.texels_per_unit * growth_towards(eye_event, face_direction(image.face, middle))
+        * std::pow(1 + glm::dot(middle, middle), 0.75);
+    return float(std::clamp(width, 1.0, double(device_.widest_line)));
 }
 
 void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
@@ -122,11 +132,12 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
         if (image.rest_frame != std::exchange(rest_frame, image.rest_frame))
             uploads_.bind(commands, image.rest_frame);
         glm::dmat4 clip = clip_from_cube(image, near_distance);
-        clip[2] *= contractions_[std::size_t(image.rest_frame)];
+        clip[2] *= eye_events_[std::size_t(image.rest_frame)].contraction;
         clip = glm::scale(glm::dmat4(1), glm::dvec3(1 / guard_of(image), 1 / guard_of(image), 1)) * clip;
         shared::CubePush push{};
         push.clip_x = shared::row(clip, 0), push.clip_y = shared::row(clip, 1), push.clip_w = shared::row(clip, 3);
         push.surface.x = near_distance;
+        push.surface.z = float(pixel_rad_ * image.texels_per_unit);
         // A mirrored pair of face axes turns a surface's front round.
         glm::dvec3 a = face_direction(image.face, {1, 0}) - face_direction(image.face, {0, 0});
         glm::dvec3 b = face_direction(image.face, {0, 1}) - face_direction(image.face, {0, 0});
@@ -172,15 +183,17 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
             push.own = glm::vec4(surface.own * pre_exposure_);
             push_constants();
         };
-        const auto draw_one = [&](const Draw& one) {
+        const auto draw_surface = [&](const Draw& one) {
+            const SurfaceVariant variant = variant_of(one, use_.light);
+            bind(pipelines_.surface(variant, kind));
+            if (variant.topology == Topology::lines)
+                commands.setLineWidth(line_width(image));
+            put_surface(one);
             commands.drawIndexed(
                 one.index_count, one.count, one.first_index, world.primitives[one.primitive].vertex_offset, one.first);
         };
-        for (; draw != list_.draws.end() && draw->image == i && !draw->blended; ++draw) {
-            bind(pipelines_.surface(variant_of(*draw, use_.light), kind));
-            put_surface(*draw);
-            draw_one(*draw);
-        }
+        for (; draw != list_.draws.end() && draw->image == i && !draw->blended; ++draw)
+            draw_surface(*draw);
         const shared::CubePush surfaces_push = push;
         if (sky_ && !use_.several_rest_frames) {
             set_area(commands, image.atlas, image.size);
@@ -202,9 +215,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
         for (; draw != list_.draws.end() && draw->image == i; ++draw) {
             if (draw == first_blended)
                 commands.bindIndexBuffer(uploads_.sorted_indices(), 0, vk::IndexType::eUint32);
-            bind(pipelines_.surface(variant_of(*draw, use_.light), kind));
-            put_surface(*draw);
-            draw_one(*draw);
+            draw_surface(*draw);
         }
         if (draw != first_blended)
             commands.bindIndexBuffer(*world_.indices.buffer, 0, vk::IndexType::eUint32);

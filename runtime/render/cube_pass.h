@@ -15,6 +15,9 @@ public:
 
     void repeatable(bool on) { target_.repeatable(on); } ///< as CubeTarget's
 
+    /// The angle of a pixel in the ship, radians: lines and points are as wide. 0: a texel.
+    void pixel(double angle_rad) { pixel_rad_ = angle_rad; }
+
     /// Sets the quality from the next prepare() on. Samples and formats must be the same as before.
     void adopt(const Quality& quality) { quality_ = quality; }
 
@@ -43,6 +46,7 @@ public:
 
 private:
     SurfaceVariant variant_of(const Draw& draw, StoredLight light) const;
+    float line_width(const PlannedImage& image) const; ///< texels
     void draw_images(vk::CommandBuffer commands, const TargetKind& kind);
 
     Device& device_;
@@ -54,7 +58,8 @@ private:
     bool sky_; ///< it has a gradient or a panorama, so that clearing does not draw it
     CubeTarget::Use use_; ///< where something that moves is in view, the warp pass draws the sky
     std::vector<PlannedImage> images_;
-    std::vector<double> contractions_; ///< one for each rest frame
+    std::vector<EyeEvent> eye_events_; ///< one for each rest frame
+    double pixel_rad_ = 0;
     glm::ivec2 area_{0};
     double pre_exposure_ = 1;
     int levels_ = 1;

@@ -110,6 +110,9 @@ shared::CubeConstants CubeUploads::constants_of(const EyeEvent& eye_event, Store
     if (world_.world.shadows && eye_event.frame == 0)
         write_shadows(constants, eye_event);
     constants.now[0] = glm::vec4(0, 0, eye_event.beta, eye_event.now);
+    const double ahead = growth_towards(eye_event, eye_event.ahead);
+    const double back = growth_towards(eye_event, -eye_event.ahead);
+    constants.growth[0] = glm::vec4(0.5 * (ahead - back) * eye_event.ahead, 0.5 * (ahead + back));
     for (std::size_t i = 0; i < world_.world.lamps.size(); ++i)
         constants.lights[i] = light_entry(world_, world_.world.lamps[i], eye_event, scale);
     return constants;

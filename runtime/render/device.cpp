@@ -285,6 +285,8 @@ Device::Device(const Options& options)
     features13.dynamicRendering = features13.synchronization2 = true;
     vk::PhysicalDeviceFeatures features;
     features.largePoints = true; // a star's spot
+    features.wideLines = physical.getFeatures().wideLines;
+    widest_line = features.wideLines ? properties.limits.lineWidthRange[1] : 1;
     features.samplerAnisotropy = physical.getFeatures().samplerAnisotropy;
     features.textureCompressionBC = physical.getFeatures().textureCompressionBC;
     compresses = features.textureCompressionBC && !on_processor();

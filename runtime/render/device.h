@@ -39,6 +39,7 @@ public:
     vk::PhysicalDeviceMemoryProperties memory;
     bool reports_presentation = false; ///< VK_KHR_present_wait
     bool present_barrier = false; ///< VK_NV_present_barrier; a surface may lack it nevertheless
+    float widest_line = 1; ///< pixels
     bool compresses = false; ///< large textures are compressed; false where the processor would decode them at each look-up
     bool debug_utils = false; ///< VK_EXT_debug_utils: objects have names, passes have labels
     Trace* trace = nullptr; ///< receives the processor's spans of each frame during a trace

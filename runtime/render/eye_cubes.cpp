@@ -51,6 +51,15 @@ void EyeCubes::clear()
     inset_observed_ = inset_eye_ = false;
 }
 
+double EyeCubes::pixel_of(std::size_t eye) const
+{
+    std::vector<CompiledView> shown;
+    for (const ViewState& view : views_.all)
+        if (view.eye == eye)
+            shown.push_back(view.compiled);
+    return pixel_angle(shown);
+}
+
 void EyeCubes::adopt(const Quality& quality)
 {
     drawn_ = false;
@@ -349,6 +358,7 @@ void EyeCubes::plan(double pre_exposure, const Probe* probe)
         EyeCube& eye = all[i];
         if (!keep) {
             std::swap(plans[i], eye.wanted);
+            eye.cube.pixel(pixel_of(i));
             eye.cube.prepare(plans[i], eye.eye_events, light_of(i), state_.pre_exposure);
             std::swap(eye.drawn, eye.eye_events);
             bound(eye, plans[i]);

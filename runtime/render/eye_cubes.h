@@ -82,6 +82,7 @@ private:
     void request_views(std::size_t eye, double pre_exposure, const Probe* probe);
     bool draws_all() const; ///< outputs of this machine may show every view
     bool can_reuse(std::size_t eye) const;
+    double pixel_of(std::size_t eye) const; ///< the angle of a pixel of its views, radians
 
     Device& device_;
     Pipelines& pipelines_;

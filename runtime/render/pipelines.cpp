@@ -73,6 +73,7 @@ struct Pipelines::Pass {
     SpecializationConstants constants; ///< the same in both stages
     bool depth = false, vertices = false, maps = false; ///< maps: beside the vertices, VertexMaps
     bool points = false;
+    bool lines = false; ///< their width is dynamic where the device has wide ones
     Blending blending = Blending::none;
 };
 
@@ -166,8 +167,10 @@ vk::raii::Pipeline Pipelines::make(const Pass& pass) const
     if (pass.vertices)
         vertices = vk::PipelineVertexInputStateCreateInfo({}, pass.maps ? 2 : 1, bindings, pass.maps ? 6 : 4, attributes);
 
-    vk::PipelineInputAssemblyStateCreateInfo assembly(
-        {}, pass.points ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList);
+    vk::PipelineInputAssemblyStateCreateInfo assembly({},
+        pass.points      ? vk::PrimitiveTopology::ePointList
+            : pass.lines ? vk::PrimitiveTopology::eLineList
+                         : vk::PrimitiveTopology::eTriangleList);
     vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     vk::PipelineRasterizationStateCreateInfo raster;
     raster.lineWidth = 1;
@@ -188,6 +191,8 @@ vk::raii::Pipeline Pipelines::make(const Pass& pass) const
     std::vector<vk::DynamicState> dynamic = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
     if (pass.depth) // surfaces, and the sky between them
         dynamic.insert(dynamic.end(), {vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace});
+    if (pass.lines)
+        dynamic.push_back(vk::DynamicState::eLineWidth);
     vk::PipelineDynamicStateCreateInfo dynamics({}, dynamic);
     const std::vector<vk::Format> formats(pass.target.colours.begin(), pass.target.colours.end());
     vk::PipelineRenderingCreateInfo rendering(
@@ -213,10 +218,12 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
             std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), std::uint32_t(v.kinds), v.matrices,
             v.clock, v.finite_existence, v.several_rest_frames, v.lamps_move, v.blink, v.moves, v.unshifted, v.matt,
             v.roughness_map, v.normal_map, v.occlusion_map, std::uint32_t(v.shadows), v.blended, v.deforms, v.cones,
-            v.coefficients.with_alpha},
+            v.coefficients.with_alpha, v.topology == Topology::points},
         .depth = true,
         .vertices = true,
         .maps = v.mapped,
+        .points = v.topology == Topology::points,
+        .lines = v.topology == Topology::lines,
         .blending = v.blended ? Blending::over : Blending::none});
 }
 

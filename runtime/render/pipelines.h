@@ -1,6 +1,7 @@
 #pragma once
 #include "pipeline_layouts.h"
 #include "resources.h"
+#include "runtime/world/world.h"
 #include "shaders/shared_structs.h"
 #include <array>
 #include <map>
@@ -80,6 +81,7 @@ struct SurfaceVariant {
     bool blended = false; ///< drawn over what is behind it, by its alpha
     bool mapped = false; ///< gloss, or maps with coordinates of their own; the following hold for it alone
     bool matt = false, roughness_map = false, normal_map = false, occlusion_map = false;
+    Topology topology = Topology::triangles;
     auto operator<=>(const SurfaceVariant&) const = default;
 };
 /// A viewport's variant of the warp pass: constant_ids of view.glsl and received_light.glsl.

@@ -80,7 +80,7 @@ struct Occluders::Scene {
     {
         const Primitive& primitive = world.primitives[instance.primitive];
         const bool masks = world.materials[std::size_t(primitive.material)].alpha_cutoff > 0;
-        for (std::uint32_t i = 0; i + 2 < primitive.index_count; i += 3) {
+        for (std::uint32_t i = 0; primitive.topology == Topology::triangles && i + 2 < primitive.index_count; i += 3) {
             Triangle triangle{instance.primitive, {}};
             for (std::uint32_t k = 0; k < 3; ++k) {
                 triangle.corners[k] = world.indices[primitive.first_index + i + k] + std::uint32_t(primitive.vertex_offset);

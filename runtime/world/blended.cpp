@@ -156,9 +156,19 @@ void add_blended_triangles(World& world)
             continue;
         const auto add = [&](std::uint32_t first_index, std::uint32_t index_count) {
             BlendedRange range{std::uint32_t(world.blended_triangles.size())};
-            Divider divider(world, primitive, first_index, index_count);
-            for (std::uint32_t at = first_index; at < first_index + index_count; at += 3)
-                divider.add({world.indices[at], world.indices[at + 1], world.indices[at + 2]});
+            if (const std::uint32_t corners = corners_of(primitive.topology); corners == 3) {
+                Divider divider(world, primitive, first_index, index_count);
+                for (std::uint32_t at = first_index; at < first_index + index_count; at += 3)
+                    divider.add({world.indices[at], world.indices[at + 1], world.indices[at + 2]});
+            } else {
+                for (std::uint32_t at = first_index; at < first_index + index_count; at += corners) {
+                    const std::uint32_t a = world.indices[at], b = world.indices[at + corners - 1];
+                    const auto place = [&](std::uint32_t corner) {
+                        return world.vertices[corner + std::size_t(primitive.vertex_offset)].position;
+                    };
+                    world.blended_triangles.push_back({0.5f * (place(a) + place(b)), {a, b, b}});
+                }
+            }
             range.count = std::uint32_t(world.blended_triangles.size()) - range.first;
             return range;
         };

@@ -51,6 +51,8 @@ void add_clusters(World& world)
         const auto set_clusters = [&](DetailLevel& level) {
             level.clusters = clusters_of(world, primitive, level.first_index, level.index_count);
         };
+        if (primitive.topology != Topology::triangles)
+            continue;
         if (primitive.pieces.count == 0)
             primitive.clusters = clusters_of(world, primitive, primitive.first_index, primitive.index_count);
         for (std::uint32_t i = 0; i < primitive.pieces.count; ++i)

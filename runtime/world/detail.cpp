@@ -23,7 +23,8 @@ void add_detail_levels(World& world, const std::function<void(double)>& progress
     const auto add_levels = [&](std::size_t i) {
         Primitive& primitive = world.primitives[i];
         // A level's error holds in one pose alone.
-        if (primitive.index_count < worth_levels || primitive.deforming >= 0 || is_divided(world, primitive))
+        if (primitive.topology != Topology::triangles || primitive.index_count < worth_levels || primitive.deforming >= 0
+            || is_divided(world, primitive))
             return;
         Simplifier simplifier(world, primitive, {world.indices.data() + primitive.first_index, primitive.index_count});
         if (!simplifier.coherent())

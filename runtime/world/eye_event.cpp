@@ -21,7 +21,7 @@ EyeEvent eye_event_of(const RestFrameView& rest_frame, int frame, const glm::dve
     const glm::dvec3 offset = rest_frame.shot.ship_from_cockpit * place;
     return {frame, rest_frame.shot.position + physics::eye_place(rest_frame.shot.u, offset),
         rest_frame.shot.time + physics::eye_time(rest_frame.shot.u, offset), rest_frame.cube_from_frame, rest_frame.now,
-        rest_frame.contraction, rest_frame.beta};
+        rest_frame.contraction, rest_frame.beta, rest_frame.E, rest_frame.cube_from_motion * glm::dvec3(0, 0, 1)};
 }
 
 } // namespace starbow

@@ -125,9 +125,10 @@ std::vector<std::uint32_t> outer_vertices(const World& world, const Primitive& p
     for (std::uint32_t i = 0; i < primitive.index_count; ++i) {
         const std::uint32_t own = world.indices[primitive.first_index + i];
         const glm::vec4* row = &world.deforming[std::size_t(primitive.deforming) + DEFORMING_VERTEX_ROWS * std::size_t(own)];
-        for (int k = 0; k < 4; ++k)
-            if (row[3][k] > 0)
-                hulls[int(row[4][k])].add(glm::dvec3(row[0]), own + std::uint32_t(primitive.vertex_offset));
+        for (int k = 0; k < BONES_PER_VERTEX; ++k)
+            if (row[WEIGHTS_ROW + k / 4][k % 4] > 0)
+                hulls[int(row[BONES_ROW + k / 4][k % 4])].add(
+                    glm::dvec3(row[0]), own + std::uint32_t(primitive.vertex_offset));
     }
     std::set<std::uint32_t> outer;
     for (const auto& [bone, hull] : hulls)

@@ -1,4 +1,5 @@
 #include "open_scene.h"
+#include "boxes.h"
 #include "config/json/digits.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
@@ -40,6 +41,61 @@ std::optional<Shot> at_camera(const glm::dmat4& world_from_camera)
     start.position = glm::dvec3(world_from_camera[3]);
     start.ship_from_cockpit = orientation(look, up);
     return start;
+}
+
+/// True if a start shows the world well: from inside, or with its middle ahead and large enough.
+bool shows_well(const Shot& start, const AlignedBox& box)
+{
+    constexpr double least_rad = 0.5, most_aside = 0.85; // about half of a picture of 60 degrees; the cosine of 32 degrees
+    const glm::dvec3 centre = 0.5 * (box.low + box.high), towards = centre - start.position;
+    const double radius = 0.5 * glm::distance(box.low, box.high), distance = glm::length(towards);
+    if (!(distance > radius))
+        return true;
+    const glm::dvec3 look = start.ship_from_cockpit * glm::dvec3(0, 0, -1);
+    return 2 * std::asin(radius / distance) >= least_rad && glm::dot(look, towards) >= most_aside * distance;
+}
+
+/// The start of a world without a scene file: at its camera, or where that camera shows it too small or not at all, nearer
+/// on the same side; without a camera a little to the right and above.
+Shot start_of(const Outline& outline, const Middle& middle)
+{
+    glm::dvec3 away(0.35, 0.28, 1);
+    const std::optional<Shot> camera = outline.camera ? at_camera(*outline.camera) : std::nullopt;
+    if (camera && shows_well(*camera, middle.box))
+        return *camera;
+    if (camera) {
+        const glm::dvec3 back = camera->position - 0.5 * (middle.box.low + middle.box.high);
+        constexpr double steepest = 0.9; // of a way that is not upright
+        if (glm::length(back) > 0 && std::abs(back.y) < steepest * glm::length(back))
+            away = glm::normalize(back);
+    }
+    return overview(middle.box, middle.floor, away);
+}
+
+/// The ground for a world that has none: below its middle, as wide as makes its edge a horizon. None for points and lines
+/// alone, for a world that has a floor or stands in larger things, and for one that is seen from inside.
+std::optional<Ground> ground_of(const Outline& outline, const Middle& middle, const Shot& start)
+{
+    constexpr double widths = 30, gap = 2e-3, floor_part = 0.5; // gap: below a floor that is part of the thing
+    const glm::dvec3 size = middle.box.high - middle.box.low, centre = 0.5 * (middle.box.low + middle.box.high);
+    if (!outline.surfaces || outline.things.empty() || !(middle.across() > 0))
+        return {};
+    const bool inside = glm::all(glm::greaterThan(start.position, middle.box.low))
+        && glm::all(glm::lessThan(start.position, middle.box.high));
+    const bool has_floor = std::ranges::any_of(outline.things, [&](const AlignedBox& thing) {
+        const glm::dvec3 own = thing.high - thing.low;
+        return is_flat(thing) && thing.high.y < centre.y && own.x * own.z > floor_part * size.x * size.z;
+    });
+    AlignedBox all = outline.things[0];
+    for (const AlignedBox& thing : outline.things)
+        all = around(all, thing);
+    if (inside || has_floor || glm::distance(all.low, all.high) > 1.01 * middle.across())
+        return {};
+    Ground ground;
+    ground.middle = {centre.x, middle.box.low.y - gap * middle.across(), centre.z};
+    ground.half_width = widths * middle.across();
+    ground.colour = {0.23, 0.24, 0.21};
+    return ground;
 }
 
 /// The least round speed of light at which the file's own animations are slow enough for it.
@@ -151,12 +207,9 @@ SceneFile scene_around(const std::filesystem::path& gltf)
     const double slowest = outline.moves ? least_light_speed(outline, gltf) : 0;
     if (slowest > scene.light_speed_m_s)
         scene.light_speed_m_s = std::min(slowest, real_light_speed_m_s);
-    std::optional<Shot> camera;
-    if (outline.camera)
-        camera = at_camera(*outline.camera);
-    // A little to the right and above.
-    scene.start = camera.value_or(overview(middle.box, middle.floor, {0.35, 0.28, 1}));
+    scene.start = start_of(outline, middle);
     scene.start.scene = scene.name;
+    scene.ground = ground_of(outline, middle, scene.start);
     // A sun over the left shoulder of whoever looks from the start, so that forms have a light and a dark side.
     const glm::dmat3 axes = glm::mat3_cast(scene.start.ship_from_cockpit);
     const glm::dvec3 level(axes[2].x, 0, axes[2].z);
@@ -173,6 +226,8 @@ SceneFile scene_around(const std::filesystem::path& gltf)
     scene.ambient = {0.24, 0.26, 0.30};
     scene.shadows = true;
     scene.sky = {.zenith = {0.07, 0.14, 0.30}, .horizon = {0.42, 0.48, 0.55}, .nadir = {0.15, 0.14, 0.12}};
+    if (!outline.surfaces) // points and lines shine by themselves, and show best before the dark
+        scene.sky = {.zenith = {0.002, 0.003, 0.006}, .horizon = {0.004, 0.005, 0.008}, .nadir = {0.002, 0.003, 0.006}};
     scene.notes.push_back("it has no scene file: a unit is taken as 1 m, and light flies " + digits(scene.light_speed_m_s)
         + " m/s and crosses the world's " + digits(size) + " m in " + digits(size / scene.light_speed_m_s)
         + (slowest > 0 && slowest == scene.light_speed_m_s ? " s, because its animations must stay below a fifth of that"
@@ -221,7 +276,12 @@ std::string scene_text(const SceneFile& scene, const std::filesystem::path& fold
                 << ", \"distance\": " << shown(near->distance) << ", \"radiance\": " << list(near->radiance)
                 << (near->cone ? cone_text(*near->cone) : "") << " }";
     }
-    out << "\n    ],\n    \"start\": { \"position\": " << list(scene.start.position) << ", \"look\": " << list(-axes[2])
+    out << "\n    ],\n";
+    if (scene.ground)
+        out << "    \"ground\": { \"middle\": " << list(scene.ground->middle)
+            << ", \"half_width\": " << shown(scene.ground->half_width) << ", \"colour\": " << list(scene.ground->colour)
+            << " },\n";
+    out << "    \"start\": { \"position\": " << list(scene.start.position) << ", \"look\": " << list(-axes[2])
         << ", \"up\": " << list(axes[1]) << " }\n}\n";
     return out.str();
 }

@@ -12,7 +12,8 @@ SceneFile open_scene(const std::filesystem::path& file);
 Shot overview(const AlignedBox& box, double floor, const glm::dvec3& away);
 
 /// A scene for a glTF file that has none: a unit is a metre, light crosses the world in some ten seconds, and a sun, a
-/// sky and ambient light show it. The start is at the file's first camera, or where the whole world is in view. A note
+/// sky and ambient light show it. The start is at the file's first camera if
+/// that shows the world well, or where the whole world fills the view; points and lines alone stand before the dark. A note
 /// says so. Throws InputError.
 SceneFile scene_around(const std::filesystem::path& gltf);
 

@@ -26,6 +26,7 @@ struct Outline {
     std::vector<OutlineLamp> lamps;
     std::shared_ptr<const World> world; ///< where it had to be read as a whole; else null
     bool moves = false; ///< it has animations, or nodes that spin
+    bool surfaces = false; ///< it has triangles, not points and lines alone
 };
 
 /// The bounding box of a world's things without its backdrops, such as a ground to the horizon or a sphere painted as a sky.

@@ -135,8 +135,8 @@ void add_piece(World& world, const Part& part, std::uint32_t first_index, const 
 
 bool is_divided(const World& world, const Primitive& primitive)
 {
-    return primitive.index_count / 3 > most_triangles_of_a_surface && primitive.deforming < 0
-        && !world.materials[std::size_t(primitive.material)].blended;
+    return primitive.topology == Topology::triangles && primitive.index_count / 3 > most_triangles_of_a_surface
+        && primitive.deforming < 0 && !world.materials[std::size_t(primitive.material)].blended;
 }
 
 void add_pieces(World& world, Primitive& primitive, const std::function<void(double)>& progress, double from, double to)

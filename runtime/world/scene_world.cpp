@@ -4,6 +4,7 @@
 #include "globes.h"
 #include "sky_cache.h"
 #include <algorithm>
+#include <cmath>
 
 namespace starbow {
 
@@ -21,11 +22,50 @@ bool has_light(const World& world, const SceneFile& scene)
            });
 }
 
+/// Adds the ground as a node "ground": tiles, so that its shape and its speed can be seen.
+void add_ground(World& world, const Ground& ground)
+{
+    constexpr int across = 40; // tiles
+    constexpr double darker = 0.86;
+    const auto byte = [](double part) { return std::uint32_t(std::lround(255 * part)); };
+    Primitive made{};
+    made.first_index = std::uint32_t(world.indices.size());
+    made.vertex_offset = std::int32_t(world.vertices.size());
+    made.material = int(world.materials.size());
+    Material material{.name = "ground"};
+    material.base_colour = glm::vec4(glm::vec3(ground.colour), 1), material.double_sided = true;
+    world.materials.push_back(std::move(material));
+    const double tile = 2 * ground.half_width / across;
+    for (int j = 0; j < across; ++j)
+        for (int i = 0; i < across; ++i) {
+            const auto first = std::uint32_t(4 * (across * j + i));
+            const std::uint32_t shade = byte((i + j) % 2 ? darker : 1), colour = shade * 0x10101 | 0xff000000;
+            for (const glm::dvec2 corner : {glm::dvec2(0, 0), {0, 1}, {1, 1}, {1, 0}}) {
+                const glm::dvec2 at = (glm::dvec2(i, j) + corner) * tile - ground.half_width;
+                world.vertices.push_back({glm::vec3(at.x, 0, at.y), glm::vec3(0, 1, 0), glm::vec2(0), colour});
+            }
+            for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u})
+                world.indices.push_back(first + k);
+        }
+    made.index_count = std::uint32_t(world.indices.size()) - made.first_index;
+    made.high = glm::dvec3(ground.half_width, 0, ground.half_width), made.low = -made.high;
+    made.radius = glm::length(made.high);
+    glm::dmat4 place(1);
+    place[3] = glm::dvec4(ground.middle, 1);
+    world.instances.push_back({place, std::uint32_t(world.primitives.size()), int(world.nodes.size())});
+    world.primitives.push_back(made);
+    world.nodes.push_back({"ground", -1});
+    if (!world.vertex_maps.empty())
+        world.vertex_maps.resize(world.vertices.size());
+}
+
 } // namespace
 
 World load_world(const SceneFile& scene, const std::filesystem::path& cache)
 {
     World world = load_world(scene.gltf);
+    if (scene.ground)
+        add_ground(world, *scene.ground);
     world.notes.insert(world.notes.begin(), scene.notes.begin(), scene.notes.end());
     if (!has_light(world, scene))
         world.notes.insert(world.notes.begin(),

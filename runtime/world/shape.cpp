@@ -57,9 +57,9 @@ PlacedVertex Shape::vertex(std::uint32_t index)
         normal += weight(target) * glm::dvec3(added[1]);
     }
     glm::dmat4 mean(0);
-    for (int k = 0; k < 4; ++k)
-        if (row[3][k] != 0)
-            mean += double(row[3][k]) * bone(std::size_t(row[4][k]));
+    for (int k = 0; k < BONES_PER_VERTEX; ++k)
+        if (row[WEIGHTS_ROW + k / 4][k % 4] != 0)
+            mean += double(row[WEIGHTS_ROW + k / 4][k % 4]) * bone(std::size_t(row[BONES_ROW + k / 4][k % 4]));
     const glm::dmat3 turn(mean);
     // Cofactors transform normals under any scale.
     const glm::dmat3 cofactors(glm::cross(turn[1], turn[2]), glm::cross(turn[2], turn[0]), glm::cross(turn[0], turn[1]));

@@ -131,10 +131,10 @@ struct ClusterRange {
     std::uint32_t first = 0, count = 0;
 };
 
-/// A triangle of a blended surface. Each frame draws a surface's triangles in the order of their distances.
+/// A triangle of a blended surface, or a line or a point. Each frame draws a surface's in the order of their distances.
 struct BlendedTriangle {
     glm::vec3 middle; ///< local units
-    std::array<std::uint32_t, 3> corners; ///< as in World::indices
+    std::array<std::uint32_t, 3> corners; ///< as in World::indices; of a line the first two, of a point the first
 };
 
 /// A run of World::blended_triangles.
@@ -172,7 +172,15 @@ struct PieceRange {
     std::uint32_t first = 0, count = 0;
 };
 
-/// A run of triangles (always a list) with one material, a bounding box and a bounding sphere in its own frame.
+/// What a primitive's indices are: corners of triangles, pairs of ends, or single points.
+enum class Topology { triangles, lines, points };
+constexpr std::uint32_t corners_of(Topology topology)
+{
+    return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
+}
+
+/// A run of triangles, lines or points (always a list) with one material, a bounding box and a bounding sphere in its own
+/// frame.
 struct Primitive {
     std::uint32_t first_index, index_count;
     std::int32_t vertex_offset;
@@ -186,6 +194,8 @@ struct Primitive {
     int deforming = -1; ///< index into World::deforming of its first DeformingVertex; -1: its shape is rigid
     int displacements = -1; ///< index of its first Displacement there; a vertex has one for each target, one after another
     BlendedRange blended{}; ///< of the full surface, if it is blended
+    Topology topology
+        = Topology::triangles; ///< lines and points are as wide as a pixel, cast no shadow, have no coarser levels
 };
 
 /// A rest frame of a part of the world. Its axes are the world's, carried by the pure boost.

@@ -89,6 +89,53 @@ std::size_t central(const Reference& picture)
 
 } // namespace
 
+// A point is a disc of a pixel's area, a line a strip as wide as a pixel, however far away and however fast one passes: so
+// the sums of their light are known, and so is the middle's place, by the aberration's formula.
+TEST(Reference, PointsAndLinesAreAsWideAsAPixelAndAberrated)
+{
+    const auto strokes = [](Topology topology, const std::vector<dvec3>& places, std::vector<std::uint32_t> indices) {
+        Plates plates;
+        for (const dvec3& at : places)
+            plates.world.vertices.push_back({glm::vec3(at), glm::vec3(0), glm::vec2(0), 0xffffffff});
+        plates.world.indices = std::move(indices);
+        plates.world.primitives.push_back(
+            {0, std::uint32_t(plates.world.indices.size()), 0, 0, dvec3(-100), dvec3(100), dvec3(0), 200, {}});
+        plates.world.primitives[0].topology = topology;
+        plates.world.nodes.push_back({"strokes", -1});
+        plates.world.instances.push_back({glm::dmat4(1), 0, 0});
+        plates.world.materials = {{}};
+        plates.world.materials[0].unlit = true;
+        return plates;
+    };
+    constexpr int side = 60;
+    const Layout layout = one_view(Planar{.fov_y_deg = 30}, {side, side});
+    const double per_tangent = side / 2 / std::tan(15 * degree); // pixels
+    for (const double beta : {0.0, 0.5, -0.5})
+        for (const double far : {3.0, 300.0}) {
+            const dvec3 way = glm::normalize(dvec3(0.1, 0.05, -1));
+            Shot shot = shot_at(dvec3(0), dvec3(0, 0, -u_of_beta(beta)));
+            shot.effects.doppler = shot.effects.headlight = false;
+            Plates plates = strokes(Topology::points, {way * far}, {0});
+            const dvec3 seen = middle(plates.seen(shot, layout, {.samples = 256}));
+            // Straight ahead is -z: tan(half the angle) shrinks by sqrt((1 - beta) / (1 + beta)).
+            const double angle = std::acos(-way.z);
+            const double shown = 2 * std::atan(std::tan(angle / 2) * std::sqrt((1 - beta) / (1 + beta)));
+            const dvec2 across = glm::normalize(dvec2(way.x, -way.y)) * std::tan(shown) * per_tangent + side / 2.0;
+            // 256 rays of a pixel stand a sixteenth of it apart.
+            EXPECT_NEAR(seen.x, across.x, 1.0 / 16) << beta << ' ' << far;
+            EXPECT_NEAR(seen.y, across.y, 1.0 / 16) << beta << ' ' << far;
+            // Off the middle a flat picture's pixels look smaller, by the cube of the angle's cosine.
+            EXPECT_NEAR(seen.z, std::pow(std::cos(shown), -3), 1.0 / 16) << beta << ' ' << far;
+        }
+    const double half = std::tan(10 * degree) * 5;
+    Plates plates = strokes(Topology::lines, {{-half, 0, -5}, {half, 0, -5}, {half, 0, 5}}, {0, 1, 1, 2});
+    const dvec3 seen = middle(plates.seen(shot_at(dvec3(0), dvec3(0)), layout, {.samples = 64}));
+    // The second line leads past the eye: it shows from the first one's end to the picture's edge.
+    const double ends = per_tangent * std::tan(10 * degree);
+    EXPECT_NEAR(seen.z, ends + side / 2.0, 0.06 * side);
+    EXPECT_NEAR(seen.y, side / 2.0, 1.0 / 16);
+}
+
 TEST(Reference, LampsLightASurfaceByTheirRadiance)
 {
     Plates plates;

@@ -133,6 +133,86 @@ TEST_F(OpenSceneTest, TheFirstCameraIsTheStart)
     EXPECT_LT(glm::distance(scene.start.ship_from_cockpit * glm::dvec3(0, 1, 0), glm::dvec3(0, 1, 0)), 1e-9);
 }
 
+// Cameras of the kind that turntable previews leave: far away, or looking past the thing. The start is on their side, and
+// fills the view.
+TEST_F(OpenSceneTest, ACameraThatShowsTheWorldTooSmallIsNotTheStart)
+{
+    for (const bool past : {false, true}) {
+        Doc doc;
+        add_box(doc, {0, 0, 0}, {2, 1, 0.001});
+        doc.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+        const double r = std::sqrt(0.5);
+        Json node = {{"camera", 0}, {"translation", {1, 0.5, past ? 2.5 : 60.0}}};
+        if (past)
+            node["rotation"] = {0, r, 0, r}; // along -x
+        doc.json["scenes"][0]["nodes"].push_back(doc.put("nodes", node));
+        const SceneFile scene = open_scene(write("far.gltf", doc.text()));
+        double fills = 0;
+        for (const glm::dvec3& corner :
+            {glm::dvec3(0, 0, 0), glm::dvec3(2, 0, 0), glm::dvec3(2, 1, 0), glm::dvec3(0, 1, 0)}) {
+            const glm::dvec3 seen = seen_from(scene.start, corner);
+            ASSERT_LT(seen.z, 0);
+            fills = std::max({fills, std::abs(seen.x / seen.z) / std::tan(glm::radians(30.0)),
+                std::abs(seen.y / seen.z) / std::tan(glm::radians(23.0))});
+        }
+        EXPECT_NEAR(fills, 1, 0.02) << past;
+        EXPECT_GT(scene.start.position.z, 1) << "on the camera's side";
+    }
+}
+
+TEST_F(OpenSceneTest, PointsAndLinesAloneStandBeforeTheDark)
+{
+    Doc doc;
+    add_box(doc, {0, 0, 0}, {2, 1, 1});
+    EXPECT_GT(open_scene(write("solid.gltf", doc.text())).sky.horizon.g, 0.1);
+    doc.json["meshes"][0]["primitives"][0]["mode"] = 0;
+    EXPECT_LT(open_scene(write("cloud.gltf", doc.text())).sky.horizon.g, 0.02);
+}
+
+TEST_F(OpenSceneTest, AThingWithoutAFloorStandsOnAGround)
+{
+    Doc doc;
+    add_box(doc, {-1, 3, -1}, {1, 5, 1});
+    const SceneFile scene = open_scene(write("thing.gltf", doc.text()));
+    ASSERT_TRUE(scene.ground);
+    EXPECT_NEAR(scene.ground->middle.y, 3, 0.02);
+    EXPECT_LT(scene.ground->middle.y, 3) << "not in the plane of a floor that belongs to the thing";
+    EXPECT_GT(scene.ground->half_width, 50) << "its edge is the horizon";
+    // The written scene has it, too, and the world's last instance is drawn from it: level, facing up, under the thing
+    // alone.
+    const SceneFile again = load_scene_file(write("thing.json", scene_text(scene, folder)));
+    ASSERT_TRUE(again.ground);
+    EXPECT_EQ(again.ground->middle, scene.ground->middle);
+    EXPECT_NEAR(again.ground->half_width, scene.ground->half_width, 1e-3) << "written with six digits";
+    EXPECT_EQ(again.ground->colour, scene.ground->colour);
+    const World world = load_world(again);
+    ASSERT_EQ(world.instances.size(), 2u);
+    const Instance& instance = world.instances.back();
+    const Primitive& made = world.primitives[instance.primitive];
+    EXPECT_EQ(world.nodes[std::size_t(instance.node)].name, "ground");
+    double area = 0;
+    for (std::uint32_t i = 0; i < made.index_count; i += 3) {
+        glm::dvec3 at[3];
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const Vertex& vertex
+                = world.vertices[world.indices[made.first_index + i + k] + std::uint32_t(made.vertex_offset)];
+            EXPECT_EQ(vertex.normal, glm::vec3(0, 1, 0));
+            at[k] = glm::dvec3(instance.frame_from_local * glm::dvec4(glm::dvec3(vertex.position), 1));
+            EXPECT_NEAR(at[k].y, scene.ground->middle.y, 1e-9);
+        }
+        area += 0.5 * glm::cross(at[1] - at[0], at[2] - at[0]).y;
+    }
+    EXPECT_NEAR(area, 4 * scene.ground->half_width * scene.ground->half_width, 1e-3 * area) << "once, from above";
+    // None where there is one, in a room, and under points alone.
+    EXPECT_FALSE(open_scene(write("ground.gltf", cube_on_a_ground().text())).ground);
+    Doc floor;
+    add_box(floor, {-1, 0, -1}, {1, 2, 1});
+    add_box(floor, {-2, 0, -2}, {2, 0, 2});
+    EXPECT_FALSE(open_scene(write("floor.gltf", floor.text())).ground);
+    doc.json["meshes"][0]["primitives"][0]["mode"] = 0;
+    EXPECT_FALSE(open_scene(write("cloud.gltf", doc.text())).ground);
+}
+
 TEST_F(OpenSceneTest, TheWrittenSceneIsTheSuggestedOne)
 {
     const SceneFile scene = open_scene(write("cube.gltf", cube_on_a_ground().text()));

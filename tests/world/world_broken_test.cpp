@@ -154,7 +154,7 @@ TEST_F(WorldBrokenTest, EveryFaultIsNamedByItsPointer)
         {"/nodes/0/matrix", "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,2]", "/nodes/0/matrix: has a last row other"},
         {"/nodes/0", "{\"mesh\":0,\"scale\":[1,1,1],\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}",
             "/nodes/0: has a matrix and also"},
-        {"/nodes/0/mesh", "", "/scenes: shows no triangles"},
+        {"/nodes/0/mesh", "", "/scenes: shows nothing"},
         {"/scenes/0/nodes", "[0]", "/scenes/0/nodes/0: names node 0, which has a parent"},
         {"/scenes/0/nodes", "[1,1]", "/scenes/0/nodes/1: names node 1 twice"},
         {"/scenes/0/nodes", "[]", "/scenes/0/nodes: is a list of 0"},

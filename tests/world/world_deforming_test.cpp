@@ -84,6 +84,27 @@ TEST_F(WorldDeforming, ASkinHangsOnItsMovingJoints)
             1e-5);
 }
 
+// The first corner names the turning joint without a weight; of the second, a fifth set of weights turns with it.
+TEST_F(WorldDeforming, VerticesWithoutWeightsAndWithMoreThanFourMoveWithTheirJoints)
+{
+    Doc doc = skinned();
+    Json& attributes = doc.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = doc.accessor<std::uint8_t>({2, 0, 0, 0, 1, 1, 1, 1, 1, 0, 0, 0}, "VEC4");
+    attributes["WEIGHTS_0"] = doc.accessor<float>({0, 0, 0, 0, 0.125, 0.125, 0.125, 0.125, 1, 0, 0, 0}, "VEC4");
+    attributes["JOINTS_1"] = doc.accessor<std::uint8_t>({0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0}, "VEC4");
+    attributes["WEIGHTS_1"] = doc.accessor<float>({0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0, 0, 0}, "VEC4");
+    const World world = load(doc);
+    const Instance& instance = world.instances.at(0);
+    for (double time : {0.0, 2.5, 10.0, 17.0}) {
+        Shape shape(world, instance, time);
+        for (std::uint32_t i = 0; i < 3; ++i) // each is where the first test has it
+            EXPECT_LT(glm::distance(shape.vertex(std::uint32_t(world.primitives[0].vertex_offset) + i).place,
+                          corners_of_skinned(time)[i]),
+                1e-5)
+                << time << ", corner " << i;
+    }
+}
+
 /// The triangle whose corners move up by a target, and apart by another, with weights that change.
 Doc morphed(const char* interpolation = "LINEAR")
 {
@@ -186,7 +207,7 @@ TEST_F(WorldDeforming, PrimitivesOfOneMeshShareTheirPoses)
     EXPECT_EQ(cull(world, {{EyeEvent{0, {0, 0, 30}, 0}}}, images).instances.size(), 2u + POSES * 2);
 }
 
-TEST_F(WorldDeforming, AVertexWithoutWeightsStandsStill)
+TEST_F(WorldDeforming, AVertexWithoutWeightsMovesWithTheJointThatItNamesFirst)
 {
     Doc doc = skinned();
     doc.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"]
@@ -194,7 +215,8 @@ TEST_F(WorldDeforming, AVertexWithoutWeightsStandsStill)
     const World world = load(doc);
     Shape shape(world, world.instances[0], 10);
     const auto first = std::uint32_t(world.primitives[world.instances[0].primitive].vertex_offset);
-    EXPECT_LT(glm::distance(shape.vertex(first + 1).place, dvec3(2, 0, 0)), 1e-6);
+    // After 10 s the turning joint takes (x, y, z) to 2 (-(y - 1), x + 5, 0) - (0, 0, 3).
+    EXPECT_LT(glm::distance(shape.vertex(first + 1).place, dvec3(2 * 1, 2 * (2 + 5), -3)), 1e-5);
     EXPECT_LT(glm::distance(shape.vertex(first).place, corners_of_skinned(10)[0]), 1e-5);
 }
 

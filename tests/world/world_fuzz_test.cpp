@@ -222,9 +222,9 @@ void expect_valid_shape(const World& world, const Instance& instance)
     ASSERT_LE(std::size_t(primitive.displacements) + DISPLACEMENT_ROWS * std::size_t(deformation.targets) * vertices,
         world.deforming.size());
     for (std::uint32_t i = 0; i < vertices; ++i) {
-        const glm::vec4& bones = world.deforming[std::size_t(primitive.deforming) + DEFORMING_VERTEX_ROWS * i + 4];
-        for (int k = 0; k < 4; ++k)
-            ASSERT_TRUE(bones[k] >= 0 && bones[k] < float(deformation.bones.size()));
+        const glm::vec4* bones = &world.deforming[std::size_t(primitive.deforming) + DEFORMING_VERTEX_ROWS * i + BONES_ROW];
+        for (int k = 0; k < BONES_PER_VERTEX; ++k)
+            ASSERT_TRUE(bones[k / 4][k % 4] >= 0 && bones[k / 4][k % 4] < float(deformation.bones.size()));
         for (double time : {-1e7, 0.0, 1.5}) {
             Shape shape(world, instance, time);
             ASSERT_TRUE(glm::length(shape.vertex(std::uint32_t(primitive.vertex_offset) + i).place) < 1e60);

@@ -92,14 +92,53 @@ TEST_F(WorldMeshTest, IndicesMayHaveAnyType)
     EXPECT_EQ(corners(indexed<std::uint32_t>(*this, load_doc, {2, 0, 1})), turned);
 }
 
-TEST_F(WorldMeshTest, PointsAndLinesGiveOneWarning)
+TEST_F(WorldMeshTest, PointsAndLinesStayWhatTheyAre)
+{
+    // By glTF 2.0, section 3.7.2.1: points, pairs of ends, a loop that closes, and a strip.
+    const std::vector<std::vector<int>> right = {{0, 1, 2, 3}, {0, 1, 2, 3}, {0, 1, 1, 2, 2, 3, 3, 0}, {0, 1, 1, 2, 2, 3}};
+    const glm::vec3 places[] = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 3}};
+    for (const bool indexed : {false, true})
+        for (std::size_t mode = 0; mode < right.size(); ++mode) {
+            Doc doc;
+            Json primitive = {{"mode", mode},
+                {"attributes",
+                    {{"POSITION", doc.accessor<float>({0, 0, 0, 2, 0, 0, 2, 1, 0, 0, 1, 3}, "VEC3")},
+                        {"COLOR_0", doc.accessor<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}, "VEC3")}}}};
+            if (indexed)
+                primitive["indices"] = doc.accessor<std::uint8_t>({0, 1, 2, 3}, "SCALAR");
+            doc.show(primitive);
+            doc.json["nodes"][0]["scale"] = {-1, 1, 1}; // a mirrored one has no back either
+            const World world = load(doc);
+            EXPECT_EQ(world.notes, std::vector<std::string>{}) << mode;
+            ASSERT_EQ(world.primitives.size(), 1u);
+            EXPECT_EQ(world.primitives[0].topology, mode == 0 ? Topology::points : Topology::lines);
+            const std::vector<glm::vec3> at = corners(world);
+            ASSERT_EQ(at.size(), right[mode].size()) << mode;
+            for (std::size_t i = 0; i < at.size(); ++i)
+                EXPECT_EQ(at[i], places[right[mode][i]]) << mode << ' ' << i;
+            EXPECT_EQ(world.vertices.size(), 4u) << "ends are shared";
+            EXPECT_EQ(world.vertices[2].colour, 0xffff0000u);
+            EXPECT_EQ(world.primitives[0].high, glm::dvec3(2, 1, 3));
+            EXPECT_TRUE(world.materials[std::size_t(world.primitives[0].material)].unlit) << "they have no normals";
+        }
+}
+
+TEST_F(WorldMeshTest, PointsWithNormalsAreLitAndWrongCountsAreNamed)
 {
     Doc doc = triangle_doc();
-    for (int mode : {0, 1, 2, 3})
-        doc.show({{"mode", mode}, {"attributes", {{"POSITION", 0}}}});
-    World world = load(doc);
-    EXPECT_EQ(world.primitives.size(), 1u);
-    EXPECT_EQ(world.notes, (std::vector<std::string>{"points and lines are not surfaces and are not drawn"}));
+    const int material = doc.put("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1, 1}}}}});
+    Json attributes = {{"POSITION", 0}, {"NORMAL", doc.accessor<float>({0, 1, 0, 0, 1, 0, 0, 1, 0}, "VEC3")}};
+    doc.show({{"mode", 0}, {"attributes", attributes}, {"material", material}});
+    doc.show({{"mode", 2}, {"attributes", {{"POSITION", 0}}}, {"material", material}});
+    const World world = load(doc);
+    ASSERT_EQ(world.primitives.size(), 3u);
+    const auto look = [&](std::size_t i) { return world.materials[std::size_t(world.primitives[i].material)]; };
+    EXPECT_FALSE(look(1).unlit);
+    EXPECT_TRUE(look(2).unlit);
+    EXPECT_EQ(look(1).base_colour, glm::vec4(0.5, 0.25, 1, 1));
+    EXPECT_EQ(look(2).base_colour, glm::vec4(0.5, 0.25, 1, 1));
+    doc.json["meshes"].back()["primitives"][0]["mode"] = 1;
+    EXPECT_NE(complaint(doc).find("has 3 ends; lines take an even number"), std::string::npos) << complaint(doc);
 }
 
 TEST_F(WorldMeshTest, OnlyUsedVerticesAreKept)

@@ -268,6 +268,74 @@ TEST_F(WorldPackedTest, WebpIsThePicture)
     EXPECT_TRUE(complaint(doc).starts_with("/images/1: ")) << complaint(doc);
 }
 
+// The container by its specification, put together by hand: a canvas of 7 x 5, whose first frame is at (2, 2).
+TEST_F(WorldPackedTest, OfAnAnimatedWebpTheFirstFrameIsThePicture)
+{
+    const auto chunk = [](Bytes& to, const char* name, const Bytes& data) {
+        to.insert(to.end(), name, name + 4);
+        append32(to, std::uint32_t(data.size()));
+        to.insert(to.end(), data.begin(), data.end());
+        if (data.size() % 2)
+            to.push_back(0);
+    };
+    const auto put24 = [](Bytes& to, int value) {
+        to.insert(to.end(), {std::uint8_t(value), std::uint8_t(value >> 8), std::uint8_t(value >> 16)});
+    };
+    const auto still = [](const Bytes& rgba, bool lossy) {
+        std::uint8_t* encoded = nullptr;
+        const std::size_t size = lossy ? WebPEncodeRGBA(rgba.data(), 4, 2, 16, 90, &encoded)
+                                       : WebPEncodeLosslessRGBA(rgba.data(), 4, 2, 16, &encoded);
+        Bytes webp(encoded, encoded + size);
+        WebPFree(encoded);
+        return webp;
+    };
+    const auto animated = [&](const std::vector<Bytes>& frames, int left = 2) {
+        Bytes body{'W', 'E', 'B', 'P'}, canvas{0x12, 0, 0, 0}, all{'R', 'I', 'F', 'F'};
+        put24(canvas, 7 - 1), put24(canvas, 5 - 1);
+        chunk(body, "VP8X", canvas);
+        chunk(body, "ANIM", {0, 0, 0, 0, 0, 0});
+        for (const Bytes& frame : frames) {
+            Bytes data;
+            put24(data, left / 2), put24(data, 1), put24(data, 4 - 1), put24(data, 2 - 1), put24(data, 100);
+            data.push_back(0);
+            std::size_t from = 12; // behind RIFF, its size and WEBP
+            if (std::memcmp(frame.data() + from, "VP8X", 4) == 0)
+                from += 18;
+            data.insert(data.end(), frame.begin() + std::ptrdiff_t(from), frame.end());
+            chunk(body, "ANMF", data);
+        }
+        append32(all, std::uint32_t(body.size()));
+        all.insert(all.end(), body.begin(), body.end());
+        return all;
+    };
+    Bytes red, blue;
+    for (int i = 0; i < 8; ++i)
+        red.insert(red.end(), {200, 0, 0, 128}), blue.insert(blue.end(), {0, 0, 255, 255});
+    const auto with = [&](const Bytes& webp) {
+        Doc doc = triangle_doc();
+        doc.json["images"] = {{{"bufferView", doc.view(webp)}, {"mimeType", "image/webp"}}};
+        doc.json["textures"] = {{{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}};
+        doc.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+        doc.json["meshes"][0]["primitives"][0]["material"] = 0;
+        return doc;
+    };
+    for (const bool lossy : {false, true}) {
+        const World world = load(with(animated({still(red, lossy), still(blue, lossy)})));
+        ASSERT_EQ(world.textures.size(), 1u);
+        ASSERT_EQ(world.textures[0].size, glm::ivec2(7, 5));
+        for (int y = 0; y < 5; ++y)
+            for (int x = 0; x < 7; ++x) {
+                const std::uint8_t* texel = &world.textures[0].rgba[std::size_t(4 * (7 * y + x))];
+                const bool inside = x >= 2 && x < 6 && y >= 2 && y < 4;
+                EXPECT_NEAR(texel[3], inside ? 128 : 0, lossy ? 3 : 0) << x << ' ' << y;
+                EXPECT_NEAR(texel[0], inside ? 200 : 0, lossy ? 12 : 0) << x << ' ' << y;
+            }
+    }
+    // A frame that reaches beyond its canvas.
+    EXPECT_NE(complaint(with(animated({still(red, false)}, 4))).find("animated WebP whose first frame cannot be decoded"),
+        std::string::npos);
+}
+
 TEST_F(WorldPackedTest, ManyPlacesAreThoseOfAsManyNodes)
 {
     std::mt19937_64 random(3);

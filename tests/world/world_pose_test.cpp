@@ -1,4 +1,5 @@
 // Skins and morph targets that stand still, against the sums of their definition (glTF 2.0, sections 3.7.2.2 and 3.7.3).
+#include "runtime/world/outline.h"
 #include "tests/support/gltf_fixture.h"
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -92,6 +93,66 @@ TEST_F(WorldPoseTest, FaultsOfSkinsAreNamed)
         said("/skins/0/inverseBindMatrices", 0).starts_with("/skins/0/inverseBindMatrices: names accessor 0 of type VEC3"));
     EXPECT_TRUE(
         said("/skins/0/joints", Json{1, 2, 3}).starts_with("/skins/0/inverseBindMatrices: has 2 matrices; the skin has 3"));
+}
+
+// One vertex without weights, in a file in centimetres, as exporters leave it: it stays with its mesh.
+TEST_F(WorldPoseTest, AVertexWithoutWeightsHangsOnTheJointThatItNamesFirst)
+{
+    Doc doc = skinned();
+    Json& attributes = doc.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["WEIGHTS_0"] = doc.accessor<float>({1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC4");
+    attributes["JOINTS_0"] = doc.accessor<std::uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}, "VEC4");
+    const auto at = places(load(doc));
+    EXPECT_LT(glm::distance(at[1], glm::dvec3(2 + 1, 0, 0)), 1e-6) << "the second joint takes (x, y, z) to (x + 1, 3 y, z)";
+    EXPECT_LT(glm::distance(at[2], glm::dvec3(-(1 - 1 + 5), 0, 0)), 1e-6) << "the first one to (-(y - 1 + 5), x, z)";
+    attributes["JOINTS_0"] = doc.accessor<std::uint8_t>({0, 0, 0, 0, 77, 0, 0, 0, 0, 1, 0, 0}, "VEC4");
+    EXPECT_LT(glm::distance(places(load(doc))[1], glm::dvec3(-(0 - 1 + 5), 2, 0)), 1e-6) << "of joints that the skin has";
+}
+
+TEST_F(WorldPoseTest, MoreThanFourJointsMoveAVertex)
+{
+    Doc doc = skinned();
+    Json& attributes = doc.json["meshes"][0]["primitives"][0]["attributes"];
+    // Of the first vertex a quarter hangs on the first joint, the rest, in two sets, on the second one.
+    attributes["JOINTS_0"] = doc.accessor<std::uint8_t>({0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0}, "VEC4");
+    attributes["WEIGHTS_0"] = doc.accessor<float>({0.25, 0.25, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, "VEC4");
+    attributes["JOINTS_1"] = doc.accessor<std::uint8_t>({1, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0}, "VEC4");
+    attributes["WEIGHTS_1"] = doc.accessor<float>({0.25, 0.25, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0}, "VEC4");
+    const auto at = places(load(doc));
+    const glm::dvec3 first(-4, 0, 0), second(1, 0, 0); // where the joints take (0, 0, 0)
+    EXPECT_LT(glm::distance(at[0], 0.25 * first + 0.75 * second), 1e-6);
+    EXPECT_LT(glm::distance(at[2], glm::dvec3(1, 3, 0)), 1e-6) << "its weights are in the second set alone";
+    attributes["JOINTS_1"] = doc.accessor<std::uint8_t>({1, 2, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0}, "VEC4");
+    EXPECT_TRUE(complaint(doc).starts_with("/meshes/0/primitives/0/attributes/JOINTS_1: element 0 names joint 2"))
+        << complaint(doc);
+}
+
+TEST_F(WorldPoseTest, HiddenNodesAndAllBelowThemAreNotDrawn)
+{
+    Doc doc = triangle_doc();
+    const int mesh = doc.json["nodes"][0]["mesh"];
+    const auto hide = [](bool visible) { return Json{{"KHR_node_visibility", {{"visible", visible}}}}; };
+    const int child = doc.put("nodes", {{"mesh", mesh}, {"translation", {2, 0, 0}}, {"extensions", hide(true)}});
+    const int parent = doc.put("nodes", {{"mesh", mesh}, {"children", {child}}, {"extensions", hide(false)}});
+    const int shown = doc.put("nodes", {{"mesh", mesh}, {"translation", {3, 0, 0}}, {"extensions", hide(true)}});
+    doc.json["scenes"][0]["nodes"].push_back(parent);
+    doc.json["scenes"][0]["nodes"].push_back(shown);
+    doc.json["extensionsUsed"] = {"KHR_node_visibility"};
+    doc.json["extensionsRequired"] = {"KHR_node_visibility"};
+    const World world = load(doc);
+    EXPECT_EQ(world.notes, std::vector<std::string>{});
+    ASSERT_EQ(world.instances.size(), 2u);
+    EXPECT_EQ(world.instances[0].node, 0);
+    EXPECT_EQ(world.instances[1].node, shown);
+    Json& positions = doc.json["accessors"][0];
+    positions["min"] = {0, 0, 0}, positions["max"] = {2, 1, 0};
+    EXPECT_EQ(read_outline(write("world.gltf", doc.text())).things.size(), 2u);
+    doc.json["nodes"][std::size_t(shown)]["extensions"] = {{"KHR_node_visibility", {{"visible", "no"}}}};
+    EXPECT_TRUE(complaint(doc).starts_with("/nodes/3/extensions/KHR_node_visibility/visible")) << complaint(doc);
+    // A skin on joints that are hidden is drawn, where they take it.
+    Doc hidden = skinned();
+    hidden.json["nodes"][1]["extensions"] = hide(false), hidden.json["nodes"][2]["extensions"] = hide(false);
+    EXPECT_LT(glm::distance(places(load(hidden))[0], glm::dvec3(-4, 0, 0)), 1e-6);
 }
 
 TEST_F(WorldPoseTest, MorphTargetsAreAddedByTheirWeights)

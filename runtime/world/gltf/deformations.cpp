@@ -10,8 +10,9 @@ namespace {
 
 /// The file's data of a deforming primitive's vertices.
 struct DeformingSource {
-    Elements position, normal, joints, weights;
-    bool has_normal = false, has_joints = false;
+    Elements position, normal;
+    SkinSource skin;
+    bool has_normal = false;
     struct Target {
         Elements position, normal;
         bool has_position = false, has_normal = false;
@@ -26,10 +27,7 @@ DeformingSource open_deforming(WorldBuild& build, const tinygltf::Primitive& pri
     out.has_normal = primitive.attributes.contains("NORMAL");
     if (out.has_normal)
         out.normal = open(build, primitive.attributes.at("NORMAL"));
-    out.has_joints = !pose.joints.empty();
-    if (out.has_joints)
-        out.joints = open(build, primitive.attributes.at("JOINTS_0")),
-        out.weights = open(build, primitive.attributes.at("WEIGHTS_0"));
+    out.skin = open_skin(build, primitive, pose);
     for (const auto& target : primitive.targets) {
         DeformingSource::Target& to = out.targets.emplace_back();
         to.has_position = target.contains("POSITION"), to.has_normal = target.contains("NORMAL") && out.has_normal;
@@ -41,21 +39,14 @@ DeformingSource open_deforming(WorldBuild& build, const tinygltf::Primitive& pri
     return out;
 }
 
-/// The bones of a vertex and their weights, whose sum is 1. A vertex without any weight has the bone after all joints, which
-/// stands still.
-void put_bones(const DeformingSource& from, std::uint32_t i, std::size_t joints, shared::DeformingVertex& to)
+/// The bones of a vertex and their weights, whose sum is 1; of a mesh without a skin, the one that moves its node.
+void put_bones(const std::vector<Influence>& influences, shared::DeformingVertex& to)
 {
-    double sum = 0;
-    for (int k = 0; k < 4 && from.has_joints; ++k)
-        sum += std::max(from.weights.component(i, k), 0.0);
-    to.weights = glm::vec4(0), to.bones = glm::vec4(0);
-    if (!(sum > 0)) {
-        to.weights.x = 1, to.bones.x = float(joints);
-        return;
-    }
-    for (int k = 0; k < 4; ++k)
-        if (const double weight = from.weights.component(i, k); weight > 0)
-            to.weights[k] = float(weight / sum), to.bones[k] = float(from.joints.component(i, k));
+    if (influences.empty())
+        to.weights[0].x = 1;
+    for (std::size_t k = 0; k < influences.size(); ++k)
+        to.weights[k / 4][int(k % 4)] = float(influences[k].weight),
+                                  to.bones[k / 4][int(k % 4)] = float(influences[k].joint);
 }
 
 glm::dvec3 unit_or_zero(const glm::dvec3& v)
@@ -104,10 +95,9 @@ void add_deforming(WorldBuild& build, const std::string& place, const tinygltf::
                 normal += pose.weights[t] * element3(build, target.normal, vertex, place + "/targets");
         }
         shared::DeformingVertex row{};
-        put_bones(from, vertex, pose.joints.size(), row);
+        put_bones(influences_of(build, pose, from.skin, vertex, place), row);
         // Normals and tangents of the world's vertices are those of the file's own pose: the joints' turn is undone.
-        const glm::dmat3 turn(
-            from.has_joints ? skin_at(build, pose, from.joints, from.weights, vertex, place) : glm::dmat4(1));
+        const glm::dmat3 turn(from.skin.empty() ? glm::dmat4(1) : skin_at(build, pose, from.skin, vertex, place));
         if (!from.has_normal)
             normal = glm::transpose(turn) * glm::dvec3(world.vertices[own].normal);
         glm::dvec3 tangent(0);
@@ -196,9 +186,9 @@ std::map<int, Hanging> hanging_of(const WorldBuild& build, int node, const std::
                 reach += build.node_tracks.at(node).greatest_weights[t]
                     * double(glm::length(glm::dvec3(world.deforming[std::size_t(primitive.displacements)
                         + DISPLACEMENT_ROWS * (own * std::size_t(targets) + t)])));
-            for (int k = 0; k < 4; ++k)
-                if (row[3][k] > 0)
-                    all[int(row[4][k])].add(glm::dvec3(row[0]), reach, double(row[3][k]));
+            for (int k = 0; k < BONES_PER_VERTEX; ++k)
+                if (const float weight = row[WEIGHTS_ROW + k / 4][k % 4]; weight > 0)
+                    all[int(row[BONES_ROW + k / 4][k % 4])].add(glm::dvec3(row[0]), reach, double(weight));
         }
     }
     return all;
@@ -220,25 +210,23 @@ void put_joints(WorldBuild& build, Deformation& deformation, const tinygltf::Ski
     std::map<int, int> bone_of;
     for (const auto& [joint, _] : hanging) {
         bone_of.emplace(joint, int(deformation.bones.size()));
-        Motion motion{-1};
-        if (joint < int(skin.joints.size())) {
-            motion = motion_of(build, skin.joints[std::size_t(joint)]);
-            motion.joint_from_local = motion.joint_from_local * joint_from_mesh[std::size_t(joint)];
-            const double scale = motion.joint < 0 ? 1 : build.bounds[std::size_t(motion.joint)].scale;
-            for (int column = 0; column < 4; ++column)
-                if (!(scale * glm::length(motion.joint_from_local[column]) < too_far))
-                    build.fail("/nodes/" + std::to_string(skin.joints[std::size_t(joint)]),
-                        "leads beyond 1e30 as a joint of a skin; should stay below");
-        }
+        Motion motion = motion_of(build, skin.joints[std::size_t(joint)]);
+        motion.joint_from_local = motion.joint_from_local * joint_from_mesh[std::size_t(joint)];
+        const double scale = motion.joint < 0 ? 1 : build.bounds[std::size_t(motion.joint)].scale;
+        for (int column = 0; column < 4; ++column)
+            if (!(scale * glm::length(motion.joint_from_local[column]) < too_far))
+                build.fail("/nodes/" + std::to_string(skin.joints[std::size_t(joint)]),
+                    "leads beyond 1e30 as a joint of a skin; should stay below");
         deformation.bones.push_back({motion});
     }
     for (const std::uint32_t index : primitives) {
         const Primitive& primitive = world.primitives[index];
         const auto end = std::size_t(primitive.displacements);
         for (auto at = std::size_t(primitive.deforming); at < end; at += DEFORMING_VERTEX_ROWS) {
-            glm::vec4 &weights = world.deforming[at + 3], &bones = world.deforming[at + 4];
-            for (int k = 0; k < 4; ++k)
-                bones[k] = weights[k] > 0 ? float(bone_of.at(int(bones[k]))) : 0;
+            for (int k = 0; k < BONES_PER_VERTEX; ++k) {
+                float& bone = world.deforming[at + BONES_ROW + std::size_t(k / 4)][k % 4];
+                bone = world.deforming[at + WEIGHTS_ROW + std::size_t(k / 4)][k % 4] > 0 ? float(bone_of.at(int(bone))) : 0;
+            }
         }
     }
 }

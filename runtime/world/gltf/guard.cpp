@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array supported_extensions = {"KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_materials_ior",
     "KHR_texture_transform", "KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
-    "EXT_texture_webp", "EXT_mesh_gpu_instancing"};
+    "EXT_texture_webp", "EXT_mesh_gpu_instancing", "KHR_node_visibility"};
 
 /// Extensions without which a world is drawn nearly as it is meant, each with its stand-in.
 constexpr std::array<std::pair<const char*, const char*>, 9> stand_ins{

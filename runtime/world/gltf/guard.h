@@ -36,6 +36,7 @@ struct GuardedGltf {
     std::vector<std::span<const std::uint8_t>> images;
     std::vector<Material> surfaces; ///< by the file's materials: the members from their extras, the rest not set
     std::vector<std::optional<Spin>> spins; ///< one for each node in the file
+    std::vector<bool> hidden; ///< one for each node: it hides itself and all below it (KHR_node_visibility)
     std::vector<std::optional<Instancing>> instancing; ///< one for each node in the file
     MeshLimits limits;
     /// Numbers of those in the file; unpacked ones come after them.

@@ -135,9 +135,9 @@ const Legal* legal_for(const std::string& attribute)
         {TINYGLTF_TYPE_VEC4}, {TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_SHORT}};
     if (attribute == "TANGENT")
         return &tangents;
-    if (attribute == "JOINTS_0")
+    if (attribute.starts_with("JOINTS_"))
         return &joints;
-    if (attribute == "WEIGHTS_0")
+    if (attribute.starts_with("WEIGHTS_"))
         return &weights;
     if (attribute == "COLOR_0")
         return &colour;
@@ -162,6 +162,10 @@ void check_count(const JsonSpot& spot, int mode, std::size_t count, std::size_t 
         spot.fail("has " + std::to_string(count) + " corners; triangles take a multiple of 3");
     if (mode > TINYGLTF_MODE_TRIANGLES && count < 3)
         spot.fail("has " + std::to_string(count) + " corners; a strip or fan takes 3 or more");
+    if (mode == TINYGLTF_MODE_LINE && count % 2 != 0)
+        spot.fail("has " + std::to_string(count) + " ends; lines take an even number");
+    if ((mode == TINYGLTF_MODE_LINE_LOOP || mode == TINYGLTF_MODE_LINE_STRIP) && count < 2)
+        spot.fail("has " + std::to_string(count) + " ends; a strip or loop of lines takes 2 or more");
     if (count > most)
         spot.fail("has " + std::to_string(count) + " corners; at most " + std::to_string(most) + " are allowed here");
 }
@@ -195,7 +199,7 @@ void guard_primitive(const JsonSpot& primitive, tinygltf::Primitive& written, Gu
         const Legal* legal = legal_for(name);
         JsonSpot spot = attributes[name];
         if (!legal) {
-            // Starbow does not read further joints and colours, or application-specific attributes.
+            // Starbow does not read further colours, or application-specific attributes.
             index_into(spot, "accessor", out.stated_accessors);
             continue;
         }

@@ -80,6 +80,14 @@ std::optional<Instancing> guard_instancing(const JsonSpot& node, const JsonSpot&
     return instancing.count > 0 ? std::optional(instancing) : std::nullopt;
 }
 
+bool guard_hidden(const JsonSpot& node)
+{
+    if (!node.has("extensions") || !object(node["extensions"]).has("KHR_node_visibility"))
+        return false;
+    const JsonSpot visibility = object(node["extensions"]["KHR_node_visibility"]);
+    return visibility.has("visible") && !boolean(visibility["visible"]);
+}
+
 /// Checks the specification's strict trees: each node has at most one parent, and the children form no cycle.
 void check_trees(const JsonSpot& nodes, const std::vector<std::int64_t>& parent)
 {
@@ -112,6 +120,7 @@ void guard_nodes(const JsonSpot& root, GuardedGltf& out)
         guard_transform(node, written);
         out.spins.push_back(guard_spin(node));
         out.instancing.push_back(guard_instancing(node, root));
+        out.hidden.push_back(guard_hidden(node));
         if (node.has("name"))
             written.name = text(node["name"]);
         if (node.has("mesh"))

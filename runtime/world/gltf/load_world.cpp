@@ -145,20 +145,22 @@ void add_instances(WorldBuild& build)
         glm::dmat4 world_from_parent;
         int joint; // the next animated node above it
         glm::dmat4 joint_from_parent;
+        bool hidden; // by a node above it; its joints still move what hangs on them
     };
     std::vector<Visit> open;
     Made made;
     auto push_backwards = [&](const std::vector<int>& nodes, int parent, const glm::dmat4& world_from_parent, int joint,
-                              const glm::dmat4& joint_from_parent) {
+                              const glm::dmat4& joint_from_parent, bool hidden) {
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
-            open.push_back({*node, parent, world_from_parent, joint, joint_from_parent});
+            open.push_back({*node, parent, world_from_parent, joint, joint_from_parent, hidden});
     };
     for (const auto& node : build.model.nodes)
         build.world.nodes.push_back({node.name, -1});
-    push_backwards(root_nodes(build.model), -1, glm::dmat4(1), -1, glm::dmat4(1));
+    push_backwards(root_nodes(build.model), -1, glm::dmat4(1), -1, glm::dmat4(1), false);
     while (!open.empty()) {
-        auto [index, parent, world_from_parent, joint, joint_from_parent] = open.back();
+        auto [index, parent, world_from_parent, joint, joint_from_parent, hidden] = open.back();
         open.pop_back();
+        hidden = hidden || build.file.hidden[std::size_t(index)];
         build.world.nodes[std::size_t(index)].parent = parent;
         const auto& node = build.model.nodes[std::size_t(index)];
         glm::dmat4 world_from_local = world_from_parent * local_transform(node);
@@ -168,10 +170,10 @@ void add_instances(WorldBuild& build)
             joint_from_parent = glm::dmat4(1);
         } else
             joint_from_parent = joint_from_parent * local_transform(node);
-        push_backwards(node.children, index, world_from_local, joint, joint_from_parent);
+        push_backwards(node.children, index, world_from_local, joint, joint_from_parent, hidden);
         const Motion own{joint, joint < 0 ? world_from_local : joint_from_parent};
         build.node_motions.emplace(index, own);
-        if (node.mesh < 0)
+        if (node.mesh < 0 || hidden)
             continue;
         const StillPose pose = still_pose(build, index);
         const std::vector<std::uint32_t>& primitives = primitives_of(build, index, pose, made);
@@ -238,7 +240,8 @@ World load_world(const std::filesystem::path& path)
     add_tracks(build);
     add_instances(build);
     if (world.instances.empty())
-        throw InputError(file.name, "/scenes", "shows no triangles; a world needs at least one mesh of triangles");
+        throw InputError(
+            file.name, "/scenes", "shows nothing; a world needs at least one mesh of triangles, lines or points");
     if (!world.vertex_maps.empty())
         world.vertex_maps.resize(world.vertices.size());
     find_opaque_places(world);

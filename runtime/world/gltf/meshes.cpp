@@ -16,8 +16,9 @@ struct Target {
 };
 
 struct Attributes {
-    Elements position, normal, uv, colour, joints, weights;
-    bool has_normal = false, has_uv = false, has_colour = false, has_joints = false;
+    Elements position, normal, uv, colour;
+    SkinSource skin;
+    bool has_normal = false, has_uv = false, has_colour = false;
     std::vector<Target> targets;
     const StillPose& pose;
 };
@@ -45,8 +46,8 @@ Vertex read_vertex(WorldBuild& build, const Attributes& from, std::uint32_t i, c
         if (target.has_normal && from.has_normal)
             normal += target.weight * element3(build, target.normal, i, place + "/attributes/NORMAL");
     }
-    if (from.has_joints) {
-        const glm::dmat4 skin = skin_at(build, from.pose, from.joints, from.weights, i, place);
+    if (!from.skin.empty()) {
+        const glm::dmat4 skin = skin_at(build, from.pose, from.skin, i, place);
         position = glm::dvec3(skin * glm::dvec4(position, 1));
         // A joint scaled to nothing leaves no direction.
         const glm::dmat3 turned(skin);
@@ -79,6 +80,41 @@ std::array<std::size_t, 3> corners(int mode, std::size_t t)
     if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
         return {t + 1, t + 2, std::size_t(0)};
     return {3 * t, 3 * t + 1, 3 * t + 2};
+}
+
+Topology topology_of(int mode)
+{
+    return mode == TINYGLTF_MODE_POINTS  ? Topology::points
+        : mode < TINYGLTF_MODE_TRIANGLES ? Topology::lines
+                                         : Topology::triangles;
+}
+
+std::size_t corners_of(Topology topology) { return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3; }
+
+/// The number of points, lines or triangles that a list of so many vertices makes.
+std::size_t count_of_parts(int mode, std::size_t run)
+{
+    switch (mode) {
+    case TINYGLTF_MODE_POINTS:
+    case TINYGLTF_MODE_LINE_LOOP:
+        return run;
+    case TINYGLTF_MODE_LINE:
+        return run / 2;
+    case TINYGLTF_MODE_LINE_STRIP:
+        return run - 1;
+    case TINYGLTF_MODE_TRIANGLES:
+        return run / 3;
+    default:
+        return run - 2;
+    }
+}
+
+/// The positions of line `i`'s ends in the list of indices (glTF 2.0, section 3.7.2.1).
+std::array<std::size_t, 2> ends(int mode, std::size_t i, std::size_t lines)
+{
+    if (mode == TINYGLTF_MODE_LINE)
+        return {2 * i, 2 * i + 1};
+    return {i, mode == TINYGLTF_MODE_LINE_LOOP && i + 1 == lines ? 0 : i + 1};
 }
 
 glm::vec3 flat_normal(const Vertex& a, const Vertex& b, const Vertex& c)
@@ -119,7 +155,7 @@ Attributes open_attributes(
     out.has_normal = take("NORMAL", out.normal);
     out.has_uv = take("TEXCOORD_" + std::to_string(uv.set), out.uv);
     out.has_colour = take("COLOR_0", out.colour);
-    out.has_joints = !pose.joints.empty() && take("JOINTS_0", out.joints) && take("WEIGHTS_0", out.weights);
+    out.skin = open_skin(build, primitive, pose);
     for (std::size_t i = 0; i < primitive.targets.size() && i < pose.weights.size(); ++i) {
         if (pose.weights[i] == 0)
             continue;
@@ -161,7 +197,7 @@ struct Source {
     const UvSource& uv;
     Attributes attributes;
     Elements indices; ///< unset for a primitive without indices
-    std::size_t triangles = 0;
+    std::size_t parts = 0; ///< triangles, lines or points
     std::uint32_t vertex_offset = 0; ///< of its first vertex in the world
     bool mapped = false; ///< its material needs VertexMaps
     bool deforms = false;
@@ -176,6 +212,7 @@ Source open_source(
 {
     const Material& look = build.world.materials[std::size_t(material)];
     const UvSource& uv = build.uv[std::size_t(material)];
+    const Topology topology = topology_of(from.mode);
     Source source{
         from, place, uv, open_attributes(build, from, uv, look.base_texture >= 0 || look.emissive_texture >= 0, pose)};
     const Attributes& attributes = source.attributes;
@@ -186,14 +223,14 @@ Source open_source(
     if (from.indices >= 0)
         source.indices = open(build, from.indices);
     const std::size_t run = from.indices >= 0 ? source.indices.count : attributes.position.count;
-    source.triangles = from.mode == TINYGLTF_MODE_TRIANGLES ? run / 3 : run - 2;
-    const std::size_t corners = 3 * source.triangles;
+    source.parts = count_of_parts(from.mode, run);
+    const std::size_t corners = corners_of(topology) * source.parts;
     if (corners > build.corners_left)
         build.fail(
             place, "brings the world above " + std::to_string(build.file.limits.indices / 3) + " triangles; use fewer");
     build.corners_left -= corners;
     // Flat triangles never share corners.
-    make_room(build, place, attributes.has_normal ? 0 : corners, corners);
+    make_room(build, place, attributes.has_normal || topology != Topology::triangles ? 0 : corners, corners);
     // In exported files many primitives may share one long list of vertices; only those that this primitive uses are
     // copied.
     if (build.placed.size() < attributes.position.count)
@@ -203,24 +240,28 @@ Source open_source(
     return source;
 }
 
-/// The vertices of triangle `t`. Throws for an index beyond the vertices.
+/// The vertex at a position of the list of indices. Throws for one beyond the vertices.
+std::uint32_t read_index(const WorldBuild& build, const Source& source, std::size_t at)
+{
+    const std::uint32_t vertex = source.primitive.indices >= 0 ? source.indices.index(at) : std::uint32_t(at);
+    if (const std::size_t vertices = source.attributes.position.count; vertex >= vertices)
+        build.fail(source.place + "/indices",
+            "index " + std::to_string(at) + " is " + std::to_string(vertex) + "; the vertices are 0 to "
+                + std::to_string(vertices - 1));
+    return vertex;
+}
+
 std::array<std::uint32_t, 3> read_triangle(const WorldBuild& build, const Source& source, std::size_t t)
 {
     std::array<std::uint32_t, 3> corner;
     const auto which = corners(source.primitive.mode, t);
-    const std::size_t vertices = source.attributes.position.count;
-    for (int i = 0; i < 3; ++i) {
-        corner[i] = source.primitive.indices >= 0 ? source.indices.index(which[i]) : std::uint32_t(which[i]);
-        if (corner[i] >= vertices)
-            build.fail(source.place + "/indices",
-                "index " + std::to_string(which[i]) + " is " + std::to_string(corner[i]) + "; the vertices are 0 to "
-                    + std::to_string(vertices - 1));
-    }
+    for (std::size_t i = 0; i < 3; ++i)
+        corner[i] = read_index(build, source, which[i]);
     return corner;
 }
 
-/// Adds a triangle with the file's normals. It shares its vertices with the triangles before it.
-void add_smooth(WorldBuild& build, Source& source, const std::array<std::uint32_t, 3>& corner)
+/// Adds a triangle with the file's normals, a line or a point. It shares its vertices with those before it.
+void add_shared(WorldBuild& build, Source& source, std::span<const std::uint32_t> corner)
 {
     World& world = build.world;
     for (std::uint32_t vertex : corner) {
@@ -272,26 +313,32 @@ Elements open(WorldBuild& build, int accessor)
 bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::Primitive& from, const StillPose& pose)
 {
     World& world = build.world;
-    if (from.mode < TINYGLTF_MODE_TRIANGLES) {
-        note_once(world.notes, "points and lines are not surfaces and are not drawn");
-        return false;
-    }
     if (!from.attributes.contains("POSITION")) {
         note_once(world.notes, "meshes without positions are not drawn");
         return false;
     }
-    const int material = material_of(build, from.material);
+    const Topology topology = topology_of(from.mode);
+    const int material = topology == Topology::triangles
+        ? material_of(build, from.material)
+        : stroke_material_of(build, from.material, from.attributes.contains("NORMAL"));
     Source source = open_source(build, place, from, material, pose);
     Primitive made{};
     made.first_index = std::uint32_t(world.indices.size());
     made.vertex_offset = std::int32_t(source.vertex_offset);
     made.material = material;
-    for (std::size_t t = 0; t < source.triangles; ++t) {
+    made.topology = topology;
+    for (std::size_t i = 0; i < source.parts && topology == Topology::points; ++i)
+        add_shared(build, source, std::array{read_index(build, source, i)});
+    for (std::size_t i = 0; i < source.parts && topology == Topology::lines; ++i) {
+        const auto [begin, end] = ends(from.mode, i, source.parts);
+        add_shared(build, source, std::array{read_index(build, source, begin), read_index(build, source, end)});
+    }
+    for (std::size_t t = 0; t < source.parts && topology == Topology::triangles; ++t) {
         const std::array<std::uint32_t, 3> corner = read_triangle(build, source, t);
         if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0])
             continue; // strips use such triangles to turn; they cover no area
         if (source.attributes.has_normal)
-            add_smooth(build, source, corner);
+            add_shared(build, source, corner);
         else
             add_flat(build, source, corner);
     }
@@ -311,6 +358,8 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
 
 std::uint32_t turned_primitive(WorldBuild& build, std::uint32_t primitive)
 {
+    if (build.world.primitives[primitive].topology != Topology::triangles)
+        return primitive; // no side of it is its back
     auto [known, is_new] = build.turned.try_emplace(primitive, std::uint32_t(build.world.primitives.size()));
     if (!is_new)
         return known->second;

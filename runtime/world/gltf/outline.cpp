@@ -35,6 +35,15 @@ std::optional<AlignedBox> bounds_of_mesh(const JsonSpot& root, std::size_t mesh)
     return all;
 }
 
+bool has_triangles(const JsonSpot& root, std::size_t mesh)
+{
+    const JsonSpot primitives = root["meshes"][mesh]["primitives"];
+    for (std::size_t i = 0; i < list(primitives).size(); ++i)
+        if (integer_or(object(primitives[i]), "mode", TINYGLTF_MODE_TRIANGLES, 0, 6) >= TINYGLTF_MODE_TRIANGLES)
+            return true;
+    return false;
+}
+
 /// The file's lamps by their index, before they have a place.
 std::vector<OutlineLamp> lamps_of(const JsonSpot& root)
 {
@@ -135,6 +144,8 @@ Outline read_outline(const std::filesystem::path& path)
     while (!open.empty()) {
         const Open at = open.back();
         open.pop_back();
+        if (guarded.hidden[std::size_t(at.node)])
+            continue;
         const tinygltf::Node& node = model.nodes[std::size_t(at.node)];
         const glm::dmat4 world_from_local = at.world_from_parent * local_transform(node);
         const bool finite = glm::length(world_from_local[0]) < too_far && glm::length(world_from_local[1]) < too_far
@@ -148,6 +159,7 @@ Outline read_outline(const std::filesystem::path& path)
             outline.lamps.push_back(lamps[std::size_t(lamp)]);
             outline.lamps.back().world_from_lamp = world_from_local;
         }
+        outline.surfaces = outline.surfaces || (node.mesh >= 0 && has_triangles(root, std::size_t(node.mesh)));
         if (!placed_by_data && node.mesh >= 0 && meshes[std::size_t(node.mesh)])
             outline.things.push_back(transformed(*meshes[std::size_t(node.mesh)], world_from_local));
     }

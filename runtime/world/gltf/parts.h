@@ -47,6 +47,8 @@ struct WorldBuild {
     std::vector<UvSource> uv; ///< one for each of the world's materials: of Vertex::uv
     std::vector<std::array<int, 2>> map_sets; ///< and the sets of VertexMaps::uvs
     int default_material = -1;
+    std::map<std::pair<int, bool>, int>
+        stroke_materials; ///< by the file's material, and whether it is lit: of lines and points
     std::size_t sparse_bytes_left = GltfLimits::sparse_bytes;
     std::size_t corners_left = file.limits.indices; ///< remaining limit of corners, including those of empty triangles
     std::vector<std::uint32_t> placed; ///< memory of add_primitive: a vertex's new index, reset after each
@@ -77,6 +79,8 @@ Texture decode_image(const std::string& file, const std::string& place, std::spa
 /// Adds the materials, in the file's order, and the textures that they use.
 void add_materials(WorldBuild& build);
 int material_of(WorldBuild& build, int gltf_material);
+/// The material of lines and points: matt, and without lighting unless they have normals (glTF 2.0, section 3.7.2.1).
+int stroke_material_of(WorldBuild& build, int gltf_material, bool lit);
 
 /// joint_from_mesh of each joint of a skin.
 std::vector<glm::dmat4> inverse_bind_matrices(WorldBuild& build, const tinygltf::Skin& skin);
@@ -84,13 +88,34 @@ std::vector<glm::dmat4> inverse_bind_matrices(WorldBuild& build, const tinygltf:
 /// The file's own pose of a node's mesh.
 StillPose still_pose(WorldBuild& build, int node);
 
-/// The transform that the joints give vertex `i`: their mean by its weights (glTF 2.0, section 3.7.3.3). Throws InputError,
-/// at `place`, for a joint that the pose has not.
-glm::dmat4 skin_at(const WorldBuild& build, const StillPose& pose, const Elements& joints, const Elements& weights,
-    std::uint32_t i, const std::string& place);
+/// The joints and weights of a primitive's vertices, four in each set; empty where its pose has no joints.
+struct SkinSource {
+    struct Set {
+        Elements joints, weights;
+    };
+    std::vector<Set> sets;
+    bool empty() const { return sets.empty(); }
+};
+SkinSource open_skin(WorldBuild& build, const tinygltf::Primitive& primitive, const StillPose& pose);
+
+/// A joint of a vertex, and the part of its motion that the vertex takes.
+struct Influence {
+    int joint; ///< index into StillPose::joints
+    double weight;
+};
+/// The joints of vertex `i`, whose weights' sum is 1: of all sets, the BONES_PER_VERTEX strongest. A vertex without weights
+/// hangs on the joint that it names first, as it does in other programs: it stays with its mesh. Empty without a skin.
+/// Throws InputError, at `place`, for a joint that the pose has not.
+std::vector<Influence> influences_of(
+    const WorldBuild& build, const StillPose& pose, const SkinSource& skin, std::uint32_t i, const std::string& place);
+
+/// The transform that the joints give vertex `i`: their mean by its weights (glTF 2.0, section 3.7.3.3). Throws as
+/// influences_of.
+glm::dmat4 skin_at(
+    const WorldBuild& build, const StillPose& pose, const SkinSource& skin, std::uint32_t i, const std::string& place);
 
 /// Adds one glTF primitive as vertices and a list of triangles: in the world's frame if the pose has joints, in the mesh's
-/// without. Returns false for points and lines.
+/// without. Lines and points stay what they are. Returns false where nothing is left.
 bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::Primitive& primitive, const StillPose& pose);
 
 /// Gives the last primitive's vertices their VertexMaps. Where a normal map's tangents are computed, a vertex is doubled if

@@ -1,5 +1,6 @@
 #include "accessor.h"
 #include "parts.h"
+#include "shaders/shared_structs.h"
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -38,23 +39,58 @@ std::vector<glm::dmat4> transforms_of(const tinygltf::Model& model)
 
 } // namespace
 
-glm::dmat4 skin_at(const WorldBuild& build, const StillPose& pose, const Elements& joints, const Elements& weights,
-    std::uint32_t i, const std::string& place)
+SkinSource open_skin(WorldBuild& build, const tinygltf::Primitive& primitive, const StillPose& pose)
+{
+    SkinSource skin;
+    for (int set = 0; !pose.joints.empty(); ++set) {
+        const auto joints = primitive.attributes.find("JOINTS_" + std::to_string(set)),
+                   weights = primitive.attributes.find("WEIGHTS_" + std::to_string(set));
+        if (joints == primitive.attributes.end() || weights == primitive.attributes.end())
+            break;
+        skin.sets.push_back({open(build, joints->second), open(build, weights->second)});
+    }
+    return skin;
+}
+
+std::vector<Influence> influences_of(
+    const WorldBuild& build, const StillPose& pose, const SkinSource& skin, std::uint32_t i, const std::string& place)
+{
+    std::vector<Influence> all;
+    for (std::size_t set = 0; set < skin.sets.size(); ++set)
+        for (int k = 0; k < 4; ++k) {
+            const double weight = skin.sets[set].weights.component(i, k), joint = skin.sets[set].joints.component(i, k);
+            if (!(weight > 0)) // NaN neither
+                continue;
+            if (!(joint >= 0 && joint < double(pose.joints.size())))
+                build.fail(place + "/attributes/JOINTS_" + std::to_string(set),
+                    "element " + std::to_string(i) + " names joint "
+                        + std::to_string(std::int64_t(std::clamp(joint, -1.0, 1e9))) + "; the skin has "
+                        + std::to_string(pose.joints.size()));
+            all.push_back({int(joint), weight});
+        }
+    if (all.empty() && !skin.empty()) {
+        const double first = skin.sets[0].joints.component(i, 0);
+        return {{first >= 0 && first < double(pose.joints.size()) ? int(first) : 0, 1}};
+    }
+    if (all.size() > BONES_PER_VERTEX) {
+        std::ranges::stable_sort(all, std::ranges::greater(), &Influence::weight);
+        all.resize(BONES_PER_VERTEX);
+    }
+    double sum = 0;
+    for (const Influence& one : all)
+        sum += one.weight;
+    for (Influence& one : all)
+        one.weight /= sum;
+    return all;
+}
+
+glm::dmat4 skin_at(
+    const WorldBuild& build, const StillPose& pose, const SkinSource& skin, std::uint32_t i, const std::string& place)
 {
     glm::dmat4 sum(0);
-    double all = 0;
-    for (int k = 0; k < 4; ++k) {
-        const double weight = weights.component(i, k), joint = joints.component(i, k);
-        if (!(weight > 0)) // NaN neither
-            continue;
-        if (!(joint >= 0 && joint < double(pose.joints.size())))
-            build.fail(place + "/attributes/JOINTS_0",
-                "element " + std::to_string(i) + " names joint " + std::to_string(std::int64_t(std::clamp(joint, -1.0, 1e9)))
-                    + "; the skin has " + std::to_string(pose.joints.size()));
-        sum += weight * pose.joints[std::size_t(joint)];
-        all += weight;
-    }
-    return all > 0 ? sum / all : glm::dmat4(1);
+    for (const Influence& one : influences_of(build, pose, skin, i, place))
+        sum += one.weight * pose.joints[std::size_t(one.joint)];
+    return sum;
 }
 
 std::vector<glm::dmat4> inverse_bind_matrices(WorldBuild& build, const tinygltf::Skin& skin)

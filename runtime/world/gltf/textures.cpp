@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <stb/stb_image.h>
 #include <webp/decode.h>
 
@@ -20,6 +21,80 @@ constexpr std::ptrdiff_t jpeg_scans = 100;
 bool is_webp(std::span<const std::uint8_t> bytes)
 {
     return bytes.size() > 12 && std::memcmp(bytes.data(), "RIFF", 4) == 0 && std::memcmp(bytes.data() + 8, "WEBP", 4) == 0;
+}
+
+std::uint32_t little(std::span<const std::uint8_t> bytes, std::size_t at, int count)
+{
+    std::uint32_t value = 0;
+    for (int i = 0; i < count; ++i)
+        value |= std::uint32_t(bytes[at + std::size_t(i)]) << 8 * i;
+    return value;
+}
+
+/// The first frame of an animated WebP, a WebP of its own, and its place on the animation's canvas.
+struct FirstFrame {
+    std::vector<std::uint8_t> webp;
+    glm::ivec2 canvas, place;
+};
+
+/// The first frame by the container's specification (RIFF chunks VP8X, ANIM and ANMF); nullopt for a WebP of one picture.
+std::optional<FirstFrame> first_frame(std::span<const std::uint8_t> bytes)
+{
+    constexpr std::size_t header = 12, chunk_header = 8, extended = 10, frame_header = 16;
+    const auto is = [&](std::size_t at, const char* name) { return std::memcmp(bytes.data() + at, name, 4) == 0; };
+    if (bytes.size() < header + chunk_header + extended || !is(header, "VP8X") || !(bytes[header + chunk_header] & 2))
+        return {};
+    FirstFrame frame{{}, glm::ivec2(little(bytes, 24, 3), little(bytes, 27, 3)) + 1, {}};
+    for (std::size_t at = header; at + chunk_header <= bytes.size();) {
+        const std::size_t size = little(bytes, at + 4, 4), data = at + chunk_header;
+        if (size > bytes.size() - data)
+            return {};
+        if (is(at, "ANMF") && size >= frame_header) {
+            frame.place = 2 * glm::ivec2(little(bytes, data, 3), little(bytes, data + 3, 3));
+            const std::span<const std::uint8_t> own = bytes.subspan(data + frame_header, size - frame_header);
+            const bool opacity = own.size() > 4 && std::memcmp(own.data(), "ALPH", 4) == 0;
+            const auto put = [&](const char* name, std::uint32_t value) {
+                frame.webp.insert(frame.webp.end(), name, name + 4);
+                for (int i = 0; i < 4; ++i)
+                    frame.webp.push_back(std::uint8_t(value >> 8 * i));
+            };
+            put("RIFF", std::uint32_t(4 + (opacity ? chunk_header + extended : 0) + own.size()));
+            frame.webp.insert(frame.webp.end(), {'W', 'E', 'B', 'P'});
+            if (opacity) { // it needs the header that announces it
+                put("VP8X", extended);
+                frame.webp.insert(frame.webp.end(), {0x10, 0, 0, 0});
+                frame.webp.insert(
+                    frame.webp.end(), bytes.begin() + std::ptrdiff_t(data) + 6, bytes.begin() + std::ptrdiff_t(data) + 12);
+            }
+            frame.webp.insert(frame.webp.end(), own.begin(), own.end());
+            return frame;
+        }
+        at = data + size + size % 2;
+    }
+    return {};
+}
+
+/// The picture of an animation's first frame on its canvas, clear around it; null for a frame that cannot be decoded.
+std::uint8_t* decode_first(const FirstFrame& frame)
+{
+    glm::ivec2 size(0);
+    // A frame states a size of its own: one that is larger than its canvas is not decoded.
+    if (!WebPGetInfo(frame.webp.data(), frame.webp.size(), &size.x, &size.y)
+        || glm::any(glm::greaterThan(frame.place + size, frame.canvas)))
+        return nullptr;
+    std::unique_ptr<std::uint8_t, void (*)(void*)> own(
+        WebPDecodeRGBA(frame.webp.data(), frame.webp.size(), &size.x, &size.y), WebPFree);
+    if (!own)
+        return nullptr;
+    const std::size_t row = 4 * std::size_t(frame.canvas.x);
+    auto* all = static_cast<std::uint8_t*>(WebPMalloc(row * std::size_t(frame.canvas.y)));
+    if (!all)
+        return nullptr;
+    std::memset(all, 0, row * std::size_t(frame.canvas.y));
+    for (int y = 0; y < size.y; ++y)
+        std::memcpy(all + row * std::size_t(frame.place.y + y) + 4 * std::size_t(frame.place.x),
+            own.get() + 4 * std::size_t(size.x) * std::size_t(y), 4 * std::size_t(size.x));
+    return all;
 }
 
 std::string suspicion(std::span<const std::uint8_t> bytes, int& width, int& height)
@@ -282,13 +357,17 @@ Texture decode_image(
         throw InputError(file, place, problem);
     // The image's own channels: a grey one takes a quarter of the memory until it is small.
     const bool webp = is_webp(bytes);
-    std::unique_ptr<std::uint8_t, void (*)(void*)> decoded(webp
-            ? WebPDecodeRGBA(bytes.data(), bytes.size(), &from.size.x, &from.size.y)
-            : stbi_load_from_memory(bytes.data(), int(bytes.size()), &from.size.x, &from.size.y, &from.channels, 0),
+    const std::optional<FirstFrame> frame = webp ? first_frame(bytes) : std::nullopt;
+    std::unique_ptr<std::uint8_t, void (*)(void*)> decoded(frame ? decode_first(*frame)
+            : webp ? WebPDecodeRGBA(bytes.data(), bytes.size(), &from.size.x, &from.size.y)
+                   : stbi_load_from_memory(bytes.data(), int(bytes.size()), &from.size.x, &from.size.y, &from.channels, 0),
         webp ? WebPFree : stbi_image_free);
     if (!decoded)
         throw InputError(file, place,
-            webp ? "cannot be decoded; a whole WebP is right" : "cannot be decoded: " + std::string(stbi_failure_reason()));
+            frame
+                ? "is an animated WebP whose first frame cannot be decoded; a whole one, or a WebP of one picture, is right"
+                : webp ? "cannot be decoded; a whole WebP is right"
+                       : "cannot be decoded: " + std::string(stbi_failure_reason()));
     from.values = decoded.get();
     Texture out;
     out.size = glm::max(from.size >> halvings, 1);
@@ -399,6 +478,21 @@ int material_of(WorldBuild& build, int gltf_material)
         build.map_sets.push_back({-1, -1});
     }
     return build.default_material;
+}
+
+int stroke_material_of(WorldBuild& build, int gltf_material, bool lit)
+{
+    const auto [known, is_new] = build.stroke_materials.try_emplace({gltf_material, lit}, int(build.world.materials.size()));
+    if (!is_new)
+        return known->second;
+    const int from = gltf_material >= 0 ? gltf_material : -1;
+    Material made = from >= 0 ? build.world.materials[std::size_t(from)] : Material{.name = "default"};
+    made.gloss.reset(), made.emissive_map.reset();
+    made.unlit = made.unlit || !lit, made.double_sided = true;
+    build.world.materials.push_back(made);
+    build.uv.push_back(from >= 0 ? build.uv[std::size_t(from)] : UvSource{});
+    build.map_sets.push_back({-1, -1});
+    return known->second;
 }
 
 } // namespace starbow

@@ -20,17 +20,12 @@ void read_tangents(WorldBuild& build, const std::string& place, const tinygltf::
     const std::vector<std::uint32_t>& source, std::size_t first)
 {
     const Elements tangents = open(build, primitive.attributes.at("TANGENT"));
-    Elements joints, weights;
-    const bool skinned
-        = !pose.joints.empty() && primitive.attributes.contains("JOINTS_0") && primitive.attributes.contains("WEIGHTS_0");
-    if (skinned)
-        joints = open(build, primitive.attributes.at("JOINTS_0")),
-        weights = open(build, primitive.attributes.at("WEIGHTS_0"));
+    const SkinSource skin = open_skin(build, primitive, pose);
     for (std::size_t i = 0; i < source.size(); ++i) {
         const auto part = [&](int k) { return tangents.component(source[i], k); };
         glm::dvec3 along(part(0), part(1), part(2));
-        if (skinned)
-            along = glm::dmat3(skin_at(build, pose, joints, weights, source[i], place)) * along;
+        if (!skin.empty())
+            along = glm::dmat3(skin_at(build, pose, skin, source[i], place)) * along;
         const double length = glm::length(along);
         if (length > 0 && length < 1e300)
             build.world.vertex_maps[first + i].tangent = glm::vec4(along / length, part(3) < 0 ? -1 : 1);
