@@ -129,6 +129,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
         if (!image.needed)
             continue;
         set_guarded_area(commands, image);
+        commands.setLineWidth(line_width(image));
         if (image.rest_frame != std::exchange(rest_frame, image.rest_frame))
             uploads_.bind(commands, image.rest_frame);
         glm::dmat4 clip = clip_from_cube(image, near_distance);
@@ -184,10 +185,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
             push_constants();
         };
         const auto draw_surface = [&](const Draw& one) {
-            const SurfaceVariant variant = variant_of(one, use_.light);
-            bind(pipelines_.surface(variant, kind));
-            if (variant.topology == Topology::lines)
-                commands.setLineWidth(line_width(image));
+            bind(pipelines_.surface(variant_of(one, use_.light), kind));
             put_surface(one);
             commands.drawIndexed(
                 one.index_count, one.count, one.first_index, world.primitives[one.primitive].vertex_offset, one.first);

@@ -73,7 +73,7 @@ struct Pipelines::Pass {
     SpecializationConstants constants; ///< the same in both stages
     bool depth = false, vertices = false, maps = false; ///< maps: beside the vertices, VertexMaps
     bool points = false;
-    bool lines = false; ///< their width is dynamic where the device has wide ones
+    bool lines = false;
     Blending blending = Blending::none;
 };
 
@@ -190,9 +190,8 @@ vk::raii::Pipeline Pipelines::make(const Pass& pass) const
     vk::PipelineColorBlendStateCreateInfo blending({}, false, {}, blends);
     std::vector<vk::DynamicState> dynamic = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
     if (pass.depth) // surfaces, and the sky between them
-        dynamic.insert(dynamic.end(), {vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace});
-    if (pass.lines)
-        dynamic.push_back(vk::DynamicState::eLineWidth);
+        dynamic.insert(
+            dynamic.end(), {vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace, vk::DynamicState::eLineWidth});
     vk::PipelineDynamicStateCreateInfo dynamics({}, dynamic);
     const std::vector<vk::Format> formats(pass.target.colours.begin(), pass.target.colours.end());
     vk::PipelineRenderingCreateInfo rendering(

@@ -56,6 +56,8 @@ Together together(const Doc& doc, Json scene, const Layout& layout, const Shot& 
             dvec3 drawn(0), rays(0);
             for (int k = 0; k < side * side; ++k) {
                 const int i = (y + k / side) * truth.size.x + x + k % side;
+                if (!std::isfinite(numbers.light(i).r))
+                    continue; // beyond a dome's rim
                 drawn += numbers.light(i), rays += truth.light[0][std::size_t(i)] / truth.exposure;
             }
             off += glm::dot(drawn - rays, drawn - rays), all += glm::dot(rays, rays);
@@ -65,8 +67,11 @@ Together together(const Doc& doc, Json scene, const Layout& layout, const Shot& 
     return out;
 }
 
-void expect_equal(const char* name, const Together& seen, double light, double squares)
+/// Devices may give lines their width along columns or rows, so that slanting ones are up to 30 % thinner than the rays'
+/// lines, and a texel has four samples alone.
+void expect_equal(const char* name, const Together& seen)
 {
+    constexpr double light = 0.2, squares = 0.3;
     std::printf("%s: light %.3f %.3f %.3f times the reference's, squares off by %.3f\n", name, seen.live.r / seen.rays.r,
         seen.live.g / seen.rays.g, seen.live.b / seen.rays.b, seen.squares);
     for (int c = 0; c < 3; ++c)
@@ -86,26 +91,26 @@ Shot shot_of(const dvec3& u)
 TEST(Strokes, EqualTheReferenceAtAnySpeed)
 {
     const Layout flat = one_view(Planar{.fov_y_deg = 60}, {240, 180});
-    expect_equal("at rest", together(wires(), {}, flat, shot_of({0, 0, 0})), 0.1, 0.3);
-    expect_equal("ahead", together(wires(), {}, flat, shot_of({0, 0, -1.5})), 0.1, 0.3);
-    expect_equal("backwards", together(wires(), {}, flat, shot_of({0, 0, 0.6})), 0.1, 0.3);
-    expect_equal("aside", together(wires(), {}, flat, shot_of({0.8, 0.2, -0.3})), 0.1, 0.3);
+    expect_equal("at rest", together(wires(), {}, flat, shot_of({0, 0, 0})));
+    expect_equal("ahead", together(wires(), {}, flat, shot_of({0, 0, -1.5})));
+    expect_equal("backwards", together(wires(), {}, flat, shot_of({0, 0, 0.6})));
+    expect_equal("aside", together(wires(), {}, flat, shot_of({0.8, 0.2, -0.3})));
 }
 
 TEST(Strokes, EqualTheReferenceInADomeForTwoEyesAndWhenTheyMove)
 {
-    expect_equal("dome", together(wires(), {}, one_view(Fisheye{180, 60}, {240, 240}), shot_of({0.3, 0, -0.8})), 0.1, 0.3);
+    expect_equal("dome", together(wires(), {}, one_view(Fisheye{180, 60}, {240, 240}), shot_of({0.3, 0, -0.8})));
     Layout two = one_view(Planar{.fov_y_deg = 60}, {320, 120});
     two.outputs[0].packing = Packing::side_by_side;
     two.stereo.separation_m = 0.5, two.stereo.hyper_stereo = 299792458;
-    expect_equal("two eyes", together(wires(), {}, two, shot_of({0, 0, -0.5})), 0.1, 0.3);
+    expect_equal("two eyes", together(wires(), {}, two, shot_of({0, 0, -0.5})));
     Doc doc;
     strokes(doc, 1, {-2, -1, 0, 2, -1, 0, 2, -1, 0, 2, 1, 0, 2, 1, 0, -2, 1, 0}, {0.9, 0.8, 0.2}, {{"name", "body"}});
     strokes(doc, 0, {0, 0, -8, 1, 1, -8, -1, 1, -8}, {0.9, 0.8, 0.9});
     const Json body = {{"name", "frame"}, {"nodes", {"body"}},
         {"worldline", {{{"time", -100}, {"position", {-50, 0, -9}}}, {{"time", 100}, {"position", {50, 0, -9}}}}}};
     expect_equal("a body of lines",
-        together(doc, {{"bodies", {body}}}, one_view(Planar{.fov_y_deg = 60}, {240, 180}), shot_of({0, 0, -0.3})), 0.1, 0.3);
+        together(doc, {{"bodies", {body}}}, one_view(Planar{.fov_y_deg = 60}, {240, 180}), shot_of({0, 0, -0.3})));
 }
 
 } // namespace starbow::gpu_test::strokes_gpu_test
