@@ -1,59 +1,24 @@
 #include "file_name.h"
-#include "composed_letters.h"
 #include "error.h"
 #include "reader.h"
 #include <algorithm>
+#include <utf8proc.h>
 #include <vector>
 
 namespace starbow {
 namespace {
 
-/// The characters of UTF-8; a byte that is none stands for itself.
-std::u32string characters(const std::string& text)
-{
-    std::u32string all;
-    for (std::size_t i = 0; i < text.size();) {
-        const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(at < text.size() ? text[at] : 0); };
-        const unsigned char first = byte(i);
-        const std::size_t more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc0 ? 1 : 0;
-        char32_t c = more == 3 ? first & 7u : more == 2 ? first & 15u : more == 1 ? first & 31u : first;
-        bool whole = true;
-        for (std::size_t k = 1; k <= more; ++k) {
-            whole = whole && (byte(i + k) & 0xc0) == 0x80;
-            c = c << 6 | (byte(i + k) & 63u);
-        }
-        all.push_back(whole ? c : first);
-        i += whole ? 1 + more : 1;
-    }
-    return all;
-}
-
-/// Adds a character in parts.
-void decompose(char32_t c, std::u32string& to)
-{
-    constexpr char32_t hangul = 0xac00, hangul_end = 0xd7a4, vowels = 21, finals = 28; // the Unicode Standard, section 3.12
-    if (c >= hangul && c < hangul_end) {
-        const char32_t at = c - hangul;
-        to.push_back(0x1100 + at / (vowels * finals));
-        to.push_back(0x1161 + at % (vowels * finals) / finals);
-        if (at % finals != 0)
-            to.push_back(0x11a7 + at % finals);
-        return;
-    }
-    const auto* found
-        = std::ranges::lower_bound(composed_letters, c, {}, [](const ComposedLetter& l) { return char32_t(l.whole); });
-    if (found == std::end(composed_letters) || found->whole != c)
-        return to.push_back(c);
-    decompose(found->letter, to);
-    to.push_back(found->mark);
-}
-
+/// A name's characters, letters with marks in parts (Unicode's form NFD). Of a name that is no UTF-8, its bytes.
 std::u32string in_parts(const std::string& name)
 {
-    std::u32string parts;
-    for (const char32_t c : characters(name))
-        decompose(c, parts);
-    return parts;
+    const auto options = utf8proc_option_t(UTF8PROC_DECOMPOSE | UTF8PROC_STABLE);
+    const auto* bytes = reinterpret_cast<const utf8proc_uint8_t*>(name.data());
+    const auto length = utf8proc_ssize_t(name.size());
+    std::vector<utf8proc_int32_t> parts(4 * name.size() + 4); // a byte has fewer parts
+    const utf8proc_ssize_t count = utf8proc_decompose(bytes, length, parts.data(), utf8proc_ssize_t(parts.size()), options);
+    if (count < 0 || count > utf8proc_ssize_t(parts.size()))
+        return {bytes, bytes + length};
+    return {parts.begin(), parts.begin() + count};
 }
 
 /// The number of characters that differ, are missing or are too many, between two names.

@@ -75,6 +75,7 @@ void look_at(const Readings& shown, Faults& faults)
 {
     constexpr double most = 1e30;
     faults.outside("1 - v/c", shown.beta_deficit, 0, 1);
+    faults.outside("the view's cosine", shown.looked_cosine, -1, 1);
     faults.outside("gamma", shown.gamma, 0.999, most);
     faults.outside("the Doppler factor", shown.doppler_ahead, 0, most);
     for (const double number : {shown.ship_s, shown.world_s, shown.distance_m, shown.exposure_ev})

@@ -141,14 +141,28 @@ void lower(std::vector<Cell>& cells, const glm::ivec3& count)
                     for (int side = 0; side < 2; ++side) {
                         const double sign = side == 0 ? 1 : -1;
                         const auto part = [&](const Cell& cell) { return cell.s[k] + sign * cell.b[k]; };
-                        glm::ivec3 at(x, y, z);
-                        at[k] += int(sign);
+                        glm::ivec3 up(0);
+                        up[k] = int(sign);
                         seen[side] = part(before[own]);
-                        if (at[k] < 0 || at[k] >= count[k])
-                            continue;
-                        const double change = seen[side] - part(before[index(at)]);
-                        if (std::abs(change) < parted)
-                            seen[side] = std::clamp(seen[side] + change, 0.0, 1.0);
+                        // The mean change of the cells beside it: rays are few.
+                        double sum = 0;
+                        int changes = 0;
+                        for (int beside = 0; beside < 5; ++beside) {
+                            glm::ivec3 at(x, y, z);
+                            if (beside > 0)
+                                at[(k + 1 + (beside & 1)) % 3] += beside > 2 ? 1 : -1;
+                            const glm::ivec3 above = at + up;
+                            if (glm::any(glm::lessThan(glm::min(at, above), glm::ivec3(0)))
+                                || glm::any(glm::greaterThanEqual(glm::max(at, above), count)))
+                                continue;
+                            const double change = part(before[index(at)]) - part(before[index(above)]);
+                            if (std::abs(change) < parted)
+                                sum += change, ++changes;
+                            else if (beside == 0)
+                                break;
+                        }
+                        if (changes > 0)
+                            seen[side] = std::clamp(seen[side] + sum / changes, 0.0, 1.0);
                     }
                     cells[own].b[k] = 0.5 * (seen[0] - seen[1]), cells[own].s[k] = 0.5 * (seen[0] + seen[1]);
                 }

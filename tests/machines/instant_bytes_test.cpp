@@ -41,7 +41,7 @@ SharedInstant full()
     Written& hud = now.hud.emplace();
     hud.number = 12345678901;
     Readings& shown = hud.readings;
-    shown = {0.25, 4, 7.8, 10, 40, 1e9, 299792458, 59.9, {true, false, true, Comparison::no_light_delay, false},
+    shown = {0.25, 4, 7.8, 0.3, 10, 40, 1e9, 299792458, 59.9, {true, false, true, Comparison::no_light_delay, false},
         FlightMode::newtonian, true, 1.5, true};
     shown.range = {20, 8}, shown.lever = 0.3, shown.prompt = "Schieben Sie den Hebel vor";
     shown.caption = Caption{"Wohin zuerst?", {"Sonne", "Mond"}, 1, 0, "noch 5 s", true, true};

@@ -234,7 +234,8 @@ TEST_F(WorldMaterialTest, AlphaModesAndSidesAreRead)
     EXPECT_TRUE(load(doc).materials[0].double_sided);
     doc.json["materials"][0]["alphaCutoff"] = 0.25;
     EXPECT_EQ(load(doc).materials[0].alpha_cutoff, 0.25f);
-    doc.json["materials"] = {{{"alphaMode", "BLEND"}}, {{"alphaMode", "BLEND"}}};
+    const Json glass = {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}}};
+    doc.json["materials"] = {glass, glass};
     EXPECT_EQ(load(doc).materials[0].alpha_cutoff, 0);
     EXPECT_TRUE(load(doc).materials[0].blended);
     EXPECT_TRUE(load(doc).notes.empty());

@@ -89,8 +89,6 @@ Topology topology_of(int mode)
                                          : Topology::triangles;
 }
 
-std::size_t corners_of(Topology topology) { return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3; }
-
 /// The number of points, lines or triangles that a list of so many vertices makes.
 std::size_t count_of_parts(int mode, std::size_t run)
 {
