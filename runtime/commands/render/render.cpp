@@ -35,12 +35,13 @@ struct RenderOptions {
 
 std::vector<std::string> reference_arguments(const RenderOptions& options)
 {
-    std::vector<std::string> arguments{reference_tool.name, "--samples=" + std::to_string(options.samples),
-        "--shot=" + options.shot, "--scene=" + options.scene, "--out=" + options.out};
-    if (!options.layout.empty())
-        arguments.push_back("--layout=" + options.layout);
-    if (!options.size.empty())
-        arguments.push_back("--size=" + options.size);
+    std::vector<std::string> arguments{
+        reference_tool.name, "--samples=" + std::to_string(options.samples), "--out=" + options.out};
+    // An option without a value would take the next one for it.
+    for (const auto& [name, value] : {std::pair("--shot=", &options.shot), {"--scene=", &options.scene},
+             {"--layout=", &options.layout}, {"--size=", &options.size}})
+        if (!value->empty())
+            arguments.push_back(name + *value);
     if (options.exr)
         arguments.push_back("--exr");
     return arguments;
