@@ -111,8 +111,10 @@ double least_light_speed(const Outline& outline, const std::filesystem::path& gl
 constexpr std::size_t most_lamps = 8;
 
 /// The file's own lamps, as bright together at the world's middle as the suggested sun; the brightest there first. In
-/// glTF lamps have lux and candela, here a white surface that faces all of them is as bright as the picture's white.
-std::vector<Light> lights_of(const Outline& outline, const Middle& middle)
+/// glTF lamps have lux and candela, here a white surface that faces all of them is as bright as the picture's white: all are
+/// scaled by one factor. lux_in_all: is set to their illuminance at
+/// the middle.
+std::vector<Light> lights_of(const Outline& outline, const Middle& middle, double& lux_in_all)
 {
     const glm::dvec3 centre = 0.5 * (middle.box.low + middle.box.high);
     struct Lit {
@@ -138,12 +140,12 @@ std::vector<Light> lights_of(const Outline& outline, const Middle& middle)
     std::ranges::sort(lit, std::greater(), &Lit::lux);
     if (lit.size() > most_lamps)
         lit.resize(most_lamps);
-    double sum = 0;
+    lux_in_all = 0;
     for (const Lit& one : lit)
-        sum += one.lux;
+        lux_in_all += one.lux;
     std::vector<Light> lights;
     for (Lit& one : lit) {
-        std::visit([&](auto& light) { light.radiance /= sum; }, one.light);
+        std::visit([&](auto& light) { light.radiance /= lux_in_all; }, one.light);
         lights.push_back(std::move(one.light));
     }
     return lights;
@@ -217,8 +219,11 @@ SceneFile scene_around(const std::filesystem::path& gltf)
     scene.lights = {
         DirectionalLight{glm::normalize(0.6 * back - 0.6 * glm::cross(glm::dvec3(0, 1, 0), back) + glm::dvec3(0, 0.75, 0)),
             glm::dvec3(0.95, 0.89, 0.79), {}}};
-    if (std::vector<Light> own = lights_of(outline, middle); !own.empty()) {
+    double lux = 0;
+    if (std::vector<Light> own = lights_of(outline, middle, lux); !own.empty()) {
         scene.lights = std::move(own);
+        scene.notes.push_back("its lamps are scaled by one factor: the " + digits(lux)
+            + " lux at its middle make a white surface as bright as the picture's white");
         if (outline.lamps.size() > scene.lights.size())
             scene.notes.push_back("of its " + std::to_string(outline.lamps.size()) + " lamps "
                 + std::to_string(scene.lights.size()) + " shine: the brightest at its middle");

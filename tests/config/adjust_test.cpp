@@ -80,6 +80,7 @@ TEST(Adjust, StaysInTheRangeAndOnWholeSteps)
     layout.outputs[0].name = "dome";
     layout.outputs[0].viewports = {{.projection = Fisheye{.tilt_deg = 29.97}}};
     layout.blend.ramps = true;
+    layout.hud.emplace();
     const std::vector<Adjustable> all = adjustables(layout);
     EXPECT_EQ(value_of(adjusted(layout, named(all, "dome, tilt"), 1), named(all, "dome, tilt")), 30.07);
     EXPECT_EQ(value_of(adjusted(layout, named(all, "dome, tilt"), 1e6), named(all, "dome, tilt")), 180);

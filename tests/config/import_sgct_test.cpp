@@ -355,7 +355,7 @@ TEST(ImportSgctTest, TwoEyesGetTheFactorOfTheShippedWorlds)
     EXPECT_EQ(stereo(with(sphere), R"("stereo": "top_bottom",)"), two);
     EXPECT_EQ(stereo(with(sphere, R"(, "eye": "left")"), ""), two);
     EXPECT_TRUE(has(imported(config(with(sphere), R"("stereo": "top_bottom",)", users)),
-        "/nodes/0  -> /stereo/hyper_stereo 150000000, for the shipped worlds, whose unit is a light-second; 1 for worlds "
+        "/nodes  -> /stereo/hyper_stereo 150000000, for the shipped worlds, whose unit is a light-second; 1 for worlds "
         "in "
         "metres"));
 }

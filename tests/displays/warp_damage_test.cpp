@@ -167,7 +167,7 @@ TEST(WarpDamageTest, FaultsInSkyskanAreNamed)
 TEST(WarpDamageTest, FaultsInObjAreNamed)
 {
     expect_refused("a.obj",
-        {{"v 1 2\n", "line 1", "is not a vertex; v x y z is right"}, {"v 1 2 z\n", "line 1", "\"z\" is not a number"},
+        {{"v 1 2\n", "line 1", "is not a vertex; v x y z, with a colour r g b after it or without, is right"}, {"v 1 2 z\n", "line 1", "\"z\" is not a number"},
             {with(obj, "f 1/1/1", "f 5/1/1"), "line 10",
                 "\"5\" is not the number of a vertex before it; one from 1 to 4 is right"},
             {with(obj, "f 1/1/1", "f 1/5/1"), "line 10", "\"5\" is not the number of a vt before it"},

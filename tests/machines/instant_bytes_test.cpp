@@ -133,7 +133,7 @@ TEST(InstantBytesTest, WhatIsNoInstantIsRefused)
     EXPECT_EQ(complaint(longer), "a state of the exhibit's machines has 1 bytes too many");
     other[0] = 99;
     EXPECT_EQ(complaint(other),
-        "a state of the exhibit's machines has version 99; the same program, with version 2, on all machines is right");
+        "a state of the exhibit's machines has version 99; the same program, with version 3, on all machines is right");
     SharedInstant none = full();
     none.instant.shot.position.x = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(complaint(bytes_of(none)), "a state of the exhibit's machines has a number that is none");

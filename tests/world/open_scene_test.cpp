@@ -270,7 +270,8 @@ TEST_F(OpenSceneTest, TheFilesOwnLampsShine)
     EXPECT_NEAR(glm::dot(far.radiance, weights) / glm::dot(near.radiance, weights), 2 / (0.2126 * 0.5), 1e-9);
     EXPECT_NEAR(glm::dot(far.radiance + near.radiance, weights), 1, 1e-9);
     EXPECT_EQ(near.radiance.g, 0);
-    EXPECT_EQ(scene.notes.size(), 2u); // no scene file, one lamp is dark
+    ASSERT_EQ(scene.notes.size(), 3u); // all lamps are scaled, one is dark, no scene file
+    EXPECT_TRUE(scene.notes[0].find(" 2.11 lux ") != std::string::npos) << scene.notes[0];
     ASSERT_TRUE(near.cone);
     EXPECT_LT(glm::distance(near.cone->axis, glm::dvec3(0, 0, -1)), 1e-12);
     EXPECT_EQ(near.cone->inner_rad, 0);
