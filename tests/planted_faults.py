@@ -36,7 +36,7 @@ FAULTS = [
     ("input", "input/switches.h", '&Controls::look_ahead, Leap::press', '&Controls::look_ahead, Leap::none', "CalmTest.*"),
     ("input", "input/switches.h", '&Controls::overlay, Leap::press', '&Controls::overlay, Leap::none', "CalmTest.*"),
     ("input", "input/switches.h", '&Controls::why, Leap::press', '&Controls::why, Leap::none', "CalmTest.*"),
-    ("input", "input/calm.cpp", 'lever_per_s = 4,', 'lever_per_s = 40,', "CalmTest.*"),
+    ("input", "input/switches.h", 'Way::place, 4,', 'Way::place, 40,', "CalmTest.*"),
     ("input", "input/presence.cpp", 'one.pressed != &Controls::taken;',
      'one.pressed != &Controls::taken && one.pressed != &Controls::beside;', "PresenceTest.*"),
     ("input", "input/presence.cpp", 'one.pressed != &Controls::taken;',
