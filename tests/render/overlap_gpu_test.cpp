@@ -94,6 +94,7 @@ Layout inset()
 {
     Layout layout = one_view(Planar{90}, size);
     layout.outputs[0].colour.gamma = 2.2;
+    layout.hud.emplace(); // at the same place with the inset and without it
     layout.outputs[0].viewports.push_back({.rect = {0.25, 0.25, 0.5, 0.5}, .projection = Planar{40}, .order = 1});
     return layout;
 }
