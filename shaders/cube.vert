@@ -8,7 +8,7 @@ layout(constant_id = 10) const bool FINITE_EXISTENCE = false;
 layout(constant_id = 13) const bool BLINK = false;
 layout(constant_id = 14) const bool MOVES = false; // animated
 layout(constant_id = 22) const bool DEFORMS = false; // and of a changing shape
-layout(constant_id = 25) const bool POINTS = false;
+layout(constant_id = 25) const int TOPOLOGY = 0; // Topology; pipelines that differ in it alone must not be taken for each other
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 1) readonly buffer Instances { InstanceEntry instances[]; };
@@ -136,7 +136,7 @@ void main()
     if (CLOCK || FINITE_EXISTENCE || BLINK)
         out_instance = visible[gl_InstanceIndex];
     gl_Position = vec4(dot(push.clip_x, place), dot(push.clip_y, place), push.surface.x, dot(push.clip_w, place));
-    if (POINTS) {
+    if (TOPOLOGY == 2) { // points
         // A pixel's angle grows by D from the ship to this frame; on the face it grows with the distance from its middle.
         vec3 n = normalize(place.xyz);
         float middle = gl_Position.w * inversesqrt(dot(place.xyz, place.xyz));

@@ -217,7 +217,7 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
             std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), std::uint32_t(v.kinds), v.matrices,
             v.clock, v.finite_existence, v.several_rest_frames, v.lamps_move, v.blink, v.moves, v.unshifted, v.matt,
             v.roughness_map, v.normal_map, v.occlusion_map, std::uint32_t(v.shadows), v.blended, v.deforms, v.cones,
-            v.coefficients.with_alpha, v.topology == Topology::points},
+            v.coefficients.with_alpha, std::uint32_t(v.topology)},
         .depth = true,
         .vertices = true,
         .maps = v.mapped,

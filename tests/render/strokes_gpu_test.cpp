@@ -95,6 +95,10 @@ TEST(Strokes, EqualTheReferenceAtAnySpeed)
     expect_equal("ahead", together(wires(), {}, flat, shot_of({0, 0, -1.5})));
     expect_equal("backwards", together(wires(), {}, flat, shot_of({0, 0, 0.6})));
     expect_equal("aside", together(wires(), {}, flat, shot_of({0.8, 0.2, -0.3})));
+    // A surface that differs from the lines in its topology alone: each has a pipeline of its own.
+    Doc both = wires();
+    quad(both, {0, 0, -30}, {6, 0, 0}, {0, 6, 0}, unlit(both, {0, 0, 1}));
+    expect_equal("before a surface", together(both, {}, flat, shot_of({0, 0, 0})));
 }
 
 TEST(Strokes, EqualTheReferenceInADomeForTwoEyesAndWhenTheyMove)
