@@ -170,6 +170,13 @@ struct Door {
     Refusals& refusals;
     Names* names; ///< of nodes; null: the messages have none
     std::atomic<dds_instance_handle_t> only{0}; ///< the writer that is heard; 0: any
+    bool of_nodes = false; ///< nodes write such messages as well, so that another writer is no second master
+
+    void refuse_another() const
+    {
+        if (!of_nodes)
+            refusals.add([] { return "comes from a second master of this exhibit; one master is right"; });
+    }
 };
 
 template <class Sample> bool lets_in(const void* message, const dds_sample_info_t* info, void* door_of_reader)
@@ -186,7 +193,7 @@ template <class Sample> bool lets_in(const void* message, const dds_sample_info_
     }
     const dds_instance_handle_t only = door.only;
     if (only != 0 && info->publication_handle != only) {
-        door.refusals.add([] { return "comes from a second master of this exhibit; one master is right"; });
+        door.refuse_another();
         return false;
     }
     if constexpr (requires { sample.node; })
@@ -211,6 +218,11 @@ struct Bus::Doors {
         config{exhibit, refusals, &with_files}, page{exhibit, refusals, nullptr};
     std::optional<Participant> master{}; ///< that is followed
 
+    explicit Doors(std::string own)
+        : exhibit(std::move(own))
+    {
+        config.of_nodes = true;
+    }
     void refuse(const char* what, const std::string& fault)
     {
         refusals.add([&] { return std::string(what) + " " + fault + "; the same program on all machines is right"; });
@@ -228,7 +240,7 @@ struct Bus::Doors {
         if (door.only == writer)
             return true;
         if (!master || participant_of(reader, writer) != master) {
-            refusals.add([] { return "comes from a second master of this exhibit; one master is right"; });
+            door.refuse_another();
             return false;
         }
         door.only = writer;
