@@ -147,6 +147,11 @@ public:
         const std::lock_guard lock(mutex_);
         known_ = {names.begin(), names.end()};
     }
+    bool knows(const std::string& name)
+    {
+        const std::lock_guard lock(mutex_);
+        return known_.contains(name);
+    }
     bool let_in(const char* name)
     {
         const std::lock_guard lock(mutex_);
@@ -170,11 +175,12 @@ struct Door {
     Refusals& refusals;
     Names* names; ///< of nodes; null: the messages have none
     std::atomic<dds_instance_handle_t> only{0}; ///< the writer that is heard; 0: any
-    bool of_nodes = false; ///< nodes write such messages as well, so that another writer is no second master
+    Names* masters = nullptr; ///< the followed master's name, where nodes write such messages as well: another writer is
+                              ///< then no second master, but for one with its name
 
-    void refuse_another() const
+    void refuse_another(const std::string& name) const
     {
-        if (!of_nodes)
+        if (!masters || masters->knows(name))
             refusals.add([] { return "comes from a second master of this exhibit; one master is right"; });
     }
 };
@@ -193,7 +199,10 @@ template <class Sample> bool lets_in(const void* message, const dds_sample_info_
     }
     const dds_instance_handle_t only = door.only;
     if (only != 0 && info->publication_handle != only) {
-        door.refuse_another();
+        if constexpr (requires { sample.node; })
+            door.refuse_another(text(sample.node));
+        else
+            door.refuse_another({});
         return false;
     }
     if constexpr (requires { sample.node; })
@@ -213,7 +222,7 @@ using namespace bus_doors;
 struct Bus::Doors {
     std::string exhibit;
     Refusals refusals{};
-    Names with_files{16}, ready_ones{0};
+    Names with_files{16}, ready_ones{0}, masters{0};
     Door state{exhibit, refusals, nullptr}, ready{exhibit, refusals, &ready_ones}, go{exhibit, refusals, nullptr},
         config{exhibit, refusals, &with_files}, page{exhibit, refusals, nullptr};
     std::optional<Participant> master{}; ///< that is followed
@@ -221,7 +230,7 @@ struct Bus::Doors {
     explicit Doors(std::string own)
         : exhibit(std::move(own))
     {
-        config.of_nodes = true;
+        config.masters = &masters;
     }
     void refuse(const char* what, const std::string& fault)
     {
@@ -235,12 +244,12 @@ struct Bus::Doors {
             door->only = 0;
     }
     /// True where a writer belongs to the followed master. From then on the door lets no other in.
-    bool is_masters(Door& door, dds_entity_t reader, dds_instance_handle_t writer)
+    bool is_masters(Door& door, dds_entity_t reader, dds_instance_handle_t writer, const std::string& name = {})
     {
         if (door.only == writer)
             return true;
         if (!master || participant_of(reader, writer) != master) {
-            door.refuse_another();
+            door.refuse_another(name);
             return false;
         }
         door.only = writer;
@@ -576,8 +585,11 @@ std::vector<ConfigMessage> Bus::configs()
     if (!topics_ || (role_ == Role::node && !following_.master()))
         return all;
     topics_->config.take<starbow_machines_Config>([&](const starbow_machines_Config& sample, dds_instance_handle_t writer) {
-        if (role_ == Role::node && !doors_->is_masters(doors_->config, topics_->config.reader, writer))
-            return;
+        if (role_ == Role::node) {
+            if (!doors_->is_masters(doors_->config, topics_->config.reader, writer, text(sample.node)))
+                return;
+            doors_->masters.know({text(sample.node)});
+        }
         const auto taken = [](const auto& from) {
             FileDigests to;
             for (std::uint32_t i = 0; i < from._length; ++i)
