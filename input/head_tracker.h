@@ -33,7 +33,7 @@ public:
     /// True if a packet has arrived within the last three seconds.
     bool heard(std::chrono::steady_clock::time_point now) const;
     const HeadTracking& tracking() const { return tracking_; }
-    /// As Awaited's.
+    /// A sentence about a port that is missing; empty: none is.
     const std::string& lack() const { return awaited_.lack(); }
 
 private:

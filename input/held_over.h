@@ -4,8 +4,7 @@
 
 namespace starbow {
 
-/// What one visitor has left behind for the next one: keys and buttons that are down when the hands change. Each counts once
-/// it has been let go.
+/// Keys and buttons that one visitor holds down when the next one takes over. Each counts again once it has been let go.
 template <std::size_t count> class HeldOver {
 public:
     /// The hands change: what is down at the next reading was left behind.

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/model/angles.h"
 #include "controls.h"
 #include <array>
 #include <concepts>
@@ -81,11 +82,11 @@ inline constexpr std::array all_channels{
     ChannelEntry{"throttle_rate", [](Controls& c) { return std::span(&c.throttle_rate, 1); }, Way::rate},
     ChannelEntry{"push", [](Controls& c) { return std::span(&c.push[0], 3); }, Way::rate},
     ChannelEntry{"turn", [](Controls& c) { return std::span(&c.turn[0], 3); }, Way::rate},
-    ChannelEntry{"look_rad", [](Controls& c) { return std::span(&c.look_rad[0], 2); }, Way::change,
-        calm_turn_deg_per_s / 57.29577951308232, 0},
+    ChannelEntry{
+        "look_rad", [](Controls& c) { return std::span(&c.look_rad[0], 2); }, Way::change, calm_turn_deg_per_s* degree, 0},
     ChannelEntry{"head_m", [](Controls& c) { return std::span(&c.head.moved_m[0], 3); }, Way::place, 0.3, 0.01},
     ChannelEntry{"head_turned", [](Controls& c) { return std::span(&c.head.turned[0], 4); }, Way::place,
-        calm_turn_deg_per_s / 57.29577951308232 / 2, 0.005}, // a quaternion's numbers are of half the angle
+        calm_turn_deg_per_s* degree / 2, 0.005}, // a quaternion's numbers are of half the angle
     ChannelEntry{"exposure", [](Controls& c) { return std::span(&c.exposure, 1); }, Way::light},
 };
 

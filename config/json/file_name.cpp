@@ -1,4 +1,5 @@
 #include "file_name.h"
+#include "edit_distance.h"
 #include "error.h"
 #include "reader.h"
 #include <algorithm>
@@ -19,23 +20,6 @@ std::u32string in_parts(const std::string& name)
     if (count < 0 || count > utf8proc_ssize_t(parts.size()))
         return {bytes, bytes + length};
     return {parts.begin(), parts.begin() + count};
-}
-
-/// The number of characters that differ, are missing or are too many, between two names.
-std::size_t distance(const std::u32string& a, const std::u32string& b)
-{
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j < row.size(); ++j)
-        row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t before = row[0]++;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t changed = before + (a[i - 1] != b[j - 1]);
-            before = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
-        }
-    }
-    return row[b.size()];
 }
 
 std::vector<std::string> names_in(const std::filesystem::path& folder)
@@ -62,6 +46,8 @@ std::filesystem::path as_stored(const std::filesystem::path& file)
     for (const std::filesystem::path& part : file) {
         std::filesystem::path next = found / part;
         if (!part.empty() && !exists(next)) {
+            if (std::ranges::all_of(part.string(), [](unsigned char c) { return c < 128; }))
+                return file; // its letters have no marks
             const std::u32string wanted = in_parts(part.string());
             const std::vector<std::string> names = names_in(found);
             const auto same = std::ranges::find_if(names, [&](const std::string& name) { return in_parts(name) == wanted; });
@@ -90,7 +76,7 @@ std::string nearest_names(const std::filesystem::path& file)
     const std::size_t most = std::max<std::size_t>(2, wanted.size() / 4);
     std::vector<std::pair<std::size_t, std::string>> near;
     for (const std::string& other : names_in(file.parent_path()))
-        if (const std::size_t apart = distance(wanted, lower(other)); apart <= most)
+        if (const std::size_t apart = edit_distance(wanted, lower(other)); apart <= most)
             near.emplace_back(apart, other);
     std::ranges::sort(near);
     std::string list;

@@ -1,9 +1,9 @@
 #include "reader.h"
+#include "edit_distance.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <numeric>
 
 namespace starbow {
 using nlohmann::json;
@@ -28,22 +28,6 @@ std::string choice(const std::vector<std::string_view>& names)
     for (std::size_t i = 0; i < names.size(); ++i)
         out += (i == 0 ? "\"" : i + 1 == names.size() ? " or \"" : ", \"") + std::string(names[i]) + "\"";
     return out;
-}
-
-/// The edit distance of two words: the number of letters to add, drop or change.
-std::size_t distance(std::string_view a, std::string_view b)
-{
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t(0));
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i);
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row.back();
 }
 
 } // namespace
@@ -178,8 +162,9 @@ void reject_unknown_members(const Place& place, const std::vector<std::string_vi
                 "stands under a name of older files; \"" + std::string(now->second) + "\" is its name now");
         const std::string word = one_line(name, 60);
         std::vector<std::string_view> nearest = known;
-        std::stable_sort(nearest.begin(), nearest.end(),
-            [&](std::string_view a, std::string_view b) { return distance(word, a) < distance(word, b); });
+        std::stable_sort(nearest.begin(), nearest.end(), [&](std::string_view a, std::string_view b) {
+            return edit_distance<std::string_view>(word, a) < edit_distance<std::string_view>(word, b);
+        });
         nearest.resize(std::min<std::size_t>(nearest.size(), 3));
         complain({place.document, &value, place.pointer + "/" + escaped(name)},
             "stands under an unknown name; " + choice(nearest) + " is right");

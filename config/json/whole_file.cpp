@@ -70,11 +70,12 @@ RegularFile::RegularFile(const std::filesystem::path& name)
     const std::filesystem::path file = as_stored(name);
     // Opening a device may do something; so its kind is looked at before, and again after, when nobody can exchange it.
     struct stat found { };
-    if (stat(file.c_str(), &found) != 0)
-        fault_ = errno == ENOENT ? "does not exist" + nearest_names(file)
-                                 : std::string("can't be opened (") + std::strerror(errno) + ")";
-    else
+    if (stat(file.c_str(), &found) == 0)
         fault_ = fault_of(found.st_mode);
+    else if (errno == ENOENT)
+        fault_ = "does not exist", missing_ = file;
+    else
+        fault_ = std::string("can't be opened (") + std::strerror(errno) + ")";
     if (!fault_.empty())
         return;
     descriptor_ = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
@@ -84,6 +85,8 @@ RegularFile::RegularFile(const std::filesystem::path& name)
         fault_ = fault_of(found.st_mode);
     size_ = std::uintmax_t(found.st_size);
 }
+
+std::string RegularFile::fault() const { return missing_.empty() ? fault_ : fault_ + nearest_names(missing_); }
 
 RegularFile::~RegularFile()
 {
@@ -132,7 +135,7 @@ std::string read_whole(const std::filesystem::path& file, std::size_t most, cons
 {
     RegularFile opened(file);
     std::string text = opened.read_all(most);
-    if (!opened.fault().empty())
+    if (opened.has_fault())
         throw InputError(one_line(file.string()), "", opened.fault() + "; " + right + " is right");
     return text;
 }

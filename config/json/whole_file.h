@@ -16,8 +16,10 @@ public:
     RegularFile(const RegularFile&) = delete;
     RegularFile& operator=(const RegularFile&) = delete;
 
-    /// Why there is nothing more to read, as a predicate: "is a folder", "does not exist"; "" while all is well.
-    const std::string& fault() const { return fault_; }
+    /// Why there is nothing more to read, as a predicate: "is a folder", "does not exist"; "" while all is well. Of a
+    /// missing file it lists the folder, for the nearest names.
+    std::string fault() const;
+    bool has_fault() const { return !fault_.empty(); }
     std::uintmax_t size() const { return size_; } ///< when it was opened
     /// Fills `bytes` with the next ones and returns their number: fewer at the end of the file, and after a fault.
     std::size_t read(std::span<char> bytes);
@@ -28,6 +30,7 @@ private:
     int descriptor_ = -1;
     std::uintmax_t size_ = 0;
     std::string fault_;
+    std::filesystem::path missing_; ///< that does not exist; empty: it does
 };
 
 /// The whole file. Throws InputError "FILE: FAULT; RIGHT is right"; right: "a JSON file".

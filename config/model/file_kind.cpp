@@ -59,7 +59,7 @@ std::optional<FileKind> kind_of_file(const std::filesystem::path& path)
     RegularFile file(path);
     std::string begin(4, '\0');
     begin.resize(file.read(begin));
-    if (!file.fault().empty())
+    if (file.has_fault())
         return by_name;
     if (begin == "glTF")
         return FileKind::gltf;

@@ -280,13 +280,12 @@ CompiledView MapStore::compile(const Layout& layout, const View& view)
     return compiled;
 }
 
-double pixel_angle(std::span<const CompiledView> views)
+double finest_pixel_rad(double known, const CompiledView& view)
 {
-    double finest = 0;
-    for (const CompiledView& view : views)
-        if (const BoundingCone all = view.cones->cone(0, {0, 0}); !all.empty())
-            finest = finest == 0 ? double(all.coarsest) : std::min(finest, double(all.coarsest));
-    return finest;
+    const BoundingCone all = view.cones->cone(0, {0, 0});
+    if (all.empty())
+        return known;
+    return known == 0 ? double(all.coarsest) : std::min(known, double(all.coarsest));
 }
 
 bool has_mask(const Layout& layout, const CompiledView& view)

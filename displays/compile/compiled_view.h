@@ -52,9 +52,10 @@ private:
     std::shared_ptr<Kept> kept_;
 };
 
-/// The angle of a pixel of the finest view, radians: where its pixels look widest, as in a flat picture's middle. Points and
-/// lines of a world are as wide. 0 without views.
-double pixel_angle(std::span<const CompiledView> views);
+/// The angle of a pixel of the finest view, radians, where that view's pixels look widest, as in a flat picture's middle.
+/// Points and lines of a world are as wide. known: that of the views so far, 0 without any; a further view makes it less or
+/// leaves it.
+double finest_pixel_rad(double known, const CompiledView& view);
 
 /// True for a view with an alpha mask, from the layout or from its warp file.
 bool has_mask(const Layout& layout, const CompiledView& view);

@@ -323,7 +323,7 @@ void FrameLoop::warm_up()
     session_.last = Clock::now();
 }
 
-/// What the network does not give yet, for the display, the remote and the service manager.
+/// Gathers the sentences about missing places on the network, for the display, the remote and the service manager.
 void FrameLoop::gather_lacks()
 {
     session_.lacks.clear();

@@ -193,11 +193,11 @@ void Master::hear()
 
 void Master::judge(const ConfigMessage& config)
 {
+    if (!gate_.nodes().contains(config.node))
+        return; // a layout to come may have it
     std::string why = difference(config, config_);
     if (why.empty())
         why = layout_difference(config, config_);
-    if (!gate_.nodes().contains(config.node))
-        return; // a layout to come may have it
     gate_.refuse(config.node, !why.empty());
     Refusal& refusal = refusals_[config.node];
     if (refusal.why.empty() != why.empty())

@@ -68,8 +68,9 @@ std::string identity_of(const Machines& machines, const Layout& layout)
     if (!machines.exhibit.empty())
         return machines.exhibit;
     std::string identity = layout.file.stem().string();
+    const char* between = ": ";
     for (const std::string& node : nodes_of(layout))
-        identity += (node == nodes_of(layout).front() ? ": " : ", ") + node;
+        identity += std::exchange(between, ", ") + node;
     return identity;
 }
 

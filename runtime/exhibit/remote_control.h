@@ -41,7 +41,7 @@ public:
         picture.width = size.x, picture.height = size.y;
         remote_->publish_picture();
     }
-    /// As Remote's; empty without a remote.
+    /// A sentence about the server's missing places on the network; empty: none is missing, or there is no remote.
     std::string lack() { return remote_ ? remote_->lack() : ""; }
     /// The PINs that were drawn at the start, as a line for the operator; empty where a file has them, or without a remote.
     std::string drawn_pins() const;

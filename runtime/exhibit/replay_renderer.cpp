@@ -29,7 +29,7 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
 {
     Controls controls = entry.controls;
     if (std::exchange(begun_, flight.leaps.begun) != flight.leaps.begun)
-        exposure_ = {}, calm_ev_ = {};
+        exposure_ = {}, calm_ev_ = {}, range_mode_.follows_at_once = true;
     exposure_.locked ^= controls.lock_exposure;
     exposure_ = adapted_to(exposure_, entry.exposure_ev, exposing_, start_ev_);
     const bool had_curve = range_mode_.follower.shown.has_value();

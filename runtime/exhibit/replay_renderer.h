@@ -22,7 +22,7 @@ public:
     /// so every frame must be applied. flight: after the frame. Writes no layout.
     void take(const RecordEntry& entry, const Flight& flight);
 
-    /// Whether the pictures are metered, for a flight that goes on.
+    /// on: the pictures are metered, for a flight that goes on after the record.
     void meter(bool on) { now_.meters = on; }
 
     /// Each output as RGBA8, rows from the top.

@@ -464,7 +464,7 @@ static void guard_light(Session& session, RecordEntry& entry, const Metered& bef
         session.calm_light = entry.light;
         return;
     }
-    const std::optional<RangeCurve> curve = curve_of(session);
+    const std::optional<RangeCurve>& curve = curve_of(session);
     const double gain = std::exp2(session.drawn_ev);
     session.flash_guard.take(
         before.surfaces, before.across,

@@ -24,7 +24,7 @@ Replay::Replay(const fs::path& file)
     : file_(one_line(file.string()))
     , stream_(file)
 {
-    if (!stream_.fault().empty())
+    if (stream_.has_fault())
         throw InputError(file_, "", stream_.fault() + "; a record of a flight is right");
     const auto first = line();
     if (!first && !cut_)

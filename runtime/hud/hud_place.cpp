@@ -60,7 +60,7 @@ int corners_shown(
     return count;
 }
 
-/// Where the eyes of a layout see a panel.
+/// The views of a layout, grouped by the eyes that look at them, for the share of a panel that each eye sees.
 class PanelSight {
 public:
     PanelSight(const Layout& layout, std::span<const std::vector<CompiledView>> views)
@@ -69,7 +69,7 @@ public:
         for (std::size_t output = 0; output < views.size(); ++output)
             for (const CompiledView& view : views[output])
                 if (!layout.outputs[output].preview)
-                    group(view.view).views.push_back({&view, &layout, output});
+                    group(view.view).views.push_back({&view, &layout.outputs[output]});
         const bool two_eyes = std::ranges::any_of(groups_, [](const Group& group) { return group.eye != Eye::middle; });
         std::erase_if(groups_, [&](const Group& group) { return two_eyes && group.eye == Eye::middle; });
     }
@@ -129,8 +129,7 @@ public:
 private:
     struct Seen {
         const CompiledView* view;
-        const Layout* layout;
-        std::size_t output;
+        const Output* output;
     };
     /// The views that one eye of one observer has.
     struct Group {
@@ -149,11 +148,10 @@ private:
         /// True if a viewport of a higher order covers this pixel of a view.
         static bool hidden(const Seen& seen, const glm::dvec2& pixel)
         {
-            const Output& output = seen.layout->outputs[seen.output];
-            const Viewport& own = output.viewports[seen.view->view.viewport];
+            const Viewport& own = seen.output->viewports[seen.view->view.viewport];
             const glm::dvec2 at
                 = glm::dvec2(own.rect) + glm::dvec2(own.rect.z, own.rect.w) * pixel / glm::dvec2(seen.view->view.size);
-            return std::ranges::any_of(output.viewports, [&](const Viewport& other) {
+            return std::ranges::any_of(seen.output->viewports, [&](const Viewport& other) {
                 const glm::dvec2 inside = at - glm::dvec2(other.rect);
                 return other.order > own.order && inside.x > 0 && inside.y > 0 && inside.x < other.rect.z
                     && inside.y < other.rect.w;
@@ -256,10 +254,9 @@ std::string hud_warning(const Layout& layout, const HudPlacement& hud, std::span
     const double seen = PanelSight(layout, views).share(hud, 0.99);
     if (seen == 1)
         return "";
-    const auto rounded = [](double value) { return short_number(value); };
-    return "the head-up display, " + rounded(hud.width_deg) + "° wide at azimuth " + rounded(hud.azimuth_deg)
-        + "° and elevation " + rounded(hud.elevation_deg) + "°, is "
-        + (seen == 0 ? "seen nowhere" : "cut: " + rounded(std::floor(1000 * seen) / 10) + " % of it are seen")
+    return "the head-up display, " + short_number(hud.width_deg) + "° wide at azimuth " + short_number(hud.azimuth_deg)
+        + "° and elevation " + short_number(hud.elevation_deg) + "°, is "
+        + (seen == 0 ? "seen nowhere" : "cut: " + short_number(std::floor(1000 * seen) / 10) + " % of it are seen")
         + (layout.hud ? "; without \"hud\" the program finds a place where it is whole"
                       : "; no place was found where it is whole, and \"hud\" sets one");
 }

@@ -169,7 +169,7 @@ private:
     std::set<std::string> known_, strangers_;
 };
 
-/// What a reader lets in. It is asked on the threads that receive, before a message takes the place of another one.
+/// A reader's filter. The threads that receive ask it before a message takes the place of another one.
 struct Door {
     const std::string& exhibit;
     Refusals& refusals;
@@ -624,7 +624,7 @@ std::optional<PageMessage> Bus::page()
 void Bus::wait(std::chrono::nanoseconds longest)
 {
     constexpr std::chrono::milliseconds pause{5};
-    // What comes before a node's first state is not taken yet, and would end each wait at once.
+    // Messages that come before a node's first state are not taken yet, and would end each wait at once.
     if (!topics_ || (role_ == Role::node && !following_.master()))
         return std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(longest, pause));
     dds_attach_t condition;

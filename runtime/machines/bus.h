@@ -55,7 +55,7 @@ struct PageMessage {
     std::vector<std::uint8_t> texels; ///< page_bytes.h
 };
 
-/// Where the machines of an exhibit hear each other.
+/// The network interface and the DDS domain of an exhibit's machines, and the exhibit's identity there.
 struct BusPlace {
     std::string interface; ///< an interface's name ("enp3s0", "lo"), or a network ("192.168.7.0/24") of which this machine
                            ///< has an address
@@ -81,7 +81,7 @@ public:
     /// Opens the network once the interface is there, and again after it was away; then the last config and page are sent
     /// again. For each frame. Returns true where it was opened just now.
     bool follow();
-    /// As Awaited's.
+    /// A sentence about an interface that is missing; empty: none is.
     const std::string& lack() const { return awaited_.lack(); }
     /// The names of nodes that are heard; of others, a few alone.
     void know(const std::vector<std::string>& nodes);

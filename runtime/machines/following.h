@@ -36,14 +36,14 @@ private:
     Time heard_{};
 };
 
-/// What a master hears of another one with the same exhibit.
+/// Another master of the same exhibit, as its states describe it.
 struct Rival {
     std::uint64_t master = 0; ///< a number of its own
     std::int64_t led_ms = 0; ///< since it began to lead, as it says
     bool followed = false; ///< nodes have said that they draw its states
 };
 
-/// Whether a master leads its exhibit. It listens first; and it stands back while another one leads. Times are the caller's.
+/// A master's turn to lead its exhibit: it listens first, and stands back while another one leads. Times are the caller's.
 class Leading {
 public:
     using Time = std::chrono::steady_clock::time_point;

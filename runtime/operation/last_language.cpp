@@ -41,7 +41,7 @@ std::string kept_language(const std::filesystem::path& state)
         return "";
     RegularFile file(state / "language");
     const std::string language = file.read_all(most_name);
-    return file.fault().empty() && is_name(language) ? language : "";
+    return !file.has_fault() && is_name(language) ? language : "";
 }
 
 void forget_language(const std::filesystem::path& state)

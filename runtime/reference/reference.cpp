@@ -50,7 +50,7 @@ struct EyeAt {
     ViewportObserver observer;
     glm::dvec3 place; ///< cockpit, scene units
     double beside;
-    std::vector<CompiledView> views{}; ///< that it looks through
+    double pixel_rad = 0; ///< of the finest view that it looks through
 };
 
 class Picture_ {
@@ -84,7 +84,7 @@ public:
             const std::size_t index = std::size_t(same - places.begin());
             if (same == places.end())
                 places.push_back(at);
-            places[index].views.push_back(compiled);
+            places[index].pixel_rad = finest_pixel_rad(places[index].pixel_rad, compiled);
             const std::size_t own_ramp = views_.size();
             views_.push_back({&compiled, ViewRays(compiled, samples_), index, turns ? beside * scale : glm::dvec3(0), 0, 0,
                 ViewShade(layout, compiled, ramps.empty() ? std::span<const float>() : ramps[own_ramp])});
@@ -94,7 +94,7 @@ public:
         eyes_.reserve(places.size());
         for (const EyeAt& at : places)
             eyes_.emplace_back(input.world, input.scene, pictures_, colours_, globe_colours_.get(), occluders_.get(),
-                starbow::observer_of(input.world, shot, at.observer), at.place, at.beside, pixel_angle(at.views));
+                starbow::observer_of(input.world, shot, at.observer), at.place, at.beside, at.pixel_rad);
         if (globe_colours_)
             for (ViewAt& view : views_) {
                 view.globes = globes_.size();

@@ -53,11 +53,11 @@ void EyeCubes::clear()
 
 double EyeCubes::pixel_of(std::size_t eye) const
 {
-    std::vector<CompiledView> shown;
+    double finest = 0;
     for (const ViewState& view : views_.all)
         if (view.eye == eye)
-            shown.push_back(view.compiled);
-    return pixel_angle(shown);
+            finest = finest_pixel_rad(finest, view.compiled);
+    return finest;
 }
 
 void EyeCubes::adopt(const Quality& quality)

@@ -72,8 +72,7 @@ struct Pipelines::Pass {
     TargetKind target;
     SpecializationConstants constants; ///< the same in both stages
     bool depth = false, vertices = false, maps = false; ///< maps: beside the vertices, VertexMaps
-    bool points = false;
-    bool lines = false;
+    Topology topology = Topology::triangles;
     Blending blending = Blending::none;
 };
 
@@ -168,9 +167,9 @@ vk::raii::Pipeline Pipelines::make(const Pass& pass) const
         vertices = vk::PipelineVertexInputStateCreateInfo({}, pass.maps ? 2 : 1, bindings, pass.maps ? 6 : 4, attributes);
 
     vk::PipelineInputAssemblyStateCreateInfo assembly({},
-        pass.points      ? vk::PrimitiveTopology::ePointList
-            : pass.lines ? vk::PrimitiveTopology::eLineList
-                         : vk::PrimitiveTopology::eTriangleList);
+        pass.topology == Topology::points      ? vk::PrimitiveTopology::ePointList
+            : pass.topology == Topology::lines ? vk::PrimitiveTopology::eLineList
+                                               : vk::PrimitiveTopology::eTriangleList);
     vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     vk::PipelineRasterizationStateCreateInfo raster;
     raster.lineWidth = 1;
@@ -221,8 +220,7 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
         .depth = true,
         .vertices = true,
         .maps = v.mapped,
-        .points = v.topology == Topology::points,
-        .lines = v.topology == Topology::lines,
+        .topology = v.topology,
         .blending = v.blended ? Blending::over : Blending::none});
 }
 
@@ -273,7 +271,7 @@ vk::Pipeline Pipelines::stars(const WarpVariant& v, vk::Format target)
         .layout = *layouts.star_layout,
         .target = {{target}},
         .constants = all,
-        .points = true,
+        .topology = Topology::points,
         .blending = Blending::add});
 }
 
@@ -349,7 +347,7 @@ vk::Pipeline Pipelines::star_meter(const WarpVariant& v)
         .layout = *layouts.star_layout,
         .target = {{meter_format}},
         .constants = all,
-        .points = true});
+        .topology = Topology::points});
 }
 
 vk::Pipeline Pipelines::bloom(bool up, bool first)

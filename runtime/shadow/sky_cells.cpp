@@ -55,6 +55,12 @@ Cell cell_at(const Occluders& occluders, const glm::dvec3& place)
     return {0.5 * (plus - minus), 0.5 * (plus + minus), backs > sky_rays / 5};
 }
 
+/// The index of a cell of a grid.
+std::size_t index_in(const glm::ivec3& count, const glm::ivec3& at)
+{
+    return (std::size_t(at.z) * std::size_t(count.y) + std::size_t(at.y)) * std::size_t(count.x) + std::size_t(at.x);
+}
+
 /// The greatest difference between two cells' visible parts of the sky, along any axis.
 double difference(const Cell& a, const Cell& b)
 {
@@ -85,8 +91,7 @@ std::vector<const Cell*> even_around(const std::vector<Cell>& cells, const glm::
         if (glm::any(glm::greaterThan(side, odd)))
             continue; // along an even index there is one
         const glm::ivec3 one = glm::min(at - odd + 2 * side, (count - 1) & ~1);
-        around.push_back(&cells[(std::size_t(one.z) * std::size_t(count.y) + std::size_t(one.y)) * std::size_t(count.x)
-            + std::size_t(one.x)]);
+        around.push_back(&cells[index_in(count, one)]);
     }
     return around;
 }
@@ -94,29 +99,27 @@ std::vector<const Cell*> even_around(const std::vector<Cell>& cells, const glm::
 /// Cells within bodies take the mean of their neighbours, until all have a value.
 void spread(std::vector<Cell>& cells, const glm::ivec3& count)
 {
-    const auto index = [&](const glm::ivec3& at) {
-        return (std::size_t(at.z) * std::size_t(count.y) + std::size_t(at.y)) * std::size_t(count.x) + std::size_t(at.x);
-    };
     for (bool changed = true; changed;) {
         changed = false;
         std::vector<std::pair<std::size_t, Cell>> found;
         for (int z = 0; z < count.z; ++z)
             for (int y = 0; y < count.y; ++y)
                 for (int x = 0; x < count.x; ++x) {
-                    if (!cells[index({x, y, z})].inside)
+                    if (!cells[index_in(count, {x, y, z})].inside)
                         continue;
                     Cell sum;
                     int neighbours = 0;
                     for (int side = 0; side < 6; ++side) {
                         glm::ivec3 at(x, y, z);
                         at[side / 2] += side % 2 ? 1 : -1;
-                        if (at[side / 2] < 0 || at[side / 2] >= count[side / 2] || cells[index(at)].inside)
+                        if (at[side / 2] < 0 || at[side / 2] >= count[side / 2] || cells[index_in(count, at)].inside)
                             continue;
-                        sum.b += cells[index(at)].b, sum.s += cells[index(at)].s;
+                        sum.b += cells[index_in(count, at)].b, sum.s += cells[index_in(count, at)].s;
                         ++neighbours;
                     }
                     if (neighbours > 0)
-                        found.push_back({index({x, y, z}), {sum.b / double(neighbours), sum.s / double(neighbours), false}});
+                        found.push_back(
+                            {index_in(count, {x, y, z}), {sum.b / double(neighbours), sum.s / double(neighbours), false}});
                 }
         for (const auto& [at, cell] : found)
             cells[at] = cell, changed = true;
@@ -129,13 +132,10 @@ void lower(std::vector<Cell>& cells, const glm::ivec3& count)
 {
     constexpr double parted = 0.15; // a greater change is not the sky's own
     const std::vector<Cell> before = cells;
-    const auto index = [&](const glm::ivec3& at) {
-        return (std::size_t(at.z) * std::size_t(count.y) + std::size_t(at.y)) * std::size_t(count.x) + std::size_t(at.x);
-    };
     for (int z = 0; z < count.z; ++z)
         for (int y = 0; y < count.y; ++y)
             for (int x = 0; x < count.x; ++x) {
-                const std::size_t own = index({x, y, z});
+                const std::size_t own = index_in(count, {x, y, z});
                 for (int k = 0; k < 3; ++k) {
                     double seen[2]; // facing along the axis, and against it
                     for (int side = 0; side < 2; ++side) {
@@ -155,7 +155,7 @@ void lower(std::vector<Cell>& cells, const glm::ivec3& count)
                             if (glm::any(glm::lessThan(glm::min(at, above), glm::ivec3(0)))
                                 || glm::any(glm::greaterThanEqual(glm::max(at, above), count)))
                                 continue;
-                            const double change = part(before[index(at)]) - part(before[index(above)]);
+                            const double change = part(before[index_in(count, at)]) - part(before[index_in(count, above)]);
                             if (std::abs(change) < parted)
                                 sum += change, ++changes;
                             else if (beside == 0)
@@ -216,8 +216,7 @@ void fill_sky(Shadows& shadows, const Boxes& boxes, const Occluders& occluders, 
             if ((at & 1) == glm::ivec3(0) ? !even : even)
                 continue;
             const auto mean = even ? std::nullopt : mean_of(even_around(cells, count, at));
-            cells[line * std::size_t(count.x) + std::size_t(x)]
-                = mean ? *mean : cell_at(occluders, shadows.low + shadows.cell * glm::dvec3(at));
+            cells[index_in(count, at)] = mean ? *mean : cell_at(occluders, shadows.low + shadows.cell * glm::dvec3(at));
         }
     };
     const std::size_t lines = std::size_t(count.y) * std::size_t(count.z);

@@ -148,16 +148,17 @@ glm::dvec3 place_of(const SolarSystem& system, const Globe& globe, double days)
     const double centuries = dynamical_centuries(days);
     const auto earth
         = std::find_if(system.globes.begin(), system.globes.end(), [](const Globe& g) { return g.name == "Earth"; });
-    if (globe.moon)
-        return place_of(system, *earth, days) + moon_place(system, centuries);
+    if (globe.moon || globe.name == "Earth") {
+        // The orbit is that of the Earth's and the Moon's middle.
+        const glm::dvec3 moon = moon_place(system, centuries);
+        const double distance = glm::length(place_on(earth->orbit.value(), centuries) - moons_part * moon);
+        return way_to_earth(centuries) * distance + (globe.moon ? moon : glm::dvec3(0));
+    }
     if (!globe.orbit)
         return glm::dvec3(0);
     glm::dvec3 place = place_on(*globe.orbit, centuries);
     if (!globe.orbit->longitude_deg.polynomial.empty())
         place = corrected(system, *globe.orbit, place, centuries);
-    // The orbit is that of the Earth's and the Moon's middle.
-    if (globe.name == "Earth")
-        return way_to_earth(centuries) * glm::length(place - moons_part * moon_place(system, centuries));
     return place;
 }
 

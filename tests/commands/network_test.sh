@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the network does not give yet: an exhibit whose remote, OSC, head tracker and other machines are at an address that comes
+# A network that comes late: an exhibit whose remote, OSC, head tracker and other machines are at an address that comes
 # later, or at ports that another program has, shows its pictures, says what it waits for, and takes it up. It runs in a network
 # namespace of its own, so it needs root or user namespaces. It bears any load under which a frame takes at most a second.
 # Usage: network_test.sh PROGRAM

@@ -95,9 +95,10 @@ void add_deforming(WorldBuild& build, const std::string& place, const tinygltf::
                 normal += pose.weights[t] * element3(build, target.normal, vertex, place + "/targets");
         }
         shared::DeformingVertex row{};
-        put_bones(influences_of(build, pose, from.skin, vertex, place), row);
+        const std::vector<Influence> influences = influences_of(build, pose, from.skin, vertex, place);
+        put_bones(influences, row);
         // Normals and tangents of the world's vertices are those of the file's own pose: the joints' turn is undone.
-        const glm::dmat3 turn(from.skin.empty() ? glm::dmat4(1) : skin_at(build, pose, from.skin, vertex, place));
+        const glm::dmat3 turn(from.skin.empty() ? glm::dmat4(1) : skin_of(pose, influences));
         if (!from.has_normal)
             normal = glm::transpose(turn) * glm::dvec3(world.vertices[own].normal);
         glm::dvec3 tangent(0);

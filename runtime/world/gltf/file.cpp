@@ -16,7 +16,7 @@ std::string read_bytes(const fs::path& path, std::size_t limit, Bytes& bytes)
     RegularFile file(path);
     const std::string read = file.read_all(limit);
     bytes.assign(read.begin(), read.end());
-    return file.fault().empty() ? "" : file.fault() + "; should be a file of at most " + std::to_string(limit) + " bytes";
+    return file.has_fault() ? file.fault() + "; should be a file of at most " + std::to_string(limit) + " bytes" : "";
 }
 
 std::uint32_t little32(const Bytes& bytes, std::size_t at)
@@ -246,7 +246,7 @@ GltfFile read_gltf_json(const fs::path& path)
         json.resize(file.read({json.data(), length}));
     } else
         json += file.read_all(GltfLimits::json_bytes);
-    if (!file.fault().empty())
+    if (file.has_fault())
         throw InputError(out.name, "", file.fault() + "; a .gltf or .glb file is right");
     out.json = parse_json(out, json);
     return out;

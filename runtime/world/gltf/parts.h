@@ -4,6 +4,7 @@
 #include "runtime/world/world.h"
 #include <array>
 #include <map>
+#include <span>
 #include <tiny_gltf.h>
 
 namespace starbow {
@@ -109,8 +110,9 @@ struct Influence {
 std::vector<Influence> influences_of(
     const WorldBuild& build, const StillPose& pose, const SkinSource& skin, std::uint32_t i, const std::string& place);
 
-/// The transform that the joints give vertex `i`: their mean by its weights (glTF 2.0, section 3.7.3.3). Throws as
-/// influences_of.
+/// The transform that the joints give a vertex: their mean by its weights (glTF 2.0, section 3.7.3.3). skin_at: of vertex
+/// `i`; throws as influences_of.
+glm::dmat4 skin_of(const StillPose& pose, std::span<const Influence> influences);
 glm::dmat4 skin_at(
     const WorldBuild& build, const StillPose& pose, const SkinSource& skin, std::uint32_t i, const std::string& place);
 

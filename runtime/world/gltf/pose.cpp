@@ -84,13 +84,18 @@ std::vector<Influence> influences_of(
     return all;
 }
 
+glm::dmat4 skin_of(const StillPose& pose, std::span<const Influence> influences)
+{
+    glm::dmat4 sum(0);
+    for (const Influence& one : influences)
+        sum += one.weight * pose.joints[std::size_t(one.joint)];
+    return sum;
+}
+
 glm::dmat4 skin_at(
     const WorldBuild& build, const StillPose& pose, const SkinSource& skin, std::uint32_t i, const std::string& place)
 {
-    glm::dmat4 sum(0);
-    for (const Influence& one : influences_of(build, pose, skin, i, place))
-        sum += one.weight * pose.joints[std::size_t(one.joint)];
-    return sum;
+    return skin_of(pose, influences_of(build, pose, skin, i, place));
 }
 
 std::vector<glm::dmat4> inverse_bind_matrices(WorldBuild& build, const tinygltf::Skin& skin)

@@ -485,12 +485,11 @@ int stroke_material_of(WorldBuild& build, int gltf_material, bool lit)
     const auto [known, is_new] = build.stroke_materials.try_emplace({gltf_material, lit}, int(build.world.materials.size()));
     if (!is_new)
         return known->second;
-    const int from = gltf_material >= 0 ? gltf_material : -1;
-    Material made = from >= 0 ? build.world.materials[std::size_t(from)] : Material{.name = "default"};
+    Material made = gltf_material >= 0 ? build.world.materials[std::size_t(gltf_material)] : Material{.name = "default"};
     made.gloss.reset(), made.emissive_map.reset();
     made.unlit = made.unlit || !lit, made.double_sided = true;
     build.world.materials.push_back(made);
-    build.uv.push_back(from >= 0 ? build.uv[std::size_t(from)] : UvSource{});
+    build.uv.push_back(gltf_material >= 0 ? build.uv[std::size_t(gltf_material)] : UvSource{});
     build.map_sets.push_back({-1, -1});
     return known->second;
 }
