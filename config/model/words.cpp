@@ -77,6 +77,7 @@ const std::vector<Known> known{
     {"sign.behind_light"},
     {"sign.clock"},
     {"sign.clock_light", {"time"}},
+    {"sign.clock_eyes"},
     {"beside.none"},
     {"beside.at-rest"},
     {"beside.aberration"},

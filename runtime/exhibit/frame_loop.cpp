@@ -126,7 +126,7 @@ bool FrameLoop::fly_frame()
     if (!visible) {
         remote_.shown(session_); // there is no picture to wait for
         if (master_) { // but the other machines have some
-            master_->send(shared(next_instant(controls.head)));
+            master_->send(shared(next_instant(controls.head)), session_.leapt);
             let_go();
         }
         guide_.show(session_, screens_.monitors());
@@ -140,7 +140,7 @@ bool FrameLoop::fly_frame()
     fit_outputs();
     const Instant instant = next_instant(controls.head);
     if (master_)
-        master_->send(shared(instant));
+        master_->send(shared(instant), session_.leapt);
     const Panel* panel = pictures_.set_up(instant, session_.words, *frame_);
     const std::size_t pipelines = context_.pipelines.count();
     begin_commands();

@@ -95,15 +95,6 @@ void Master::adopt(const Layout& layout, FileDigests digests)
         judge(config); // else the next frames would wait for those that can't draw them yet
 }
 
-std::vector<ViewSamples> Master::samples() const
-{
-    std::vector<ViewSamples> all;
-    for (const auto& [name, node] : gate_.nodes())
-        if (const auto found = samples_.find(name); node.in && found != samples_.end())
-            all.insert(all.end(), found->second.begin(), found->second.end());
-    return all;
-}
-
 const std::string& Master::name_of(const std::string& kind, const std::filesystem::path& file)
 {
     const auto [known, is_new] = names_.try_emplace(file);
@@ -125,7 +116,7 @@ void Master::describe(std::vector<MachineHealth>& machines) const
         put(name, node.in, node.frame_ms, node.refused);
 }
 
-void Master::send(const SharedInstant& shared)
+void Master::send(const SharedInstant& shared, bool leapt)
 {
     const bool leads = this->leads();
     const auto& on = shared.instant.instruments;
@@ -144,7 +135,7 @@ void Master::send(const SharedInstant& shared)
         state.instant = bytes_of(shorter);
     }
     digest_ = digest_of_instant(state.instant);
-    gate_.begin(frame_, digest_);
+    gate_.begin(frame_, digest_, leapt);
     begun_ = Clock::now();
     if (!leads)
         return;
@@ -185,9 +176,7 @@ void Master::hear()
         constexpr std::int64_t late = 60; // frames
         if (rivals_frame_ >= 0 && std::abs(ready.frame - rivals_frame_) < late)
             rival_followed_ = Clock::now();
-        gate_.hear(ready);
-        if (gate_.nodes().contains(ready.node))
-            samples_[ready.node] = std::move(ready.samples);
+        gate_.hear(std::move(ready));
     }
 }
 
@@ -224,6 +213,9 @@ void Master::report()
             break;
         case NodeEvent::Kind::differs:
             write_limited(LogKind::node_differs, node + " has drawn a state other than the master's");
+            break;
+        case NodeEvent::Kind::doubled:
+            write_limited(LogKind::node_doubled, "two programs run as " + node + "; one program for each node is right");
             break;
         }
     }

@@ -19,8 +19,9 @@ public:
     std::uint64_t layout_digest() const { return layout_digest_; }
 
     /// Sends the next frame's instant, before it the instruments' page if that is a new one; the nodes draw it while the
-    /// master does. While another master of this exhibit leads, nothing is sent.
-    void send(const SharedInstant& shared);
+    /// master does. leapt: the picture has nothing to do with the one before. While another master of this exhibit leads,
+    /// nothing is sent.
+    void send(const SharedInstant& shared, bool leapt);
     /// True where somebody waits until the master has drawn the frame: nodes in step, or the log of frames.
     bool awaits_drawing() const { return log_.is_open() || gate_.somebody_in(); }
     /// A sentence about what keeps it from leading: the network, or another master; empty: nothing.
@@ -28,8 +29,7 @@ public:
     /// Waits until all who are in have drawn the frame, or for the gate's bound; then all show it.
     void go();
 
-    /// The luminance samples of the nodes in step, as they last said.
-    std::vector<ViewSamples> samples() const;
+    std::vector<ViewSamples> samples() const { return gate_.samples(); } ///< Gate's
     /// The master and its nodes. machines: its memory is used again.
     void describe(std::vector<MachineHealth>& machines) const;
     /// The time that the slowest node in step has taken to draw a frame, ms.
@@ -62,7 +62,6 @@ private:
     std::optional<Clock::time_point> rival_followed_; ///< the last word of a node that draws its states
     ConfigMessage config_;
     Gate gate_;
-    std::map<std::string, std::vector<ViewSamples>> samples_; ///< by node
     std::map<std::string, ConfigMessage> configs_; ///< by node, as last heard
     std::map<std::string, Refusal> refusals_; ///< by node
     std::map<std::filesystem::path, std::string> names_; ///< of scenes and layouts

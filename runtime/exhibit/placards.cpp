@@ -1,6 +1,7 @@
 #include "placards.h"
 #include "config/json/error.h"
 #include "runtime/world/surroundings.h"
+#include <algorithm>
 #include <cstdio>
 
 namespace starbow {
@@ -13,12 +14,26 @@ bool wants_signs(const Session& session)
         && in_hand(session.visit) && visitor_flies(session);
 }
 
+/// The distance between two eyes whose baseline does not turn with the look, scene units; 0 where a layout has none.
+double eyes_apart(const Layout& layout, const SceneFile& scene)
+{
+    const Stereo& stereo = layout.stereo;
+    const bool two_eyes = std::ranges::any_of(layout.outputs, [](const Output& output) {
+        return output.packing != Packing::mono
+            || std::ranges::any_of(output.viewports, [](const Viewport& viewport) { return viewport.eye != Eye::middle; });
+    });
+    if (!two_eyes || stereo.turning || stereo.method == StereoMethod::shared)
+        return 0;
+    return stereo.separation_m * stereo.units_per_m(scene.unit_m, scene.light_speed_m_s);
+}
+
 } // namespace
 
 void Placards::choose(const Session& session, const GpuWorld& world, Instant& now)
 {
     if (wants_signs(session))
-        sign_ = sign_for(now.shot, things_in(session, world), world.world, world.scene.seconds_per_time_unit(), sign_);
+        sign_ = sign_for(now.shot, things_in(session, world), world.world, world.scene.seconds_per_time_unit(),
+            eyes_apart(session.layout, world.scene), sign_);
     else
         sign_.reset();
     if (sign_)

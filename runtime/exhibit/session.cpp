@@ -523,7 +523,8 @@ void step(Session& session, RecordEntry& entry, const Metered& before, double se
         : session.shown_record
         ? session.shown_record->flown(entry.dt_ns)
         : flown(session.flight, session.history, controls, entry.dt_ns, session.rules, seconds_per_time_unit, start);
-    const Metered metered = follow_leap(session) ? Metered() : before;
+    session.leapt = follow_leap(session);
+    const Metered metered = session.leapt ? Metered() : before;
     session.exposure.locked ^= controls.lock_exposure;
     if (controls.information)
         session.information = after(session.information);

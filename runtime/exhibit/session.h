@@ -91,6 +91,7 @@ struct Session {
     Flight flight;
     History history{};
     std::optional<Leaps> leaps{}; ///< of the last picture; none before the first one of a programme
+    bool leapt = false; ///< the next picture has nothing to do with the one before
     Exposure exposure{};
     double begun_ev = 0; ///< the exposure with which the present view began, EV
     bool range; ///< a curve shows everything at once

@@ -14,6 +14,7 @@ constexpr double least_radius = 0.012, most_radius = 0.35;
 constexpr double behind_cosine = -0.05;
 constexpr double least_beta = 0.4; ///< slower ships see nothing ahead that lies behind them by so much
 constexpr double old_light_s = 1; ///< a clock's light
+constexpr double other_moment_s = 0.01; ///< of two eyes: a dial of tenths differs at every tenth moment
 /// A thing's D over that straight ahead: with the headlight effect light goes with D^3, and a darker thing is not seen
 /// beside the bright middle.
 constexpr double least_D_part = 0.2;
@@ -63,7 +64,7 @@ struct Apparent {
     bool is_true = false;
 };
 
-Apparent apparent(const Shot& shot, const Thing& thing, double seconds_per_time_unit)
+Apparent apparent(const Shot& shot, const Thing& thing, double seconds_per_time_unit, double eyes_apart)
 {
     const MeasuringObserver observer = measuring_observer_of(shot);
     const glm::dvec3 way = thing.middle - observer.place;
@@ -76,6 +77,8 @@ Apparent apparent(const Shot& shot, const Thing& thing, double seconds_per_time_
         .thing = thing.index,
         .towards = glm::conjugate(shot.ship_from_cockpit) * ray.ship,
         .light_s = distance * seconds_per_time_unit};
+    // A wave's front needs |n' x| of the ship's time from one eye to the other, and its source has emitted D times as long.
+    seen.sign.eyes_apart_s = ray.D * std::abs(seen.sign.towards.x) * eyes_apart * seconds_per_time_unit;
     seen.radius = thing.radius / (distance * ray.D); // aberration makes small things smaller by 1 / D
     const double speed = glm::length(shot.u), beta = speed / std::sqrt(1 + speed * speed);
     const bool coloured = shot.effects.doppler || shot.effects.headlight;
@@ -101,7 +104,7 @@ std::optional<Thing> clock_at(const World& world, std::size_t instance)
 } // namespace
 
 std::optional<Sign> sign_for(const Shot& shot, std::span<const AlignedBox> things, const World& world,
-    double seconds_per_time_unit, const std::optional<Sign>& before)
+    double seconds_per_time_unit, double eyes_apart, const std::optional<Sign>& before)
 {
     if (!shot.effects.aberration || shot.effects.comparison != Comparison::none)
         return {};
@@ -115,7 +118,7 @@ std::optional<Sign> sign_for(const Shot& shot, std::span<const AlignedBox> thing
     std::optional<Sign> best;
     double best_angle = appears_within;
     for (const Thing& thing : all) {
-        const Apparent seen = apparent(shot, thing, seconds_per_time_unit);
+        const Apparent seen = apparent(shot, thing, seconds_per_time_unit, eyes_apart);
         const bool kept = before && before->kind == thing.kind && before->thing == thing.index;
         const double angle = from_axis(seen.sign.towards);
         const double slack = kept ? 1.5 : 1;
@@ -132,9 +135,13 @@ std::optional<Sign> sign_for(const Shot& shot, std::span<const AlignedBox> thing
 
 std::vector<std::string> lines_of(const Sign& sign, const Words& words)
 {
-    if (sign.kind == Sign::Kind::clock)
-        return {words("sign.clock"), words("sign.clock_light", {{"time", shown_duration(sign.light_s, words)}})};
-    return {words("sign.behind"), words("sign.behind_light")};
+    if (sign.kind == Sign::Kind::behind)
+        return {words("sign.behind"), words("sign.behind_light")};
+    std::vector<std::string> lines{
+        words("sign.clock"), words("sign.clock_light", {{"time", shown_duration(sign.light_s, words)}})};
+    if (sign.eyes_apart_s > other_moment_s)
+        lines.push_back(words("sign.clock_eyes"));
+    return lines;
 }
 
 Panel draw_sign(const Typesetter& typesetter, const std::vector<std::string>& lines, double degree_px)

@@ -14,13 +14,15 @@ struct Sign {
     std::size_t thing = 0; ///< of `behind`: index of the box; of `clock`: index of the instance
     glm::dvec3 towards{0, 0, -1}; ///< the thing's middle as seen, unit, cockpit axes
     double light_s = 0; ///< the age of the light that is seen, by the world's time
+    double eyes_apart_s = 0; ///< between the moments at which two eyes see it, by the world's time
 };
 
 /// The sign for a picture: at a thing that the ship has passed and that is seen ahead all the same, or at a clock whose
 /// light is old. Only where aberration is on and nothing is compared: elsewhere the words would be wrong. things: boxes
-/// that rest in the world. before: the sign of the frame before, which is kept as long as it is true.
+/// that rest in the world. eyes_apart: along the cockpit's x axis, scene units; 0 for one eye. before: the sign of the frame
+/// before, which is kept as long as it is true.
 std::optional<Sign> sign_for(const Shot& shot, std::span<const AlignedBox> things, const World& world,
-    double seconds_per_time_unit, const std::optional<Sign>& before);
+    double seconds_per_time_unit, double eyes_apart, const std::optional<Sign>& before);
 
 /// The sign's lines.
 std::vector<std::string> lines_of(const Sign& sign, const Words& words);

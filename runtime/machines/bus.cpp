@@ -560,7 +560,7 @@ std::vector<ReadyMessage> Bus::readies()
     std::vector<ReadyMessage> all;
     if (!topics_)
         return all;
-    topics_->ready.take<starbow_machines_Ready>([&](const starbow_machines_Ready& sample, dds_instance_handle_t) {
+    topics_->ready.take<starbow_machines_Ready>([&](const starbow_machines_Ready& sample, dds_instance_handle_t writer) {
         ReadyMessage ready{text(sample.node), sample.frame, sample.digest, sample.frame_ms, sample.barrier};
         const auto taken = [](const dds_sequence_float& from) {
             std::vector<LuminanceSample> to(from._length / 2);
@@ -574,6 +574,7 @@ std::vector<ReadyMessage> Bus::readies()
         }
         if (const std::string fault = fault_of(ready); !fault.empty())
             return doors_->refuse("is a node's word that", fault);
+        ready.sender = writer;
         all.push_back(std::move(ready));
     });
     return all;

@@ -30,6 +30,7 @@ struct ReadyMessage {
     double frame_ms = 0; ///< that it took to draw
     bool barrier = false; ///< its screens change with those of the others
     std::vector<ViewSamples> samples{}; ///< of its views; none where nothing is metered
+    std::uint64_t sender = 0; ///< the program that has sent it, as the network tells them apart
 };
 
 /// A frame is to be shown by all who are in step.

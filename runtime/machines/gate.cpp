@@ -12,9 +12,17 @@ void Gate::have(const std::set<std::string>& nodes)
         nodes_[node];
 }
 
-void Gate::begin(std::int64_t frame, std::uint64_t digest) { frame_ = frame, digest_ = digest; }
+void Gate::begin(std::int64_t frame, std::uint64_t digest, bool leapt)
+{
+    frame_ = frame, digest_ = digest;
+    if (!leapt)
+        return;
+    leapt_ = frame;
+    for (auto& [name, node] : nodes_)
+        node.samples.clear();
+}
 
-void Gate::hear(const ReadyMessage& ready)
+void Gate::hear(ReadyMessage ready)
 {
     const auto found = nodes_.find(ready.node);
     if (found == nodes_.end() || found->second.refused || ready.frame > frame_)
@@ -22,6 +30,14 @@ void Gate::hear(const ReadyMessage& ready)
     Node& node = found->second;
     node.heard = std::max(node.heard, ready.frame);
     node.frame_ms = ready.frame_ms, node.barrier = ready.barrier;
+    if (ready.frame >= leapt_)
+        node.samples = std::move(ready.samples);
+    if (ready.sender != node.sender) {
+        // A program that was started again speaks from then on; of two that run, each speaks again after the other.
+        if (ready.sender == node.sender_before && !std::exchange(node.doubled, true))
+            events_.push_back({NodeEvent::Kind::doubled, ready.node, frame_});
+        node.sender_before = std::exchange(node.sender, ready.sender);
+    }
     if (ready.frame == frame_ && ready.digest != digest_)
         events_.push_back({NodeEvent::Kind::differs, ready.node, frame_});
 }
@@ -55,6 +71,15 @@ double Gate::slowest_ms() const
     return slowest;
 }
 
+std::vector<ViewSamples> Gate::samples() const
+{
+    std::vector<ViewSamples> all;
+    for (const auto& [name, node] : nodes_)
+        if (node.in)
+            all.insert(all.end(), node.samples.begin(), node.samples.end());
+    return all;
+}
+
 bool Gate::somebody_in() const
 {
     return std::ranges::any_of(nodes_, [](const auto& node) { return node.second.in; });
@@ -79,7 +104,7 @@ GoMessage Gate::go()
             message.members.push_back(name);
         } else if (node.in) {
             if (++node.silent >= silent_frames) {
-                node.in = false;
+                node.in = node.doubled = false;
                 events_.push_back({NodeEvent::Kind::leaves, name, frame_});
             }
         } else if (node.heard >= 0 && !node.refused && frame_ - node.heard < silent_frames) {

@@ -7,7 +7,7 @@ namespace starbow {
 
 /// A change of a node, for the log.
 struct NodeEvent {
-    enum class Kind { joins, leaves, differs } kind;
+    enum class Kind { joins, leaves, differs, doubled } kind; ///< doubled: two programs have the node's name
     std::string node;
     std::int64_t frame; ///< the one at which it happened
 };
@@ -25,10 +25,10 @@ public:
 
     /// Other nodes: those of another layout. Known ones stay as they are.
     void have(const std::set<std::string>& nodes);
-    /// The frame that is drawn now, with the digest of its state.
-    void begin(std::int64_t frame, std::uint64_t digest);
+    /// The frame that is drawn now, with the digest of its state. leapt: its picture has nothing to do with the one before.
+    void begin(std::int64_t frame, std::uint64_t digest, bool leapt = false);
     /// A node's word. Of unknown nodes nothing is heard.
-    void hear(const ReadyMessage& ready);
+    void hear(ReadyMessage ready);
     /// A node whose files differ from the master's is not let in; again: until it says other files.
     void refuse(const std::string& node, bool refused);
     /// No frame is sent: nobody is in, until it is ready for a later one.
@@ -37,6 +37,8 @@ public:
     bool complete() const;
     /// The time that the slowest node in step has taken to draw a frame, ms.
     double slowest_ms() const;
+    /// The luminance samples of the nodes in step, as they last said; none of a frame before the last leap.
+    std::vector<ViewSamples> samples() const;
     bool somebody_in() const;
     /// True when the screens of all who are in change together.
     bool barrier() const;
@@ -53,12 +55,16 @@ public:
         int silent = 0; ///< frames in turn
         double frame_ms = 0;
         bool barrier = false; ///< as ReadyMessage's
+        std::vector<ViewSamples> samples{};
+        std::uint64_t sender = 0, sender_before = 0; ///< of its last word, and the last other one
+        bool doubled = false; ///< known since it joined
     };
     const std::map<std::string, Node>& nodes() const { return nodes_; }
 
 private:
     std::map<std::string, Node> nodes_;
     std::int64_t frame_ = -1;
+    std::int64_t leapt_ = -1; ///< the frame of the last leap
     std::uint64_t digest_ = 0;
     std::vector<NodeEvent> events_;
 };

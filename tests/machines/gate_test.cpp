@@ -25,7 +25,8 @@ std::vector<std::string> events_of(Gate& gate)
     for (const NodeEvent& event : gate.take_events()) {
         const char* kind = event.kind == NodeEvent::Kind::joins ? " joins "
             : event.kind == NodeEvent::Kind::leaves             ? " leaves "
-                                                                : " differs ";
+            : event.kind == NodeEvent::Kind::differs            ? " differs "
+                                                                : " doubled ";
         all.push_back(event.node + kind + std::to_string(event.frame));
     }
     return all;
@@ -55,6 +56,70 @@ TEST(GateTest, WaitsForThoseInStep)
     EXPECT_EQ(go.frame, 1);
     EXPECT_EQ(go.members, (List{"left", "right"}));
     EXPECT_EQ(events_of(gate), List{});
+}
+
+/// A node's word with one sample of a view.
+ReadyMessage metered(const char* node, std::int64_t frame, float luminance)
+{
+    return {node, frame, state, 4, false, {{0, {{luminance, 1}}, {}}}};
+}
+
+/// The luminances of a gate's samples.
+std::vector<float> luminances(const Gate& gate)
+{
+    std::vector<float> all;
+    for (const ViewSamples& view : gate.samples())
+        for (const LuminanceSample& sample : view.surfaces)
+            all.push_back(sample.luminance);
+    return all;
+}
+
+TEST(GateTest, LightOfThePictureBeforeALeapIsForgotten)
+{
+    Gate gate = two_in_step();
+    gate.begin(1, state);
+    gate.hear(metered("left", 1, 10)), gate.hear(metered("right", 1, 20));
+    gate.go();
+    EXPECT_EQ(luminances(gate), (std::vector<float>{10, 20}));
+    gate.begin(2, state);
+    gate.hear(metered("right", 2, 21)); // the left one is late, and counts as it last said
+    gate.go();
+    EXPECT_EQ(luminances(gate), (std::vector<float>{10, 21}));
+
+    gate.begin(3, state, true);
+    EXPECT_EQ(luminances(gate), std::vector<float>{});
+    gate.hear(metered("left", 2, 11)); // late again: of the other picture
+    gate.hear(metered("right", 3, 300));
+    gate.go();
+    EXPECT_EQ(luminances(gate), std::vector<float>{300});
+    gate.begin(4, state);
+    gate.hear(metered("left", 3, 400));
+    gate.go();
+    EXPECT_EQ(luminances(gate), (std::vector<float>{400, 300}));
+}
+
+TEST(GateTest, TwoProgramsWithOneNameAreSaidOnce)
+{
+    Gate gate = two_in_step();
+    const auto speaks = [&](std::int64_t frame, std::uint64_t sender) {
+        ReadyMessage word{"left", frame, state, 4};
+        word.sender = sender;
+        gate.hear(word);
+    };
+    const auto frames = [&](std::int64_t from, std::vector<std::uint64_t> senders) {
+        for (std::int64_t frame = from; frame < from + 4; ++frame) {
+            gate.begin(frame, state);
+            for (const std::uint64_t sender : senders)
+                speaks(frame, sender);
+            gate.hear({"right", frame, state, 9});
+            gate.go();
+        }
+        return events_of(gate);
+    };
+    EXPECT_EQ(frames(1, {5}), List{});
+    EXPECT_EQ(frames(5, {6}), List{}) << "one that was started again";
+    EXPECT_EQ(frames(9, {6, 7}), List{"left doubled 10"});
+    EXPECT_EQ(frames(13, {7}), List{}) << "one was stopped";
 }
 
 TEST(GateTest, AnotherLayoutMayHaveOtherNodes)
