@@ -13,26 +13,28 @@ public:
     /// A master that was silent for so long is gone. It is longer than a master takes to show another world.
     static constexpr std::chrono::seconds silence{3};
 
-    /// A state of a master. Returns false where another one is followed.
+    /// A state of a master, not 0. Returns false where another one is followed.
     bool hears(std::uint64_t master, Time now)
     {
-        if (master_ && *master_ != master)
+        if (master_ == 0)
+            master_ = master;
+        if (master_ != master)
             return false;
-        master_ = master, heard_ = now;
+        heard_ = now;
         return true;
     }
     /// ended: the network says that the followed one has ended. Returns true where it is gone: the next one is followed.
     bool drops(bool ended, Time now)
     {
-        if (!master_ || (!ended && now - heard_ < silence))
+        if (master_ == 0 || (!ended && now - heard_ < silence))
             return false;
-        master_.reset();
+        master_ = 0;
         return true;
     }
-    std::optional<std::uint64_t> master() const { return master_; }
+    std::optional<std::uint64_t> master() const { return master_ == 0 ? std::nullopt : std::optional(master_); }
 
 private:
-    std::optional<std::uint64_t> master_;
+    std::uint64_t master_ = 0; ///< as the network numbers writers, from 1; 0: none
     Time heard_{};
 };
 
