@@ -156,12 +156,14 @@ Import Importer::run()
 /// The master's name among the machines of a cluster: that of the node which has its address.
 std::string Importer::master_of(const std::vector<Place>& all, const std::string& address)
 {
-    std::size_t master = 0;
-    for (std::size_t i = 0; i < all.size(); ++i)
-        if (const auto own = find_member(all[i], "address"); own && text(*own) == address)
-            master = i;
-    return "in the exhibit's file \"machines\": { \"master\": \"node" + std::to_string(master)
-        + "\" } and an \"interface\"; each machine starts with its own --node";
+    const auto master = std::ranges::find_if(all, [&](const Place& node) {
+        const auto own = find_member(node, "address");
+        return own && text(*own) == address;
+    });
+    const bool found = master != all.end();
+    return "in the exhibit's file \"machines\": { \"master\": \"node" + std::to_string(found ? master - all.begin() : 0)
+        + "\" } and an \"interface\"; each machine starts with its own --node"
+        + (found ? "" : ". No node has the address " + one_line(address, 60) + ", so node0 is a guess");
 }
 
 void Importer::node(const Place& place)

@@ -326,6 +326,14 @@ TEST(ImportSgctTest, AClusterComesOverWhole)
     }));
     const Layout layout = load_layout(write_text("cluster-layout.json", import.layout.dump()));
     EXPECT_EQ(nodes_of(layout), (std::vector<std::string>{"node0", "node1"}));
+
+    std::string elsewhere = text;
+    elsewhere.replace(elsewhere.find("10.0.0.2"), 8, "dome.lan");
+    const Import guessed = import_sgct(read_document(write_text("cluster.json", elsewhere)), {}, "from");
+    EXPECT_TRUE(std::ranges::any_of(guessed.lines, [](const std::string& line) {
+        return line.find(R"("master": "node0")") != line.npos
+            && line.ends_with("No node has the address dome.lan, so node0 is a guess");
+    }));
 }
 
 TEST(ImportSgctTest, AWindowOfControlsIsLeftOut)
