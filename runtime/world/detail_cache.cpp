@@ -13,7 +13,7 @@ namespace starbow {
 namespace {
 
 /// Another way of making levels has another number.
-constexpr std::uint64_t version = 3;
+constexpr std::uint64_t version = 4;
 
 struct Header {
     char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'D'};

@@ -1,7 +1,10 @@
 #include "simplifier.h"
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/type_precision.hpp>
 #include <meshoptimizer.h>
+#include <optional>
+#include <unordered_map>
 
 namespace starbow {
 namespace {
@@ -131,6 +134,40 @@ double bulge(const std::vector<Vertex>& vertices, const std::vector<std::uint32_
     return most / 6;
 }
 
+/// Gives one place to vertices whose places differ by roundings alone: an exporter writes sin 0 at one end of a ball's row
+/// and sin 2 pi at the other. A seam between such vertices would look like two borders, and open.
+void close_seams(std::vector<Vertex>& vertices)
+{
+    float largest = 0;
+    for (const Vertex& vertex : vertices)
+        for (int i = 0; i < 3; ++i)
+            largest = std::max(largest, std::abs(vertex.position[i]));
+    const float apart = 0x1p-21f * largest; // eight times the last bit of the largest number
+    if (!(apart > 0))
+        return;
+    const auto cell_of = [&](const glm::vec3& place) {
+        const glm::i64vec3 cell = glm::floor(glm::dvec3(place) / (4.0 * apart)); // 20 bits and a sign
+        return std::uint64_t(cell.x) << 42 ^ (std::uint64_t(cell.y) & 0x1fffff) << 21 ^ (std::uint64_t(cell.z) & 0x1fffff);
+    };
+    std::unordered_multimap<std::uint64_t, std::uint32_t> firsts; // by cell
+    firsts.reserve(vertices.size());
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+        const glm::vec3 own = vertices[i].position;
+        std::optional<std::uint32_t> same;
+        for (int corner = 0; corner < 8 && !same; ++corner) {
+            const glm::vec3 way(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+            const auto [from, to] = firsts.equal_range(cell_of(own + apart * way));
+            for (auto each = from; each != to && !same; ++each)
+                if (glm::all(glm::lessThanEqual(glm::abs(vertices[each->second].position - own), glm::vec3(apart))))
+                    same = each->second;
+        }
+        if (same)
+            vertices[i].position = vertices[*same].position;
+        else
+            firsts.emplace(cell_of(own), i);
+    }
+}
+
 } // namespace
 
 CompactSurface compact(const World& world, const Primitive& primitive, std::span<const std::uint32_t> corners)
@@ -151,12 +188,13 @@ CompactSurface compact(const World& world, const Primitive& primitive, std::span
 Simplifier::Simplifier(const World& world, const Primitive& primitive, std::span<const std::uint32_t> from, bool locked,
     const PieceGroup& errors)
     : surface_(compact(world, primitive, from))
-    , first_(surface_.vertices)
     , locked_(locked)
     , level_{0, 0, errors.error, errors.shading, errors.apart}
     , first_shading_(errors.shading)
     , first_apart_(errors.apart)
 {
+    close_seams(surface_.vertices);
+    first_ = surface_.vertices;
 }
 
 bool Simplifier::coherent() const

@@ -15,7 +15,7 @@ void ball(Doc& doc, const dvec3& centre, double radius, int n)
     std::vector<std::uint32_t> indices;
     for (int j = 0; j <= n; ++j)
         for (int i = 0; i <= n; ++i) {
-            const double t = pi * j / n, f = 2 * pi * (i % n) / n; // both ends meet to the bit
+            const double t = pi * j / n, f = 2 * pi * i / n; // both ends meet to a rounding
             for (const double x : {std::sin(t) * std::cos(f), std::cos(t), std::sin(t) * std::sin(f)})
                 positions.push_back(float(radius * x)), normals.push_back(float(x));
         }
