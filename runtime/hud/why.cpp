@@ -40,7 +40,8 @@ struct Formatter {
     std::string wavelength(double nm) const
     {
         const auto phrase = [&](const char* key, const std::string& number) { return words(key, {{"number", number}}); };
-        return nm < 10   ? words("wave.x_rays")
+        return nm < 0.01 ? words("wave.gamma_rays")
+            : nm < 10    ? words("wave.x_rays")
             : nm < 380   ? phrase("wave.ultraviolet", shown_number(nm, 0, words))
             : nm < 780   ? phrase("wave.visible", shown_number(nm, 0, words))
             : nm < 10000 ? phrase("wave.infrared", shown_number(nm, 0, words))
@@ -85,7 +86,8 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
         page.numbers.push_back(words(key, with));
     };
     const SpotReading& aim = m.aim;
-    if (m.effects.comparison != Comparison::none) { // the picture is not what these formulas say
+    // The picture is not what these formulas say. The clocks on the display are.
+    if (m.effects.comparison != Comparison::none && why != Why::dilation) {
         add("why.comparison");
         return page;
     }
@@ -93,6 +95,10 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
     case Why::none:
         break;
     case Why::aberration:
+        if (!m.effects.aberration) {
+            add("why.aberration_off");
+            break;
+        }
         add("why.aberration_numbers",
             {{"cos", format.cosine(aim.from_motion_world_rad)}, {"beta", beta},
                 {"result", format.cosine(aim.from_motion_rad)}});
@@ -100,11 +106,19 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
             {{"theta", format.angle(aim.from_motion_world_rad)}, {"seen", format.angle(aim.from_motion_rad)}});
         break;
     case Why::doppler: { // of the motion past the spot, which may move itself
-        const double spot_gamma = std::sqrt(1 + aim.relative_u * aim.relative_u);
-        add("why.doppler_numbers",
-            {{"gamma", shown_number(spot_gamma, words)}, {"beta", shown_number(aim.relative_u / spot_gamma, 4, words)},
-                {"cos", format.cosine(aim.from_relative_motion_rad)}, {"D", D}});
-        add("why.doppler_seen", {{"nm", format.wavelength(aim.seen_nm)}});
+        const double spot_gamma = std::sqrt(1 + aim.relative_u * aim.relative_u), spot_beta = aim.relative_u / spot_gamma;
+        // Without aberration a moving spot is not seen in this formula's direction.
+        const double by_formula = 1 / (spot_gamma * (1 - spot_beta * std::cos(aim.from_relative_motion_rad.value_or(0))));
+        if (m.effects.aberration || std::abs(by_formula / aim.ray.D - 1) < 1e-3)
+            add("why.doppler_numbers",
+                {{"gamma", shown_number(spot_gamma, words)}, {"beta", shown_number(spot_beta, 4, words)},
+                    {"cos", format.cosine(aim.from_relative_motion_rad)}, {"D", D}});
+        else
+            add("why.aberration_off");
+        if (m.effects.doppler)
+            add("why.doppler_seen", {{"nm", format.wavelength(aim.seen_nm)}});
+        else
+            add("why.doppler_off");
         break;
     }
     case Why::headlight:
@@ -131,10 +145,11 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
     case Why::length:
         if (m.pair && m.pair->apparent_s) {
             add("why.length_numbers",
-                {{"rest", format.length(m.pair->rest_s)}, {"contracted", format.length(*m.pair->contracted_s)}});
+                {{"rest", format.length(m.pair->rest_s)}, {"contracted", format.length(m.pair->contracted_s)}});
             add("why.length_apparent", {{"apparent", format.length(m.pair->apparent_s)}});
         } else {
-            add("why.length_none");
+            const bool far = m.pair && m.marks[0]->distance_s && m.marks[1]->distance_s;
+            add(!m.pair ? "why.length_none" : far ? "why.aberration_off" : "why.length_sky");
         }
     }
     return page;

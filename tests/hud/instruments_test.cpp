@@ -539,7 +539,12 @@ TEST(Instruments, APageOfAComparisonSaysThatItsFormulaDoesNotHold)
         for (const Comparison comparison : {Comparison::galilean, Comparison::no_light_delay})
             for (std::size_t page = 1; page < why_names.size(); ++page) {
                 m.effects.comparison = comparison;
-                EXPECT_EQ(why_page(Why(page), m, words).numbers, std::vector<std::string>{words("why.comparison")});
+                const std::vector<std::string> numbers = why_page(Why(page), m, words).numbers;
+                if (Why(page) == Why::dilation) { // of the clocks on the display, which no picture changes
+                    EXPECT_EQ(numbers.size(), 2u);
+                } else {
+                    EXPECT_EQ(numbers, std::vector<std::string>{words("why.comparison")});
+                }
             }
         EXPECT_EQ(reading_fields(m, words)[4].first, words("lab.shown_at"));
     }
