@@ -1,11 +1,12 @@
-// Each number of a tour's captions, and each thing that they name as seen, is computed here from the flight's state while
-// the caption is shown, by formulas that share no code with the program's measures. A number or a caption that is not listed
-// here fails.
+// Each number of a tour's captions, and each thing that they name as seen, its place and its size, is computed here from the
+// flight's state while the caption is shown, by formulas that share no code with the program's measures. A number or a
+// caption that is not listed here fails.
 #include "config/model/shipped.h"
 #include "config/model/tour_file.h"
 #include "runtime/flight/tour.h"
 #include "runtime/hud/caption.h"
 #include "tests/support/files.h"
+#include "tests/support/tour_frame.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -22,71 +23,6 @@ using glm::dvec3;
 
 namespace {
 
-constexpr double light_year_s = 365.25 * 86400, degree = 3.14159265358979324 / 180;
-
-/// The state while a caption is shown.
-struct Frame {
-    double time = 0, own = 0, trip = 0; ///< world's time, ship's own time and that since the last cut, scene units
-    dvec3 at{0}, u{0};
-    glm::dquat cockpit{1, 0, 0, 0};
-    bool aberration = true;
-
-    double gamma() const { return std::sqrt(1 + glm::dot(u, u)); }
-    double beta() const { return glm::length(u) / gamma(); }
-    double away(const dvec3& place) const { return glm::distance(at, place); }
-    /// When light that arrives now has left a place.
-    double left(const dvec3& place) const { return time - away(place); }
-
-    /// The unit direction in the cockpit in which a place is seen: a light's way, (1, -n), in the ship's frame.
-    dvec3 seen(const dvec3& place) const
-    {
-        dvec3 n = (place - at) / away(place);
-        if (aberration) {
-            const double g = gamma(), along = glm::dot(u, n);
-            n = (n + u * (1 + along / (1 + g))) / (g + along);
-        }
-        return glm::normalize(glm::conjugate(cockpit) * n);
-    }
-    /// True in a view of 4 to 3 with 60 degrees from top to bottom.
-    bool sees(const dvec3& place) const
-    {
-        const dvec3 n = seen(place);
-        const double half = std::tan(30 * degree);
-        return n.z < 0 && std::abs(n.y / n.z) < half && std::abs(n.x / n.z) < half * 4 / 3;
-    }
-    double off_middle_deg(const dvec3& place) const { return std::acos(std::clamp(-seen(place).z, -1., 1.)) / degree; }
-};
-
-/// What the clock on the twins' traveller shows when it is seen: on the side astern of it, 0.05 from its middle.
-double travellers_clock(const Frame& frame)
-{
-    constexpr double g = 5. / 3, v = 0.8, astern = 0.08 * 0.62;
-    double shown = std::nan("");
-    for (double own = 0; own <= 12; own += 2e-4) {
-        const double way = own < 6 ? v : -v, since = own < 6 ? own : own - 6;
-        const dvec3 place(1.3, 0, (own < 6 ? 0 : -8) + g * (astern - way * since));
-        const double left = (own < 6 ? 0 : 10) + g * (since - way * astern);
-        if (std::abs(left + frame.away(place) - frame.time) < 1e-3)
-            shown = own;
-    }
-    const double since_home = frame.left({1.3, 0, astern}); // at rest, before and after
-    return since_home <= 0 ? since_home : since_home >= 20 ? since_home - 8 : shown;
-}
-double home_clock(const Frame& frame) { return frame.left({-1.3, 0, 0.08 * 0.62}); }
-/// Home's present for the ship.
-double now_at_home(const Frame& frame)
-{
-    const dvec3 home(-1.3, 0, 0);
-    return frame.time + glm::dot(frame.u / frame.gamma(), home - frame.at);
-}
-
-/// When the light left the traveller's clock that is seen of it on its way out.
-double travellers_light(const Frame& frame)
-{
-    constexpr double g = 5. / 3, v = 0.8, astern = 0.08 * 0.62;
-    return g * (travellers_clock(frame) - v * astern);
-}
-
 constexpr double about = 0.25; ///< what "about" allows
 
 struct Number {
@@ -98,7 +34,20 @@ struct Seen {
     const char* what;
     std::function<dvec3(const Frame&)> at;
     double within_deg = 0; ///< of the view's middle; 0: anywhere in view
+    dvec3 across{0}; ///< from one of its ends to the other, in the world; 0: a point, as a star, or a place
+    double least_deg = 1; ///< it is seen at least as large
 };
+/// A picture of 720 rows over 60 degrees has 12 in one degree. A thing of 12 pixels shows which thing it is. The hand of a
+/// dial of 36 is 15 long: the tip moves by 1.5 pixels in a second, a sixtieth of the turn.
+constexpr double read_deg = 3;
+/// Dials, and other things, from one end to the other.
+const dvec3 clock_dial(3.8, 0, 0), ship_dial(1.24, 0, 0), golden(2.6, 0, 0), whole_column(0, 3, 0);
+constexpr double earth_s = 12742 / 299792.458, saturn_s = 2 * 58232 / 299792.458;
+
+Seen dial(const char* what, double x)
+{
+    return {what, [=](const Frame&) { return dvec3(x, 0, 0); }, 0, clock_dial, read_deg};
+}
 struct Facts {
     std::vector<Number> numbers;
     std::vector<Seen> seen;
@@ -130,29 +79,46 @@ const std::map<std::string, Facts>& facts()
 {
     const auto beta = [](const Frame& f) { return f.beta(); };
     const auto years = [](const Frame& f) { return f.own; };
-    // The column's size: by aberration tan(seen / 2) = tan(true / 2) / e^rapidity, relative to 12 light-seconds away at
-    // rest.
-    const auto size = [](const Frame& f) { return 12 / f.away(column) / (f.gamma() * (1 + f.beta())); };
+    // The shaft's width, relative to that from 12 light-seconds at rest; of a point it is 0.2 % more at the end. The height is as good a measure from far away
+    // alone.
+    const auto size = [](const Frame& f) { return f.size_deg(column, {0.3, 0, 0}) / (2 * std::atan(0.15 / 12) / degree); };
+    const auto height = [](const Frame& f) { return f.size_deg(column, whole_column) / (2 * std::atan(1.5 / 12) / degree); };
     const auto to_column = [](const Frame& f) { return f.away(column); };
-    const auto straight = [](const dvec3& at) { return std::vector<Seen>{{"straight ahead", place(at.x, at.y, at.z), 3}}; };
+    const auto straight = [](const dvec3& at) {
+        const dvec3 high = at == column ? whole_column : dvec3(0);
+        return std::vector<Seen>{{"straight ahead", place(at.x, at.y, at.z), 3, high}};
+    };
     const auto minutes = [](const Frame& f) { return f.trip / 60; };
     const auto light_left = [](const Frame& f) { return f.left(dvec3(0)) / 60; };
     // Sirius' neighbour need not be known: Proxima lies straight ahead of home, the Pleiades where the tour's comment says.
     const dvec3 proxima(0, 0, -4.244);
     const dvec3 pleiades = 403. * dvec3(0.30382802304345763, -0.5772852186744786, 0.7579118080050367);
-    const std::vector<Seen> ring{{"the golden ring", place(1.3, -0.35, -8)}},
-        ships{{"home", place(-1.3, 0, 0)}, {"the traveller", place(1.3, 0, 0)}};
+    const Seen gold{"the golden ring", place(1.3, -0.35, -8), 0, golden}, home{"home", place(-1.3, 0, 0), 0, ship_dial},
+        home_dial{"the clock at home", place(-1.3, 0, 0), 0, ship_dial, read_deg},
+        dial_away{"the traveller's clock",
+            [](const Frame&f) {
+                // Where its light left, on the way out and back.
+                const double clock = travellers_clock(f),
+                             own = std::isnan(clock) ? 6 : std::clamp(clock, 0., 12.); // at the turn
+                constexpr double g = 5. / 3, v = 0.8, astern = 0.08 * 0.62;
+                return dvec3(1.3, 0, own < 6 ? g * (astern - v * own) : -8 + g * (astern + v * (own - 6)));
+            },
+            0, ship_dial, read_deg};
+    const std::vector<Seen> ring{gold}, ships{home_dial, {"the traveller", place(1.3, 0, 0), 0, ship_dial, read_deg}};
+    const dvec3 whole_earth(0, earth_s, 0);
     static const std::map<std::string, Facts> all{
         {"first-minute.here", {{{"twelve", to_column, 1e-9}}, straight(column)}},
         {"first-minute.guess", {{}, straight(column)}},
-        {"first-minute.back", {{{"{measured}", size, 0.006}}, straight(column)}},
+        {"first-minute.back", {{{"{measured}", size, 0.006}, {"{measured}", height, 0.01}}, straight(column)}},
         {"first-minute.question", {{}, straight(column)}},
         {"first-minute.farther", {}},
         {"first-minute.same", {}},
         {"first-minute.nearer", {}},
         {"first-minute.answer", {{{"{measured}", to_column, 0.006}}, straight(column)}},
-        {"first-minute.return", {{{"{measured}", size, 0.006}}, straight(column)}},
-        {"first-minute.as-before", {{{"{measured}", to_column, 0.006}}, straight(column)}},
+        {"first-minute.return", {{{"{measured}", size, 0.008}}, straight(column)}},
+        {"first-minute.as-before",
+            {{{"{measured}", to_column, 0.006}, {"as wide", size, 0.01}, {"nearly as high", height, 0.15}},
+                straight(column)}},
         {"first-minute.stop", {{}, straight(column)}},
         {"first-minute.home", {}},
         {"first-minute.try", {}},
@@ -186,20 +152,22 @@ const std::map<std::string, Facts>& facts()
         {"voyage.life", {{{"{measured}", [](const Frame& f) { return f.trip; }, 0.06}}, {}}},
         {"voyage.half", {{{"{measured}", [](const Frame& f) { return f.time; }, 0.6}, {"0.999999997", beta, 5e-10}}, {}}},
         {"voyage.try", {}},
-        {"solar-system.earth", {{{"12", always(12), 0}, {"2026", always(2026), 0}}, {{"the whole Earth", place(0, 0, 0)}}}},
+        {"solar-system.earth",
+            {{{"12", always(12), 0}, {"2026", always(2026), 0}}, {{"the whole Earth", place(0, 0, 0), 0, whole_earth, 12}}}},
         {"solar-system.down", {{}, {}, true}},
         {"solar-system.air", {{{"400", [](const Frame& f) { return f.away(dvec3(0)) * 299792.458 - 6371; }, 15}}, {}}},
-        {"solar-system.shadow", {{}, {{"the Earth", place(0, 0, 0)}}}},
+        {"solar-system.shadow", {{}, {{"the Earth", place(0, 0, 0), 0, whole_earth}}}},
         {"solar-system.depart",
             {{{"73", [](const Frame& f) { return f.away(saturn_then) / 60; }, 0.5}},
-                {{"the place of Saturn", [](const Frame&) { return saturn_then; }, 3}, {"the Earth", place(0, 0, 0)}}}},
+                {{"the place of Saturn", [](const Frame&) { return saturn_then; }, 3},
+                    {"the Earth", place(0, 0, 0), 0, whole_earth}}}},
         {"solar-system.faster", {{{"{measured}", beta, 0.006}}, {}}},
         {"solar-system.brake", {{{"{measured}", [](const Frame& f) { return f.away(saturn_then); }, 6}}, {}}},
         {"solar-system.there", {}},
         {"solar-system.saturn",
             {{{"{measured}", minutes, 0.06}},
-                {{"Saturn", [](const Frame& f) { return f.at + dvec3(0.582790378366, 0.338137762192, -0.738930462672); },
-                    5}}}},
+                {{"Saturn", [](const Frame& f) { return f.at + dvec3(0.582790378366, 0.338137762192, -0.738930462672); }, 5,
+                    {0, saturn_s, 0}, 5}}}},
         {"solar-system.back", {{{"{measured}", minutes, 0.06}}, {}}},
         {"solar-system.question", {{}, {{"the Earth beside the Sun", place(0, 0, 0), 15}}}},
         {"solar-system.no_time", {{{"3", light_left, 0.3}}, {}}},
@@ -229,17 +197,17 @@ const std::map<std::string, Facts>& facts()
         {"rainbow.front", {}},
         {"rainbow.stop", {}},
         {"rainbow.try", {}},
-        {"simultaneity.here", {{}, {{"the first clock", place(-10, 0, 0)}, {"the last clock", place(10, 0, 0)}}}},
+        {"simultaneity.here", {{}, {dial("the first clock", -10), dial("the last clock", 10)}}},
         {"simultaneity.light",
             {{{"{measured}",
                  [](const Frame& f) {
                      return f.left(dvec3(0)) - f.left({10, 0, 0});
                  },
                  0.006}},
-                {{"the first clock", place(-10, 0, 0)}, {"the last clock", place(10, 0, 0)}}}},
+                {dial("the first clock", -10), dial("the last clock", 10)}}},
         {"simultaneity.fly", {{{"half", [](const Frame& f) { return 2 * f.beta() - 0.5; }, 1e-9}}, {}}},
-        {"simultaneity.now", {{}, {{"the middle clock", place(0, 0, 0), 1}}}},
-        {"simultaneity.question", {{}, {{"the far left", place(-10, 0, 0)}, {"the far right", place(10, 0, 0)}}}},
+        {"simultaneity.now", {{}, {{"the middle clock", place(0, 0, 0), 1, clock_dial, read_deg}}}},
+        {"simultaneity.question", {{}, {dial("the far left", -10), dial("the far right", 10)}}},
         {"simultaneity.same", {}},
         {"simultaneity.later", {}},
         {"simultaneity.earlier", {}},
@@ -251,17 +219,12 @@ const std::map<std::string, Facts>& facts()
                  0.006}},
                 {}}},
         {"simultaneity.stop", {}},
-        {"simultaneity.stopped", {{}, {{"the left clock", place(-10, 0, 0)}}}},
+        {"simultaneity.stopped", {{}, {dial("the left clock", -10)}}},
         {"simultaneity.try", {}},
-        {"twins.here",
-            {{{"8", always(8), 0}, {"0.8", always(0.8), 0}},
-                {{"home", place(-1.3, 0, 0)}, {"the traveller", place(1.3, 0, 0)},
-                    {"the golden ring", place(1.3, -0.35, -8)}}}},
-        {"twins.leaves", {{}, {{"home", place(-1.3, 0, 0)}}}},
-        {"twins.far", {{}, {{"our clock", place(-1.3, 0, 0.05)}, {"the golden ring", place(1.3, -0.35, -8)}}}},
-        {"twins.question",
-            {{{"6", travellers_clock, 0.05}},
-                {{"the golden ring", place(1.3, -0.35, -8)}, {"our clock", place(-1.3, 0, 0.05)}}}},
+        {"twins.here", {{{"8", always(8), 0}, {"0.8", always(0.8), 0}}, {home_dial, ships[1], gold}}},
+        {"twins.leaves", {{}, {home_dial, dial_away}}},
+        {"twins.far", {{}, {home_dial, gold}}},
+        {"twins.question", {{{"6", travellers_clock, 0.05}}, {gold, home_dial, dial_away}}},
         {"twins.six", {{{"6", travellers_clock, 0.05}}, {}}},
         {"twins.ten", {{{"10", travellers_light, about}}, {}}},
         {"twins.eighteen", {{{"18", home_clock, about}}, {}}},
@@ -270,19 +233,18 @@ const std::map<std::string, Facts>& facts()
                  {"8", [](const Frame& f) { return home_clock(f) - travellers_light(f); }, about},
                  {"6", travellers_clock, 0.05}},
                 ring}},
-        {"twins.returns", {{}, {{"home", place(-1.3, 0, 0)}}}},
+        {"twins.returns", {{}, {home_dial, dial_away}}},
         {"twins.meet",
             {{{"20", [](const Frame& f) { return home_clock(f) - 0.5; }, 0.05},
                  {"12", [](const Frame& f) { return travellers_clock(f) - 0.5; }, 0.05},
                  {"8", [](const Frame& f) { return home_clock(f) - travellers_clock(f); }, 0.05}},
                 ships}},
-        {"twins.aboard", {{}, {{"home", place(-1.3, 0, 0)}}}},
-        {"twins.before", {{{"{measured}", now_at_home, 0.006}}, {{"home", place(-1.3, 0, 0)}}}},
-        {"twins.turn", {{{"{measured}", now_at_home, 0.06}}, {{"home", place(-1.3, 0, 0)}}}},
+        {"twins.aboard", {{}, {home_dial}}},
+        {"twins.before", {{{"{measured}", now_at_home, 0.006}}, {home}}},
+        {"twins.turn", {{{"{measured}", now_at_home, 0.06}}, {home}}},
         {"twins.leap",
-            {{{"3.6", [](const Frame& f) { return f.time - 0.8 * 8; }, 0.05}, {"{measured}", now_at_home, 0.06}},
-                {{"home", place(-1.3, 0, 0)}}}},
-        {"twins.homeward", {{}, {{"home", place(-1.3, 0, 0)}}}},
+            {{{"3.6", [](const Frame& f) { return f.time - 0.8 * 8; }, 0.05}, {"{measured}", now_at_home, 0.06}}, {home}}},
+        {"twins.homeward", {{}, {home_dial}}},
         {"twins.both",
             {{{"20", [](const Frame& f) { return home_clock(f) - 0.5; }, 0.05},
                  {"12", [](const Frame& f) { return travellers_clock(f) - 0.5; }, 0.05}},
@@ -322,7 +284,8 @@ std::vector<std::string> numbers_in(std::string text, bool german)
 
 double value_of(std::string figures)
 {
-    static const std::map<std::string, double> words{{"twelve", 12}, {"twenty", 20}, {"half", 0.5}};
+    static const std::map<std::string, double> words{
+        {"twelve", 12}, {"twenty", 20}, {"half", 0.5}, {"as wide", 1}, {"nearly as high", 1}};
     if (const auto found = words.find(figures); found != words.end())
         return found->second;
     std::erase(figures, ',');
@@ -333,18 +296,6 @@ nlohmann::json words_file(const char* language)
 {
     return nlohmann::json::parse(
         read_text(source_dir() / "config/words" / (std::string(language) + ".json")), nullptr, true, true);
-}
-
-Frame frame_of(const Touring& touring)
-{
-    const Ship& ship = touring.flight.ship;
-    return {.time = ship.time.total(),
-        .own = ship.proper_time.total(),
-        .trip = ship.proper_time.total() - touring.starts.back().since.proper_time.total(),
-        .at = ship.position.total(),
-        .u = ship.u.total(),
-        .cockpit = ship.ship_from_cockpit,
-        .aberration = touring.flight.effects.aberration};
 }
 
 /// The shown number of a caption: what stands in the place of {measured}.
@@ -431,6 +382,10 @@ TEST(CaptionTruth, EveryNumberAndThingIsThatOfTheFrame)
                     EXPECT_TRUE(frame.sees(seen.at(frame))) << seen.what << " is not in view";
                     if (seen.within_deg > 0) {
                         EXPECT_LE(frame.off_middle_deg(seen.at(frame)), seen.within_deg) << seen.what;
+                    }
+                    if (seen.across != dvec3(0)) {
+                        EXPECT_GE(frame.size_deg(seen.at(frame), seen.across), seen.least_deg)
+                            << seen.what << " is too small";
                     }
                 }
             }
