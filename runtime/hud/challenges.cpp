@@ -200,8 +200,8 @@ std::optional<Finding> same_time(const Lines& lines)
 {
     std::optional<Finding> best;
     for (const LabLine& line : lines)
-        if (const double apart = line["marks_clock_2_minus_1_s"]; std::isfinite(apart)
-            && line["marks_relative_gamma_beta"] >= 0.3 && line["marks_rest_length_light_s"] >= 5
+        if (const double apart = line["marks_clock_2_minus_1_s"], u = line["marks_relative_gamma_beta"]; std::isfinite(apart)
+            && u / std::hypot(1.0, u) >= 0.3 && line["marks_rest_length_light_s"] >= 5
             && line["marks_from_motion_at_rest_deg"] <= 45)
             keep(best, {.line = line.line, .found = apart, .right = 0, .tolerance = 0.2});
     return best;

@@ -38,7 +38,7 @@ struct Spoken {
     }
 };
 struct Statement {
-    const char* words; ///< as in the English text
+    const char* words; ///< words of the English text, in their order
     std::function<bool(const Spoken&)> holds;
 };
 struct Description {
@@ -392,7 +392,7 @@ const std::map<std::string, Description>& descriptions()
                         }}}}},
         {"solar-system.see-1",
             {"Der Horizont mit einer dünnen blauen Linie aus Luft darüber",
-                {{"The horizon, with air above it",
+                {{"The horizon, with air above it.",
                      [](const Spoken& s) {
                          // At the end of the way down: from straight down the horizon is asin(R / r) away.
                          const Frame& f = s.end();
@@ -413,7 +413,7 @@ const std::map<std::string, Description>& descriptions()
                      [](const Spoken& s) { return s.end().sees(dvec3(0)) && glm::length(s.end().at) > 2 * earth_s; }},
                     // The shadow's axis passes the Earth's middle at 0.8977 of its radius (NASA's Five Millennium Catalog):
                     // from the Sun's side the spot is as far from the middle, and round.
-                    {"near its edge, round",
+                    {"round spot near its edge",
                         [](const Spoken& s) {
                             return glm::dot(glm::normalize(s.end().at), glm::normalize(sun())) > std::cos(5 * degree);
                         }}}}},
@@ -466,7 +466,7 @@ const std::map<std::string, Description>& descriptions()
 
         {"rainbow.see-0",
             {"Ein Balken aus blauem Licht zieht sich von ganz links nach ganz rechts",
-                {{"A bar of blue light, from far left to far right",
+                {{"A bar of blue light from far left to far right,",
                     [](const Spoken& s) {
                         return s.always([](const Frame& f) { return colours(f) == std::vector<std::string>{"blue"}; })
                             && std::atan2(2000., 3.) / degree - 90 > -1;
@@ -695,7 +695,7 @@ const std::map<std::string, Description>& descriptions()
                     [](const Spoken& s) { return traveller_deg(s.end()) > 1.7 * traveller_deg(s.begin()); }}}}},
         {"twins.see-5",
             {"Es liegt wieder neben dem anderen Schiff, so groß wie am Anfang",
-                {{"beside the other ship, as large as at first",
+                {{"beside the other ship again, as large as at first",
                     [](const Spoken& s) {
                         return std::abs(traveller_deg(s.end()) / home_deg(s.end()) - 1) < 0.05
                             && std::abs(traveller_deg(s.end()) / traveller_deg(s.first) - 1) < 0.05;
@@ -742,7 +742,7 @@ const std::map<std::string, Description>& descriptions()
                         }}}}},
         {"twins.see-10",
             {"Das kleine Bild des Zuhauses bleibt vor uns",
-                {{"small, before us",
+                {{"small before us",
                     [](const Spoken& s) {
                         return s.always([](const Frame& f) {
                             return f.off_middle_deg(home) < 10 && home_deg(f) > 1 && home_deg(f) < 5;
@@ -819,6 +819,14 @@ TEST(SeeTruth, EveryDescriptionIsListed)
         const auto found = descriptions().find(key.substr(5));
         ASSERT_NE(found, descriptions().end()) << key << ": what does it say?";
         EXPECT_TRUE(german.at(key).get<std::string>().starts_with(found->second.german)) << german.at(key);
+        for (const Statement& statement : found->second.statements) {
+            std::istringstream words(statement.words);
+            const std::string text = value;
+            std::size_t at = 0;
+            for (std::string word; words >> word && at != text.npos; at = at == text.npos ? at : at + word.size())
+                at = text.find(word, at);
+            EXPECT_NE(at, text.npos) << key << " no longer says " << statement.words;
+        }
     }
     EXPECT_EQ(texts, descriptions().size());
 }
