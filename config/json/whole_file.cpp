@@ -25,7 +25,7 @@ std::string fault_of(mode_t mode)
 }
 
 /// Writes all parts to an open descriptor; returns 0 or an errno.
-int write_parts(int to, std::initializer_list<std::span<const unsigned char>> parts)
+int write_parts(int to, std::span<const std::span<const unsigned char>> parts)
 {
     for (std::span<const unsigned char> left : parts)
         while (!left.empty()) {
@@ -39,11 +39,11 @@ int write_parts(int to, std::initializer_list<std::span<const unsigned char>> pa
 
 /// Writes a new file beside the target and renames it. Throws InputError about `file`, the target's name for people.
 void replace(const std::filesystem::path& file, const std::filesystem::path& target,
-    std::initializer_list<std::span<const unsigned char>> parts, Lasting lasting, mode_t rights)
+    std::span<const std::span<const unsigned char>> parts, Lasting lasting, mode_t rights)
 {
     std::filesystem::path part = target;
     static std::atomic<unsigned> count; // threads may write the same file
-    part += "." + std::to_string(getpid()) + "-" + std::to_string(count++) + ".part";
+    part += "." + std::to_string(getpid()) + "-" + std::to_string(count++ % 4096) + ".part";
     constexpr int flags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
     int to = ::open(part.c_str(), flags, rights);
     if (to < 0 && errno == EEXIST && ::unlink(part.c_str()) == 0) // of a process that ended here, or a planted link
@@ -155,11 +155,11 @@ void write_whole(const std::filesystem::path& file, std::span<const unsigned cha
         target = file;
     else if (!std::filesystem::is_regular_file(target, problem))
         throw InputError(file.string(), "", "is there and is not a file; a new name or that of a file is right");
-    replace(file, target, {bytes}, lasting, 0666);
+    replace(file, target, std::span(&bytes, 1), lasting, 0666);
 }
 
-void write_own(const std::filesystem::path& file, std::initializer_list<std::span<const unsigned char>> parts,
-    Lasting lasting, unsigned rights)
+void write_own(const std::filesystem::path& file, std::span<const std::span<const unsigned char>> parts, Lasting lasting,
+    unsigned rights)
 {
     std::error_code ignored; // writing reports it
     std::filesystem::create_directories(file.parent_path(), ignored);

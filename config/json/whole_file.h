@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -56,8 +55,15 @@ inline void write_whole(
 /// The same for a file of the program's own, in its cache or its state folder, which is made where it is missing. A link
 /// in the file's place is replaced, not followed: whoever could write there once would choose what is overwritten.
 /// rights: of the new file, before the process's mask takes some.
-void write_own(const std::filesystem::path& file, std::initializer_list<std::span<const unsigned char>> parts,
+void write_own(const std::filesystem::path& file, std::span<const std::span<const unsigned char>> parts,
     Lasting lasting = Lasting::as_the_system_likes, unsigned rights = 0666);
+
+inline void write_own(
+    const std::filesystem::path& file, std::string_view text, Lasting lasting = Lasting::as_the_system_likes)
+{
+    const std::span<const unsigned char> bytes(reinterpret_cast<const unsigned char*>(text.data()), text.size());
+    write_own(file, std::span(&bytes, 1), lasting);
+}
 
 /// Opens a file of the user's to write into piece by piece; returns the descriptor. flags: O_APPEND, O_TRUNC or O_EXCL. A
 /// missing file is made. Devices that are there are opened, and no write to one waits: it fails with EAGAIN. A folder, a

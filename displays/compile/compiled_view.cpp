@@ -2,11 +2,10 @@
 #include "config/json/error.h"
 #include "config/json/hash.h"
 #include "config/json/kept_file.h"
-#include "config/json/whole_file.h"
+#include "map_cache.h"
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <cstring>
 #include <map>
 #include <map_sources.h> // MAP_SOURCES, a digest of all sources that maps depend on: CMakeLists.txt
 #include <sstream>
@@ -78,7 +77,7 @@ struct Key {
     }
 };
 
-std::string key_of(const View& view, const std::string& warp)
+std::uint64_t key_of(const View& view, const std::string& warp)
 {
     Key key;
     key.text << MAP_SOURCES << ' ' << view.size.x << ' ' << view.size.y << ' ' << view.picture.size.x << ' '
@@ -88,71 +87,13 @@ std::string key_of(const View& view, const std::string& warp)
     Hash hash;
     hash.add(key.text.str());
     hash.add(warp);
-    return kept_name(hash.value, "");
-}
-
-struct Header {
-    char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'M'};
-    std::int32_t width = 0, height = 0, channels = 0, intensities = 0;
-    std::uint64_t hash = 0; ///< of the following bytes; a damaged file is rejected
-};
-
-std::uint64_t content_hash(const DirectionMap& map)
-{
-    ContentHash hash;
-    hash.add(map.texels.data(), map.texels.size() * sizeof(glm::vec4));
-    hash.add(map.intensity.data(), map.intensity.size() * sizeof(float));
-    return hash.value();
-}
-
-std::shared_ptr<DirectionMap> read_map(const std::filesystem::path& file, const View& view)
-{
-    RegularFile stream(file);
-    auto read = [&](void* data, std::size_t bytes) { return stream.read({static_cast<char*>(data), bytes}) == bytes; };
-    Header header;
-    const Header right;
-    if (!read(&header, sizeof header) || std::memcmp(header.magic, right.magic, 8) != 0 || header.width != view.size.x
-        || header.height != view.size.y || (header.channels != 1 && header.channels != 3))
-        return {};
-    const std::size_t pixels = std::size_t(header.width) * header.height;
-    const std::size_t texels = pixels * header.channels, intensities = header.intensities ? pixels : 0;
-    if (stream.size() != sizeof header + texels * sizeof(glm::vec4) + intensities * sizeof(float))
-        return {};
-    auto map = std::make_shared<DirectionMap>();
-    map->size = view.size;
-    map->channels = header.channels;
-    map->texels.resize(texels);
-    map->intensity.resize(intensities);
-    if (!read(map->texels.data(), texels * sizeof(glm::vec4)) || !read(map->intensity.data(), intensities * sizeof(float))
-        || content_hash(*map) != header.hash)
-        return {};
-    mark_as_read(file);
-    return map;
-}
-
-/// Several exhibits may share the folder. A full disk only makes starts slower.
-void write_map(const std::filesystem::path& file, const DirectionMap& map, std::uintmax_t most_bytes)
-{
-    Header header;
-    header.width = map.size.x, header.height = map.size.y, header.channels = map.channels;
-    header.intensities = !map.intensity.empty();
-    header.hash = content_hash(map);
-    auto bytes
-        = [](const void* data, std::size_t count) { return std::span(static_cast<const unsigned char*>(data), count); };
-    try {
-        write_own(file,
-            {bytes(&header, sizeof header), bytes(map.texels.data(), map.texels.size() * sizeof(glm::vec4)),
-                bytes(map.intensity.data(), map.intensity.size() * sizeof(float))});
-    } catch (const InputError&) {
-        return;
-    }
-    bound_cache(file.parent_path(), most_bytes);
+    return hash.value;
 }
 
 } // namespace
 
 struct MapStore::Kept {
-    std::map<std::string, std::weak_ptr<const DirectionMap>> maps;
+    std::map<std::uint64_t, std::weak_ptr<const DirectionMap>> maps;
     std::map<std::string, std::weak_ptr<const WarpMesh>> meshes;
 };
 
@@ -238,19 +179,20 @@ std::shared_ptr<const WarpMesh> MapStore::mesh(const Warp& warp, std::string& co
     return mesh;
 }
 
-std::shared_ptr<const DirectionMap> MapStore::map(const View& view, const WarpMesh* mesh, const std::string& key)
+std::shared_ptr<const DirectionMap> MapStore::map(const View& view, const WarpMesh* mesh, std::uint64_t key)
 {
     std::weak_ptr<const DirectionMap>& kept = kept_->maps[key];
     if (auto map = kept.lock())
         return map;
     // A small map is compiled faster than it is read.
     const bool on_disk = !folder_.empty() && std::size_t(view.size.x) * view.size.y > (1u << 18);
-    const std::filesystem::path file = folder_ / (key + ".map");
-    std::shared_ptr<DirectionMap> map = on_disk ? read_map(file, view) : nullptr;
+    const std::filesystem::path file = folder_ / kept_name(key, ".map");
+    std::shared_ptr<DirectionMap> map = on_disk ? read_kept_map(file, key, view.size) : nullptr;
     if (!map) {
         map = std::make_shared<DirectionMap>(starbow::compile_direction_map(view, mesh));
-        if (on_disk && keep_)
-            write_map(file, *map, most_bytes_);
+        // Several exhibits may share the folder. A full disk only makes starts slower.
+        if (on_disk && keep_ && write_kept_map(file, key, *map))
+            bound_cache(folder_, most_bytes_);
     }
     kept = map;
     return map;

@@ -43,7 +43,7 @@ public:
 
 private:
     std::shared_ptr<const WarpMesh> mesh(const Warp& warp, std::string& content);
-    std::shared_ptr<const DirectionMap> map(const View& view, const WarpMesh* mesh, const std::string& key);
+    std::shared_ptr<const DirectionMap> map(const View& view, const WarpMesh* mesh, std::uint64_t key);
 
     std::filesystem::path folder_;
     std::uintmax_t most_bytes_;

@@ -14,6 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
+#include <zlib.h>
 
 extern char** environ;
 
@@ -30,6 +31,32 @@ bool is_frame(const fs::path& file)
     const std::string name = file.filename().string();
     return name.ends_with(".png") && name.size() > 11 && name[name.size() - 11] == '-'
         && name.find_first_not_of("0123456789", name.size() - 10) == name.size() - 4;
+}
+
+/// True for a PNG file without a wrong bit or a missing end: each of its pieces has a checksum. ffmpeg would draw what it
+/// can of a damaged one.
+bool is_whole_png(const fs::path& file)
+{
+    constexpr std::string_view begin = "\x89PNG\r\n\x1a\n";
+    const std::string text = RegularFile(file).read_all(std::size_t(2) << 30);
+    if (!text.starts_with(begin))
+        return false;
+    const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
+    const auto number = [&](std::size_t at) {
+        return std::size_t(bytes[at]) << 24 | std::size_t(bytes[at + 1]) << 16 | std::size_t(bytes[at + 2]) << 8
+            | std::size_t(bytes[at + 3]);
+    };
+    // A piece: the number of its bytes, four letters, the bytes, and the sum of the letters and the bytes.
+    for (std::size_t at = begin.size(); text.size() - at >= 12;) {
+        const std::size_t count = number(at);
+        if (count > text.size() - at - 12 || crc32_z(0, bytes + at + 4, count + 4) != number(at + 8 + count))
+            return false;
+        const bool end = text.compare(at + 4, 4, "IEND") == 0;
+        at += 12 + count;
+        if (end)
+            return at == text.size();
+    }
+    return false;
 }
 
 /// True where a folder's contents are not ours to touch: it has no sources, nor is it new.
@@ -162,9 +189,10 @@ MovieFrames::MovieFrames(
         const std::string before = this->made_from(folder_);
         if (before == made_from)
             return;
-        if (!before.empty() && shared)
+        const bool has_sources = fs::exists(folder_ / sources_name, error); // an empty file says nothing of the frames
+        if (has_sources && shared)
             refuse_sources(folder_, before, made_from);
-        if (!before.empty()) {
+        if (has_sources) {
             say(one_line(folder_.string())
                 + ": the sources of these frames, or their settings, have changed; the movie begins again");
             remove();
@@ -188,7 +216,7 @@ void MovieFrames::add(const fs::path& folder) const
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
         const fs::path to = folder_ / entry.path().filename();
-        if (!is_frame(entry.path()) || fs::exists(to, error))
+        if (!is_frame(entry.path()) || is_whole_png(to) || !is_whole_png(entry.path()))
             continue;
         fs::path half = to;
         half += ".part";
@@ -206,11 +234,7 @@ fs::path MovieFrames::file(const std::string& output, long frame) const
     return folder_ / (output + number.data());
 }
 
-bool MovieFrames::has(const std::string& output, long frame) const
-{
-    std::error_code error;
-    return fs::is_regular_file(file(output, frame), error);
-}
+bool MovieFrames::has(const std::string& output, long frame) const { return is_whole_png(file(output, frame)); }
 
 void MovieFrames::remove() const
 {

@@ -19,11 +19,12 @@ public:
     /// The line that a folder of frames was made from; empty where there is none.
     static std::string made_from(const std::filesystem::path& folder);
 
-    /// Copies the frames of another folder that this one lacks. Throws InputError where its sources are others.
+    /// Copies the whole frames of another folder that this one lacks. Throws InputError where its sources are others.
     void add(const std::filesystem::path& folder) const;
 
     /// The file of a frame of an output.
     std::filesystem::path file(const std::string& output, long frame) const;
+    /// True where the frame's file is there, and whole.
     bool has(const std::string& output, long frame) const;
     const std::filesystem::path& folder() const { return folder_; }
 

@@ -1,5 +1,7 @@
 #include "diary.h"
 #include "config/json/error.h"
+#include "config/json/hash.h"
+#include "config/json/kept_file.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include "log.h"
@@ -38,19 +40,28 @@ bool is_date(const std::string& text)
     return true;
 }
 
+/// A checksum over a day's counts. Equal values have equal texts.
+std::string sum_of(const std::string& date, const nlohmann::json& hours)
+{
+    Hash hash;
+    hash.add(date);
+    hash.add(hours.dump());
+    return kept_name(hash.value, "");
+}
+
 std::string text_of(const Day& day)
 {
     nlohmann::json hours = nlohmann::json::object();
     for (std::size_t hour = 0; hour < day.hours.size(); ++hour)
         if (day.hours[hour].frames() > 0)
             hours[(hour < 10 ? "0" : "") + std::to_string(hour)] = json_of(day.hours[hour]);
-    return nlohmann::json{{"starbow_day", day.date}, {"hours", hours}}.dump(1) + "\n";
+    return nlohmann::json{{"starbow_day", day.date}, {"hours", hours}, {"sum", sum_of(day.date, hours)}}.dump(1) + "\n";
 }
 
 void write_day(const std::filesystem::path& state, const Day& day)
 {
     const std::string text = text_of(day);
-    write_own(day_file(state, day.date), {std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size())});
+    write_own(day_file(state, day.date), text);
 }
 
 } // namespace
@@ -78,6 +89,10 @@ Day load_day(const std::filesystem::path& state, const std::string& date)
     const Place hours = member(top, "hours");
     if (!hours.json->is_object())
         complain(hours, "is not a list of hours; an object with members such as \"09\" is right");
+    // Days of older versions have no checksum.
+    if (const auto sum = find_member(top, "sum"); sum && *sum->json != sum_of(date, *hours.json))
+        complain(*sum,
+            "is not the checksum of these counts, so the file is damaged; a file as starbow run has written it is right");
     for (int hour = 0; hour < 24; ++hour)
         if (const auto at = hours.json->find(std::string(hour < 10 ? "0" : "") + std::to_string(hour));
             at != hours.json->end())

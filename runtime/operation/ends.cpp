@@ -29,7 +29,7 @@ Ends::Ends(const std::filesystem::path& folder, std::int64_t now_s)
         text += std::to_string(time) + "\n";
     try {
         text += std::string(running) + "\n";
-        write_own(file_, {{reinterpret_cast<const unsigned char*>(text.data()), text.size()}}, Lasting::power_cut);
+        write_own(file_, text, Lasting::power_cut);
     } catch (const InputError& error) {
         write_log(LogKind::ends_unwritten, std::string(error.what()) + "; crashes are not counted");
         times_.clear();

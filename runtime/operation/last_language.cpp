@@ -26,8 +26,7 @@ void keep_language(const std::filesystem::path& state, const std::string& langua
     try {
         std::thread([file = state / "language", language] {
             try {
-                const std::span<const char> text(language);
-                write_own(file, {{reinterpret_cast<const unsigned char*>(text.data()), text.size()}});
+                write_own(file, language);
             } catch (const InputError&) { // a start after a crash then speaks the file's language
             }
         }).detach();

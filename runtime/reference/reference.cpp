@@ -1,10 +1,11 @@
 #include "reference.h"
+#include "config/json/hash.h"
+#include "config/json/kept_rows.h"
 #include "config/json/whole_file.h"
 #include "config/model/angles.h"
 #include "displays/finish/anaglyph.h"
 #include "displays/finish/blend.h"
 #include "globe_view.h"
-#include "kept_rows.h"
 #include "overlap.h"
 #include "runtime/light/colour.h"
 #include "runtime/light/srgb.h"
@@ -15,7 +16,6 @@
 #include "star_spots.h"
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -317,45 +317,27 @@ std::string describe(const Shot& shot)
     return out.str();
 }
 
-/// A sum of bytes, FNV-1a by eights.
-class Sum {
-public:
-    void add(const void* bytes, std::size_t count)
-    {
-        for (std::size_t i = 0; i < count; i += 8) {
-            std::uint64_t value = 0;
-            std::memcpy(&value, static_cast<const char*>(bytes) + i, std::min<std::size_t>(8, count - i));
-            take(value);
-        }
-        take(count);
-    }
-    void add(const std::filesystem::path& file)
-    {
-        RegularFile in(file);
-        std::vector<char> bytes(1 << 16);
-        while (const std::size_t got = in.read(bytes))
-            add(bytes.data(), got);
-        take(~std::uint64_t(0));
-    }
-    std::uint64_t value() const { return sum_; }
-
-private:
-    void take(std::uint64_t value) { sum_ = std::rotl((sum_ ^ value) * 0x100000001b3, 29); }
-    std::uint64_t sum_ = 0xcbf29ce484222325;
-};
+void add_file(ContentHash& hash, const std::filesystem::path& file)
+{
+    RegularFile in(file);
+    std::vector<char> bytes(1 << 16);
+    while (const std::size_t got = in.read(bytes))
+        hash.add(bytes.data(), got);
+    hash.add(nullptr, 0); // the file's end
+}
 
 /// A sum of everything that rows depend on: the program, the files, and the data of the files that these name.
 std::uint64_t sum_of(const ReferenceInput& input, const Layout& layout)
 {
-    Sum sum;
+    ContentHash sum;
     for (const std::filesystem::path& file :
         {std::filesystem::path("/proc/self/exe"), layout.file, std::filesystem::path(input.scene.file), input.scene.gltf})
-        sum.add(file);
+        add_file(sum, file);
     for (const Output& output : layout.outputs)
         for (const Viewport& viewport : output.viewports) {
-            sum.add(viewport.alpha_mask);
+            add_file(sum, viewport.alpha_mask);
             if (viewport.warp)
-                sum.add(viewport.warp->file), sum.add(viewport.warp->frustum);
+                add_file(sum, viewport.warp->file), add_file(sum, viewport.warp->frustum);
         }
     const World& world = input.world;
     sum.add(world.vertices.data(), world.vertices.size() * sizeof(Vertex));
@@ -365,7 +347,7 @@ std::uint64_t sum_of(const ReferenceInput& input, const Layout& layout)
     for (const Texture& texture : world.textures)
         sum.add(texture.rgba.data(), texture.rgba.size());
     if (world.globes) {
-        sum.add(input.scene.globes->file);
+        add_file(sum, input.scene.globes->file);
         for (const Texture& map : world.globes->maps)
             sum.add(map.rgba.data(), map.rgba.size());
         sum.add(world.globes->sky.rgba.data(), world.globes->sky.rgba.size());

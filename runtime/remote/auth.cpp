@@ -1,5 +1,6 @@
 #include "auth.h"
 #include "config/json/error.h"
+#include "config/json/kept_file.h"
 #include "config/json/whole_file.h"
 #include <algorithm>
 #include <cerrno>
@@ -56,10 +57,11 @@ bool is_token(std::string_view text)
         && std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
 }
 
-/// The text of a small file with no more rights than `rights`. Throws InputError.
-std::string private_text(const std::filesystem::path& file, mode_t rights)
+constexpr const char* logins_kind = "logins2";
+
+/// Throws InputError where a file has more rights than `rights`.
+void check_private(const std::filesystem::path& file, mode_t rights)
 {
-    std::string text = read_whole(file, most_bytes, "a file with lines such as \"docent\" and six digits");
     struct stat about { };
     if (stat(file.c_str(), &about) == 0 && (about.st_mode & 0777 & ~rights)) {
         std::ostringstream modes;
@@ -67,14 +69,14 @@ std::string private_text(const std::filesystem::path& file, mode_t rights)
               << rights << " is right";
         throw InputError(file.string(), "", "has the rights " + modes.str());
     }
-    return text;
 }
 
 } // namespace
 
 Pins read_pins(const std::filesystem::path& file)
 {
-    std::istringstream lines(private_text(file, 0640));
+    std::istringstream lines(read_whole(file, most_bytes, "a file with lines such as \"docent\" and six digits"));
+    check_private(file, 0640);
     Pins pins;
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
@@ -228,20 +230,22 @@ void Logins::keep(const std::filesystem::path& file, Time now) const
                 + std::to_string((clock + std::chrono::duration_cast<std::chrono::seconds>(token.until - now)).count())
                 + "\n";
     try {
-        write_own(
-            file, {{reinterpret_cast<const unsigned char*>(text.data()), text.size()}}, Lasting::as_the_system_likes, 0600);
+        write_kept(file, logins_kind, 0, {bytes_of(text)}, 0600);
     } catch (const InputError&) { // people log in again after a restart
     }
 }
 
 void Logins::restore(const std::filesystem::path& file, Time now)
 {
-    std::string text;
     try {
-        text = private_text(file, 0600);
+        check_private(file, 0600);
     } catch (const InputError&) {
         return; // people log in again
     }
+    KeptFile kept(file, logins_kind, 0);
+    std::string text(std::min<std::uint64_t>(kept.size(0), most_bytes), '\0');
+    if (!kept.read({bytes_of(text)}))
+        return;
     const std::int64_t clock
         = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
     std::istringstream lines(text);

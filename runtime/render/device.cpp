@@ -1,6 +1,7 @@
 #include "device.h"
 #include "config/json/error.h"
-#include "config/json/whole_file.h"
+#include "config/json/hash.h"
+#include "config/json/kept_file.h"
 #include "debug.h"
 #include "displays/compile/compiled_view.h"
 #include "driver_memory.h"
@@ -256,6 +257,15 @@ vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, const Device
         + ": install mesa-vulkan-drivers (software) or the GPU maker's Vulkan 1.3 driver");
 }
 
+constexpr const char* pipelines_kind = "pipes2";
+
+std::uint64_t pipelines_key(const vk::PhysicalDeviceProperties& properties)
+{
+    ContentHash hash;
+    hash.add(properties.pipelineCacheUUID.data(), properties.pipelineCacheUUID.size());
+    return hash.value();
+}
+
 /// The file of a device's compiled pipelines, named by the driver's pipeline cache UUID; empty without a cache folder.
 std::filesystem::path pipeline_file(const vk::PhysicalDeviceProperties& properties)
 {
@@ -270,6 +280,15 @@ std::filesystem::path pipeline_file(const vk::PhysicalDeviceProperties& properti
 }
 
 } // namespace
+
+std::vector<std::uint8_t> kept_pipelines(const vk::PhysicalDeviceProperties& properties)
+{
+    KeptFile file(pipeline_file(properties), pipelines_kind, pipelines_key(properties));
+    std::vector<std::uint8_t> kept(file.size(0));
+    if (!file.read({bytes_of(kept)}))
+        kept.clear();
+    return kept;
+}
 
 Device::Device(const Options& options)
 {
@@ -312,7 +331,7 @@ Device::Device(const Options& options)
     device = physical.createDevice({{}, queue_info, {}, extensions, &features, &features13}, allocator_of(options));
     queue = device.getQueue(family, 0);
     pool = device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
-    const std::string kept = RegularFile(pipeline_file(properties)).read_all(std::size_t(256) << 20);
+    const std::vector<std::uint8_t> kept = kept_pipelines(properties);
     cache = device.createPipelineCache({{}, kept.size(), kept.data()});
     if (on_processor())
         keeper = std::make_unique<SceneKeeper>(device);
@@ -344,7 +363,7 @@ void Device::save_pipelines() const
         if (file.empty())
             return;
         const std::vector<std::uint8_t> data = cache.getData(); // a lost device may refuse
-        write_own(file, {data});
+        write_kept(file, pipelines_kind, pipelines_key(properties), {bytes_of(data)});
     } catch (const std::bad_alloc&) { // no message either
     } catch (const std::exception& failed) {
         write_log(LogKind::pipelines_unsaved, failed.what());

@@ -49,9 +49,7 @@ bool add_shadows(
     const std::uint64_t key = shadows_key(world, all, scene);
     const std::filesystem::path file = folder / kept_name(key, ".shadow");
     const bool known = !folder.empty() && read_kept_shadows(file, key, *shadows);
-    if (known) {
-        mark_as_read(file);
-    } else {
+    if (!known) {
         const Occluders occluders(world, all.instances);
         shadows->texels.resize(std::size_t(layers) * std::size_t(shadows->size) * std::size_t(shadows->size));
         for (const ShadowMap& map : shadows->maps)

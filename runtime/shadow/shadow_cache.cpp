@@ -1,46 +1,34 @@
 #include "shadow_cache.h"
 #include "config/json/error.h"
 #include "config/json/hash.h"
-#include "config/json/whole_file.h"
+#include "config/json/kept_file.h"
 #include "occluders.h"
-#include <cstring>
 
 namespace starbow {
 namespace {
 
 constexpr std::uint64_t version = 10; // another computation has another number
+constexpr const char* shadows_kind = "shadows2";
 
-struct Header {
-    char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'S'};
-    std::uint64_t key = 0, texels = 0, sky = 0;
+/// The numbers of kept shadows, as a part of their file.
+struct ShadowNumbers {
     std::int64_t size = 0, cells[3] = {};
-    std::uint64_t content = 0;
+    double low[3] = {}, cell = 0;
 };
 
-/// True if the numbers of a header are those of the shadows' maps, and of a grid.
-bool fits(const Header& header, const Shadows& shadows)
+/// True if the numbers of a file are those of the shadows' maps, and of a grid.
+bool fits(const ShadowNumbers& numbers, const Shadows& shadows)
 {
     std::uint64_t layers = 0, cells = 1;
     for (const ShadowMap& map : shadows.maps)
         layers += map.point ? 6 : 2;
-    for (const std::int64_t count : header.cells) {
-        if (count < 2 || count > 1'000'000 || cells > header.sky)
+    for (const std::int64_t count : numbers.cells) {
+        if (count < 2 || count > 1'000'000 || cells > shadows.sky.size())
             return false;
         cells *= std::uint64_t(count);
     }
-    return header.size == shadows.size && header.sky == 8 * cells
-        && header.texels == layers * std::uint64_t(shadows.size) * std::uint64_t(shadows.size);
-}
-
-std::uint64_t content_of(const Shadows& shadows)
-{
-    ContentHash hash;
-    hash.add(shadows.texels.data(), shadows.texels.size() * sizeof(std::uint16_t));
-    hash.add(shadows.sky.data(), shadows.sky.size());
-    hash.add(&shadows.low, sizeof shadows.low);
-    hash.add(&shadows.cell, sizeof shadows.cell);
-    hash.add(&shadows.cells, sizeof shadows.cells);
-    return hash.value();
+    return numbers.size == shadows.size && shadows.sky.size() == 8 * cells
+        && shadows.texels.size() == layers * std::uint64_t(shadows.size) * std::uint64_t(shadows.size);
 }
 
 } // namespace
@@ -79,39 +67,24 @@ std::uint64_t shadows_key(const World& world, const World& placed, const SceneFi
 
 bool read_kept_shadows(const std::filesystem::path& path, std::uint64_t key, Shadows& shadows)
 {
-    RegularFile file(path);
-    Header header;
-    const Header right;
-    const auto read = [&](void* to, std::size_t bytes) { return file.read({static_cast<char*>(to), bytes}) == bytes; };
-    if (!read(&header, sizeof header) || std::memcmp(header.magic, right.magic, sizeof right.magic) != 0 || header.key != key
-        || header.texels > file.size() || header.sky > file.size() || !fits(header, shadows)
-        || file.size()
-            != sizeof header + header.texels * sizeof(std::uint16_t) + header.sky + sizeof shadows.low + sizeof shadows.cell)
-        return false;
+    KeptFile file(path, shadows_kind, key);
+    ShadowNumbers numbers;
     Shadows kept = shadows; // nothing of a damaged file remains
-    kept.cells = glm::ivec3(int(header.cells[0]), int(header.cells[1]), int(header.cells[2]));
-    kept.texels.resize(header.texels), kept.sky.resize(header.sky);
-    if (!read(kept.texels.data(), header.texels * sizeof(std::uint16_t)) || !read(kept.sky.data(), header.sky)
-        || !read(&kept.low, sizeof kept.low) || !read(&kept.cell, sizeof kept.cell) || content_of(kept) != header.content)
+    kept.texels.resize(file.size(1) / sizeof(std::uint16_t)), kept.sky.resize(file.size(2));
+    if (!file.read({bytes_of(numbers), bytes_of(kept.texels), bytes_of(kept.sky)}) || !fits(numbers, kept))
         return false;
+    kept.cells = glm::ivec3(int(numbers.cells[0]), int(numbers.cells[1]), int(numbers.cells[2]));
+    kept.low = {numbers.low[0], numbers.low[1], numbers.low[2]}, kept.cell = numbers.cell;
     shadows = std::move(kept);
     return true;
 }
 
 bool write_kept_shadows(const std::filesystem::path& file, std::uint64_t key, const Shadows& shadows)
 {
-    Header header;
-    header.key = key, header.texels = shadows.texels.size(), header.sky = shadows.sky.size();
-    header.size = shadows.size, header.content = content_of(shadows);
-    for (int k = 0; k < 3; ++k)
-        header.cells[k] = shadows.cells[k];
-    const auto bytes
-        = [](const void* from, std::size_t count) { return std::span(static_cast<const unsigned char*>(from), count); };
+    const ShadowNumbers numbers{shadows.size, {shadows.cells.x, shadows.cells.y, shadows.cells.z},
+        {shadows.low.x, shadows.low.y, shadows.low.z}, shadows.cell};
     try {
-        write_own(file,
-            {bytes(&header, sizeof header), bytes(shadows.texels.data(), shadows.texels.size() * sizeof(std::uint16_t)),
-                bytes(shadows.sky.data(), shadows.sky.size()), bytes(&shadows.low, sizeof shadows.low),
-                bytes(&shadows.cell, sizeof shadows.cell)});
+        write_kept(file, shadows_kind, key, {bytes_of(numbers), bytes_of(shadows.texels), bytes_of(shadows.sky)});
     } catch (const InputError&) {
         return false;
     }

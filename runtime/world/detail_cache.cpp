@@ -2,11 +2,9 @@
 #include "config/json/error.h"
 #include "config/json/hash.h"
 #include "config/json/kept_file.h"
-#include "config/json/whole_file.h"
 #include "detail.h"
 #include "pieces.h"
 #include <meshoptimizer.h>
-#include <span>
 #include <type_traits>
 
 namespace starbow {
@@ -15,12 +13,7 @@ namespace {
 /// Another way of making levels has another number.
 constexpr std::uint64_t version = 4;
 
-struct Header {
-    char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'D'};
-    std::uint64_t key = 0; ///< of the world without its levels
-    std::uint64_t primitives = 0, pieces = 0, levels = 0, clusters = 0, indices = 0;
-    std::uint64_t content = 0; ///< hash of everything that follows; a damaged file is not read
-};
+constexpr const char* levels_kind = "levels2";
 
 /// The detail levels, pieces and clusters of a primitive, in the file's form. The records are plain numbers without gaps.
 struct KeptPrimitive {
@@ -42,71 +35,30 @@ static_assert(
     std::has_unique_object_representations_v<KeptPrimitive> && sizeof(KeptLevel) == 40 && sizeof(KeptPiece) == 208);
 static_assert(std::is_trivially_copyable_v<Cluster> && sizeof(Cluster) == 40);
 
-template <class T> std::span<const unsigned char> bytes_of(const std::vector<T>& values)
-{
-    return {reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(T)};
-}
-
-std::uint64_t key_of(const World& world)
-{
-    ContentHash hash;
-    const std::uint64_t made_by[] = {version, MESHOPTIMIZER_VERSION};
-    hash.add(made_by, sizeof made_by);
-    hash.add(world.vertices.data(), world.vertices.size() * sizeof(Vertex));
-    hash.add(world.indices.data(), world.indices.size() * sizeof(std::uint32_t));
-    for (const Primitive& primitive : world.primitives) {
-        const std::uint64_t range[] = {primitive.first_index, primitive.index_count,
-            std::uint64_t(std::uint32_t(primitive.vertex_offset)), is_divided(world, primitive), primitive.deforming >= 0};
-        hash.add(range, sizeof range);
-    }
-    return hash.value();
-}
-
-/// The content of a cache file behind its header.
+/// The parts of a kept file.
 struct Kept {
     std::vector<KeptPrimitive> primitives;
     std::vector<KeptPiece> pieces;
     std::vector<KeptLevel> levels;
     std::vector<Cluster> clusters;
     std::vector<std::uint32_t> indices;
-
-    std::uint64_t content() const
-    {
-        ContentHash hash;
-        for (const std::span<const unsigned char> part :
-            {bytes_of(primitives), bytes_of(pieces), bytes_of(levels), bytes_of(clusters), bytes_of(indices)})
-            hash.add(part.data(), part.size());
-        return hash.value();
-    }
 };
 
-bool read_kept(const std::filesystem::path& path, std::uint64_t key, const World& world, Kept& kept)
+bool read_levels(const std::filesystem::path& path, std::uint64_t key, const World& world, Kept& kept)
 {
-    RegularFile file(path);
-    Header header;
-    const Header right;
-    const auto read = [&](void* to, std::size_t bytes) { return file.read({static_cast<char*>(to), bytes}) == bytes; };
-    if (!read(&header, sizeof header) || std::memcmp(header.magic, right.magic, sizeof right.magic) != 0 || header.key != key
-        || header.primitives != world.primitives.size())
-        return false;
-    // Each count is bounded before the product of any is taken.
-    for (const std::uint64_t count : {header.pieces, header.levels, header.clusters, header.indices})
-        if (count > file.size())
-            return false;
-    if (file.size()
-        != sizeof header + header.primitives * sizeof(KeptPrimitive) + header.pieces * sizeof(KeptPiece)
-            + header.levels * sizeof(KeptLevel) + header.clusters * sizeof(Cluster) + header.indices * sizeof(std::uint32_t))
-        return false;
-    kept.primitives.resize(header.primitives), kept.pieces.resize(header.pieces), kept.levels.resize(header.levels);
-    kept.clusters.resize(header.clusters), kept.indices.resize(header.indices);
-    const auto fill = [&](auto& values) { return read(values.data(), bytes_of(values).size()); };
-    if (!fill(kept.primitives) || !fill(kept.pieces) || !fill(kept.levels) || !fill(kept.clusters) || !fill(kept.indices)
-        || kept.content() != header.content)
+    KeptFile file(path, levels_kind, key);
+    std::size_t part = 0;
+    const auto make_room = [&](auto& values) { values.resize(file.size(part++) / sizeof values[0]); };
+    make_room(kept.primitives), make_room(kept.pieces), make_room(kept.levels), make_room(kept.clusters);
+    make_room(kept.indices);
+    if (!file.read({bytes_of(kept.primitives), bytes_of(kept.pieces), bytes_of(kept.levels), bytes_of(kept.clusters),
+            bytes_of(kept.indices)})
+        || kept.primitives.size() != world.primitives.size())
         return false;
     std::uint64_t levels = 0, pieces = 0;
     for (const KeptPrimitive& primitive : kept.primitives)
         levels += primitive.levels, pieces += primitive.pieces;
-    return levels == header.levels && pieces == header.pieces;
+    return levels == kept.levels.size() && pieces == kept.pieces.size();
 }
 
 void take(Kept&& kept, World& world)
@@ -160,6 +112,30 @@ Kept kept_of(const World& world)
 
 } // namespace
 
+std::uint64_t levels_key(const World& world)
+{
+    ContentHash hash;
+    const std::uint64_t made_by[] = {version, MESHOPTIMIZER_VERSION};
+    hash.add(made_by, sizeof made_by);
+    hash.add(world.vertices.data(), world.vertices.size() * sizeof(Vertex));
+    hash.add(world.indices.data(), world.indices.size() * sizeof(std::uint32_t));
+    for (const Primitive& primitive : world.primitives) {
+        const std::uint64_t range[] = {primitive.first_index, primitive.index_count,
+            std::uint64_t(std::uint32_t(primitive.vertex_offset)), is_divided(world, primitive), primitive.deforming >= 0};
+        hash.add(range, sizeof range);
+    }
+    return hash.value();
+}
+
+bool read_kept_levels(const std::filesystem::path& file, std::uint64_t key, World& world)
+{
+    Kept kept;
+    if (!read_levels(file, key, world, kept))
+        return false;
+    take(std::move(kept), world);
+    return true;
+}
+
 bool add_kept_detail_levels(World& world, const std::filesystem::path& folder, const std::function<void(double)>& progress,
     std::size_t worth_keeping)
 {
@@ -167,24 +143,16 @@ bool add_kept_detail_levels(World& world, const std::filesystem::path& folder, c
         add_detail_levels(world, progress);
         return false;
     }
-    Header header;
-    header.key = key_of(world);
-    const std::filesystem::path file = folder / kept_name(header.key, ".detail");
-    Kept kept;
-    if (read_kept(file, header.key, world, kept)) {
-        take(std::move(kept), world);
-        mark_as_read(file);
+    const std::uint64_t key = levels_key(world);
+    const std::filesystem::path file = folder / kept_name(key, ".detail");
+    if (read_kept_levels(file, key, world))
         return false;
-    }
     add_detail_levels(world, progress);
-    kept = kept_of(world);
-    header.primitives = kept.primitives.size(), header.pieces = kept.pieces.size(), header.levels = kept.levels.size();
-    header.clusters = kept.clusters.size(), header.indices = kept.indices.size();
-    header.content = kept.content();
+    const Kept made = kept_of(world);
     try {
-        write_own(file,
-            {{reinterpret_cast<const unsigned char*>(&header), sizeof header}, bytes_of(kept.primitives),
-                bytes_of(kept.pieces), bytes_of(kept.levels), bytes_of(kept.clusters), bytes_of(kept.indices)});
+        write_kept(file, levels_kind, key,
+            {bytes_of(made.primitives), bytes_of(made.pieces), bytes_of(made.levels), bytes_of(made.clusters),
+                bytes_of(made.indices)});
     } catch (const InputError&) {
         return false;
     }

@@ -12,4 +12,10 @@ namespace starbow {
 bool add_kept_detail_levels(World& world, const std::filesystem::path& folder,
     const std::function<void(double)>& progress = {}, std::size_t worth_keeping = 20'000);
 
+/// The key of a world's levels: a hash of everything that they depend on.
+std::uint64_t levels_key(const World& world);
+/// Reads kept levels into a world without; false: there are none with this key, or the file is damaged, and the world stays
+/// as it is.
+bool read_kept_levels(const std::filesystem::path& file, std::uint64_t key, World& world);
+
 } // namespace starbow

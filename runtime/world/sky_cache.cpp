@@ -7,7 +7,6 @@
 #include "gltf/parts.h"
 #include "painted_sky.h"
 #include <cstring>
-#include <span>
 
 namespace starbow {
 namespace {
@@ -16,19 +15,12 @@ namespace {
 constexpr std::uint64_t version = 1;
 const char* const right_panorama = "a PNG or JPEG of the whole sky, twice as wide as high,";
 
-struct Header {
-    char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'P'};
-    std::uint64_t key = 0; ///< of what the sky is painted from
-    std::uint64_t width = 0, height = 0;
-    std::uint64_t content = 0; ///< hash of the texels; a damaged file is not read
-};
+constexpr const char* sky_kind = "sky2";
 
-std::uint64_t content_of(const std::vector<std::uint8_t>& rgba)
-{
-    ContentHash hash;
-    hash.add(rgba.data(), rgba.size());
-    return hash.value();
-}
+/// A kept picture's numbers, as a part of its file.
+struct SkyNumbers {
+    std::uint64_t width = 0, height = 0;
+};
 
 std::uint64_t key_of(const StarSky& sky, const std::string& panorama)
 {
@@ -44,21 +36,17 @@ std::uint64_t key_of(const StarSky& sky, const std::string& panorama)
     return hash.value();
 }
 
-std::optional<Texture> read_kept(const std::filesystem::path& path, std::uint64_t key)
+std::optional<Texture> read_sky(const std::filesystem::path& path, std::uint64_t key)
 {
-    RegularFile file(path);
-    Header header;
-    const Header right;
-    const auto read = [&](void* to, std::size_t bytes) { return file.read({static_cast<char*>(to), bytes}) == bytes; };
+    KeptFile file(path, sky_kind, key);
+    SkyNumbers numbers;
+    Texture texture;
+    texture.rgba.resize(file.size(1));
     constexpr std::uint64_t most = 1 << 16;
-    if (!read(&header, sizeof header) || std::memcmp(header.magic, right.magic, sizeof right.magic) != 0 || header.key != key
-        || header.width > most || header.height > most
-        || file.size() != sizeof header + header.width * header.height * 4)
+    if (!file.read({bytes_of(numbers), bytes_of(texture.rgba)}) || numbers.width > most || numbers.height > most
+        || texture.rgba.size() != numbers.width * numbers.height * 4)
         return {};
-    Texture texture{{int(header.width), int(header.height)}, {}, {}};
-    texture.rgba.resize(header.width * header.height * 4);
-    if (!read(texture.rgba.data(), texture.rgba.size()) || content_of(texture.rgba) != header.content)
-        return {};
+    texture.size = {int(numbers.width), int(numbers.height)};
     return texture;
 }
 
@@ -79,25 +67,22 @@ Texture load_sky(const StarSky& sky, const std::filesystem::path& folder)
 {
     const std::filesystem::path& file = sky.milky_way->panorama;
     const std::string bytes = read_whole(file, std::size_t(256) << 20, right_panorama);
-    Header header;
+    std::uint64_t key = 0;
     std::filesystem::path kept_file;
     if (!folder.empty()) {
-        header.key = key_of(sky, bytes);
-        kept_file = folder / kept_name(header.key, ".sky");
-        if (std::optional<Texture> kept = read_kept(kept_file, header.key)) {
-            mark_as_read(kept_file);
+        key = key_of(sky, bytes);
+        kept_file = folder / kept_name(key, ".sky");
+        if (std::optional<Texture> kept = read_sky(kept_file, key))
             return std::move(*kept);
-        }
     }
     Texture panorama = panorama_of(file, bytes);
     if (const std::vector<Star> stars = painted_stars(sky); !stars.empty())
         panorama = painted(panorama, stars, sky.milky_way->peak_arcmin2);
     if (kept_file.empty())
         return panorama;
-    header.width = std::uint64_t(panorama.size.x), header.height = std::uint64_t(panorama.size.y);
-    header.content = content_of(panorama.rgba);
+    const SkyNumbers numbers{std::uint64_t(panorama.size.x), std::uint64_t(panorama.size.y)};
     try {
-        write_own(kept_file, {{reinterpret_cast<const unsigned char*>(&header), sizeof header}, panorama.rgba});
+        write_kept(kept_file, sky_kind, key, {bytes_of(numbers), bytes_of(panorama.rgba)});
     } catch (const InputError&) { // the picture serves all the same
     }
     return panorama;

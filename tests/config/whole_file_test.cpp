@@ -103,7 +103,7 @@ TEST(WholeFile, APlantedLinkIsNotFollowed)
                 to, at.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(i) + ".part");
     };
     plant(victim, folder / "kept");
-    write_own(folder / "kept", {bytes("own "), bytes("bytes")});
+    write_own(folder / "kept", std::array{bytes("own "), bytes("bytes")});
     EXPECT_EQ(read_text(victim), "untouched");
     EXPECT_EQ(read_text(folder / "kept"), "own bytes");
     EXPECT_FALSE(std::filesystem::is_symlink(folder / "kept"));

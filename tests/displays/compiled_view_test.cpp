@@ -154,14 +154,19 @@ TEST(CompiledTest, TheFolderKeepsMapsAcrossStarts)
         EXPECT_EQ(map_of(again, a)->texels, of_a->texels);
         EXPECT_EQ(files_in(folder).size(), 2u);
     }
-    // If the two files change places, a store that reads them returns the other's map.
+    // The files were read, not written again; one in another's place is compiled and written again.
     const auto files = files_in(folder);
-    std::filesystem::rename(files[0], folder / "aside");
+    std::filesystem::create_hard_link(files[0], scratch("linked"));
+    MapStore read(folder);
+    EXPECT_EQ(map_of(read, a)->texels, of_a->texels);
+    EXPECT_EQ(map_of(read, b)->texels, of_b->texels);
+    EXPECT_EQ(std::filesystem::hard_link_count(files[0]), 2u);
     std::filesystem::rename(files[1], files[0]);
-    std::filesystem::rename(folder / "aside", files[1]);
     MapStore exchanged(folder);
-    EXPECT_EQ(map_of(exchanged, a)->texels, of_b->texels);
-    EXPECT_EQ(map_of(exchanged, b)->texels, of_a->texels);
+    EXPECT_EQ(map_of(exchanged, a)->texels, of_a->texels);
+    EXPECT_EQ(map_of(exchanged, b)->texels, of_b->texels);
+    EXPECT_EQ(std::filesystem::hard_link_count(scratch("linked")), 1u);
+    EXPECT_EQ(files_in(folder).size(), 2u);
 }
 
 // Many maps may have been read in the same tick of the file system's clock. All of them count, and all may be deleted.

@@ -1,6 +1,6 @@
 // PINs, tokens and locks, with a clock of the test's own.
 #include "runtime/remote/auth.h"
-#include "tests/support/files.h"
+#include "tests/support/damage.h"
 #include <gtest/gtest.h>
 #include <regex>
 #include <set>
@@ -238,15 +238,15 @@ TEST(Logins, TokensOutlastARestartButNotAnotherPin)
     EXPECT_EQ(after.role_of(engineer, start), std::nullopt);
     EXPECT_EQ(after.role_of(docent, start + 13h), std::nullopt);
     // Damage, a file that others may read, no file: people log in again.
-    std::mt19937 random(1);
-    const std::string text = read_text(file);
-    for (int i = 0; i < 500; ++i) {
-        const std::filesystem::path damaged = write_text("logins-damaged", mutated(text, random));
-        chmod(damaged.c_str(), 0600);
+    for_each_damage(read_text(file), [&](const std::string& damaged, const std::string& how) {
+        const std::filesystem::path wrong = write_text("logins-damaged", damaged);
+        chmod(wrong.c_str(), 0600);
         Logins some(pins);
-        some.restore(damaged, start);
-        EXPECT_EQ(some.role_of("", start), std::nullopt);
-    }
+        some.restore(wrong, start);
+        EXPECT_EQ(some.role_of(docent, start), std::nullopt) << how;
+        EXPECT_EQ(some.role_of(engineer, start), std::nullopt) << how;
+        EXPECT_EQ(some.role_of("", start), std::nullopt) << how;
+    });
     chmod(file.c_str(), 0644);
     Logins open(pins);
     open.restore(file, start);

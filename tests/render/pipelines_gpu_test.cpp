@@ -1,5 +1,8 @@
-// Pipelines that no frame uses are released beyond a bound, and the device gives their memory back.
+// Pipelines that no frame uses are released beyond a bound, and the device gives their memory back. Those of an earlier
+// start come from a whole file alone.
+#include "tests/support/damage.h"
 #include "tests/support/small_world.h"
+#include <cstdlib>
 #include <fstream>
 #include <unistd.h>
 
@@ -48,6 +51,29 @@ TEST(Pipelines, StayWithinTheirBoundAndSoDoesTheMemory)
     std::printf("%zu pipelines made, %zu kept; memory %.1f MB, then %.1f MB\n", own.count(), own.kept(), settled / 1e6,
         resident() / 1e6);
     EXPECT_LT(resident(), 1.01 * settled);
+}
+
+TEST(Pipelines, OfADamagedFileNoneReachesTheDriver)
+{
+    const std::filesystem::path folder = testing::scratch("pipelines-cache");
+    const char* const set = std::getenv("STARBOW_CACHE");
+    const std::string before = set ? set : "";
+    setenv("STARBOW_CACHE", folder.c_str(), 1);
+    EXPECT_TRUE(kept_pipelines(device().properties).empty());
+    device().save_pipelines();
+    const std::filesystem::path file = std::filesystem::directory_iterator(folder)->path();
+    const std::string whole = testing::read_text(file);
+    const std::vector<std::uint8_t> right = device().cache.getData();
+    EXPECT_FALSE(right.empty());
+    EXPECT_TRUE(kept_pipelines(device().properties) == right);
+    testing::for_each_damage(whole, [&](const std::string& damaged, const std::string& how) {
+        testing::write_bytes(file, damaged);
+        EXPECT_TRUE(kept_pipelines(device().properties).empty()) << how;
+    });
+    // A start with a damaged file writes it again.
+    Device({.name = device_options(false).name}).save_pipelines();
+    EXPECT_FALSE(kept_pipelines(device().properties).empty());
+    before.empty() ? unsetenv("STARBOW_CACHE") : setenv("STARBOW_CACHE", before.c_str(), 1);
 }
 
 } // namespace

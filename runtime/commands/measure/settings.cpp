@@ -1,6 +1,7 @@
 #include "settings.h"
+#include "config/json/hash.h"
+#include "config/json/kept_file.h"
 #include "config/json/reader.h"
-#include "config/json/whole_file.h"
 #include "runtime/commands/median.h"
 #include "runtime/operation/progress.h"
 #include "runtime/reference/number_errors.h"
@@ -168,21 +169,21 @@ void find_errors(const Trial& trial, RenderContext& context, const Truths& truth
 /// What an interrupted run had measured.
 class Kept {
 public:
-    Kept(std::filesystem::path file, std::string key)
+    Kept(std::filesystem::path file, const std::string& key)
         : file_(std::move(file))
-        , key_(std::move(key))
     {
-        nlohmann::json before = nlohmann::json::parse(RegularFile(file_).read_all(std::size_t(16) << 20), nullptr, false);
-        if (before.is_object() && before.value("key", "") == key_)
-            all_ = before;
-        else
-            all_ = {{"key", key_}, {"settings", nlohmann::json::object()}};
+        ContentHash hash;
+        hash.add(key.data(), key.size());
+        key_ = hash.value();
+        KeptFile before(file_, kind, key_);
+        std::string text(before.size(0), '\0');
+        if (before.read({bytes_of(text)}))
+            settings_ = nlohmann::json::parse(text);
     }
     bool find(MeasuredSetting& one) const
     {
-        const auto& settings = all_.at("settings");
-        const auto at = settings.find(quality_text(one.setting.quality));
-        if (at == settings.end())
+        const auto at = settings_.find(quality_text(one.setting.quality));
+        if (at == settings_.end())
             return false;
         const std::vector<double> v = at->get<std::vector<double>>();
         one.ms = v.at(0), one.ratio = v.at(1), one.megabytes = v.at(2), one.texels_per_pixel = v.at(3),
@@ -194,10 +195,10 @@ public:
     void keep(const MeasuredSetting& one)
     {
         const PictureErrors& e = one.errors;
-        all_["settings"][quality_text(one.setting.quality)]
+        settings_[quality_text(one.setting.quality)]
             = {one.ms, one.ratio, one.megabytes, one.texels_per_pixel, one.images, std::min(e.psnr_dB, 1e3), e.flip,
                 e.ciede2000_mean, e.ciede2000_95, e.edges_95_px, one.direction_px, one.doppler};
-        write_whole(file_, all_.dump());
+        write_kept(file_, kind, key_, {bytes_of(settings_.dump())});
     }
     void forget() const
     {
@@ -206,9 +207,10 @@ public:
     }
 
 private:
+    static constexpr const char* kind = "measure2";
     std::filesystem::path file_;
-    std::string key_;
-    nlohmann::json all_;
+    std::uint64_t key_ = 0;
+    nlohmann::json settings_ = nlohmann::json::object();
 };
 
 std::string key_of(const Trial& trial, const std::string& machine)
@@ -233,7 +235,7 @@ std::vector<MeasuredSetting> measure_settings(
     RenderContext& standards = theatres.with(trial.standard.spectra);
     machine = standards.device.name();
     const Truths truths = truths_of(trial);
-    Kept kept(trial.folder / "measured.json", key_of(trial, machine));
+    Kept kept(trial.folder / "measured.kept", key_of(trial, machine));
     std::vector<MeasuredSetting> all;
     std::vector<double> standard_ms;
     Progress progress;

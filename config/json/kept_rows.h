@@ -8,7 +8,7 @@
 namespace starbow {
 
 /// Finished rows of a long picture in a file beside it, so that an interrupted picture goes on. Rows of another picture, by
-/// its key, are dropped.
+/// its key, are dropped, and so are a row with a wrong bit and those after it.
 class KeptRows {
 public:
     /// Throws InputError where the file can't be written.
@@ -25,6 +25,7 @@ public:
 
 private:
     std::filesystem::path file_;
+    std::string head_; ///< the file's first line
     std::size_t bytes_ = 0;
     std::vector<std::vector<std::byte>> rows_;
     std::mutex mutex_;
