@@ -7,6 +7,7 @@
 #include "runtime/hud/caption.h"
 #include "tests/support/files.h"
 #include "tests/support/tour_frame.h"
+#include "tests/support/words_files.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -79,8 +80,8 @@ const std::map<std::string, Facts>& facts()
 {
     const auto beta = [](const Frame& f) { return f.beta(); };
     const auto years = [](const Frame& f) { return f.own; };
-    // The shaft's width, relative to that from 12 light-seconds at rest; of a point it is 0.2 % more at the end. The height is as good a measure from far away
-    // alone.
+    // The shaft's width, relative to that from 12 light-seconds at rest; of a point it is 0.2 % more at the end. The height
+    // is as good a measure from far away alone.
     const auto size = [](const Frame& f) { return f.size_deg(column, {0.3, 0, 0}) / (2 * std::atan(0.15 / 12) / degree); };
     const auto height = [](const Frame& f) { return f.size_deg(column, whole_column) / (2 * std::atan(1.5 / 12) / degree); };
     const auto to_column = [](const Frame& f) { return f.away(column); };
@@ -263,25 +264,6 @@ std::string key_of(const std::string& text, const nlohmann::json& words)
     return "?";
 }
 
-/// The numbers of a text, in English figures; those of keys, buttons and one g are none.
-std::vector<std::string> numbers_in(std::string text, bool german)
-{
-    text = std::regex_replace(text, std::regex("\\{measured\\}"), "");
-    text = std::regex_replace(text, std::regex("(button|Taste|Knopf) \\d|\\d (or button|oder Taste) \\d|\\b1 g\\b"), "");
-    std::vector<std::string> all;
-    const std::regex number("\\d+([.,]\\d+)*");
-    for (std::sregex_iterator at(text.begin(), text.end(), number), end; at != end; ++at) {
-        std::string figures = at->str();
-        if (german)
-            for (char& c : figures)
-                c = c == ',' ? '.' : c == '.' ? ',' : c;
-        all.push_back(figures);
-    }
-    std::ranges::sort(all);
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    return all;
-}
-
 double value_of(std::string figures)
 {
     static const std::map<std::string, double> words{
@@ -290,12 +272,6 @@ double value_of(std::string figures)
         return found->second;
     std::erase(figures, ',');
     return std::stod(figures);
-}
-
-nlohmann::json words_file(const char* language)
-{
-    return nlohmann::json::parse(
-        read_text(source_dir() / "config/words" / (std::string(language) + ".json")), nullptr, true, true);
 }
 
 /// The shown number of a caption: what stands in the place of {measured}.
@@ -313,6 +289,7 @@ double shown_number(const std::string& text, const std::string& pattern)
 
 TEST(CaptionTruth, EveryNumberIsListed)
 {
+    const std::regex keys("\\{measured\\}|(button|Taste|Knopf) \\d|\\d (or button|oder Taste) \\d|\\b1 g\\b");
     for (const char* language : {"en", "de"}) {
         const nlohmann::json words = words_file(language);
         std::size_t texts = 0;
@@ -328,7 +305,7 @@ TEST(CaptionTruth, EveryNumberIsListed)
                 if (std::isdigit(number.text[0]))
                     listed.push_back(number.text);
             std::ranges::sort(listed);
-            EXPECT_EQ(numbers_in(value, language[0] == 'd'), listed) << language << " " << key;
+            EXPECT_EQ(numbers_in(value, language[0] == 'd', keys), listed) << language << " " << key;
             const bool measured
                 = std::ranges::any_of(found->second.numbers, [](const Number& n) { return n.text[0] == '{'; });
             EXPECT_EQ(value.get<std::string>().find("{measured}") != std::string::npos, measured) << key;

@@ -5,6 +5,7 @@
 #include "config/model/tour_file.h"
 #include "tests/support/files.h"
 #include "tests/support/tour_frame.h"
+#include "tests/support/words_files.h"
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
@@ -768,12 +769,6 @@ const std::map<std::string, Description>& descriptions()
         {"twins.see-14", {"Dein eigener Flug", {}}},
     };
     return all;
-}
-
-nlohmann::json words_file(const char* language)
-{
-    return nlohmann::json::parse(
-        read_text(source_dir() / "config/words" / (std::string(language) + ".json")), nullptr, true, true);
 }
 
 /// The description's steps of a tour, one after the other; those that visitors fly are left out.

@@ -3,6 +3,7 @@
 #include "runtime/hud/challenges.h"
 #include "runtime/hud/lab_log.h"
 #include "tests/support/files.h"
+#include "tests/support/words_files.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -23,24 +24,6 @@ constexpr double deg = 3.14159265358979324 / 180, little = 1e-6;
 nlohmann::json file_of(const std::filesystem::path& file)
 {
     return nlohmann::json::parse(read_text(source_dir() / "config" / file), nullptr, true, true);
-}
-
-/// The numbers of a text in English figures, each once; those of the key F1 and of an option are none.
-std::vector<std::string> figures_in(std::string text, bool german)
-{
-    text = std::regex_replace(text, std::regex("F1|--log-every 0\\.1"), "");
-    std::vector<std::string> all;
-    const std::regex number("\\d+([.,]\\d+)?");
-    for (std::sregex_iterator at(text.begin(), text.end(), number), end; at != end; ++at) {
-        std::string figures = at->str();
-        if (german)
-            for (char& c : figures)
-                c = c == ',' ? '.' : c == '.' ? ',' : c;
-        all.push_back(figures);
-    }
-    std::ranges::sort(all);
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    return all;
 }
 
 double gamma_of(double beta) { return 1 / std::sqrt(1 - beta * beta); }
@@ -115,14 +98,15 @@ double u_of(double beta) { return beta * gamma_of(beta); }
 
 TEST(StatedNumbers, EachIsListed)
 {
-    const nlohmann::json english = file_of("words/en.json"), german = file_of("words/de.json");
+    const std::regex names("F1|--log-every 0\\.1"); // of a key and of an option
+    const nlohmann::json english = words_file("en"), german = words_file("de");
     std::size_t met = 0;
     for (const auto& [key, text] : english.items())
         if (key.starts_with("challenge.") || key.starts_with("goal.")) {
             const auto listed = figures().find(key);
             const std::vector<std::string> all = listed == figures().end() ? std::vector<std::string>{} : listed->second;
-            EXPECT_EQ(figures_in(text, false), all) << key;
-            EXPECT_EQ(figures_in(german.at(key), true), all) << key;
+            EXPECT_EQ(numbers_in(text, false, names), all) << key;
+            EXPECT_EQ(numbers_in(german.at(key), true, names), all) << key;
             met += !all.empty();
         }
     EXPECT_EQ(met, figures().size());

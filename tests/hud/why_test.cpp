@@ -7,6 +7,7 @@
 #include "runtime/world/worldline.h"
 #include "tests/support/files.h"
 #include "tests/support/quad.h"
+#include "tests/support/words_files.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -109,8 +110,7 @@ const nlohmann::json& file_of(const std::string& language)
     static std::map<std::string, nlohmann::json> all;
     auto [at, is_new] = all.try_emplace(language);
     if (is_new)
-        at->second
-            = nlohmann::json::parse(read_text(source_dir() / "config/words" / (language + ".json")), nullptr, true, true);
+        at->second = words_file(language);
     return at->second;
 }
 
