@@ -1,15 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "constants.h"
 #include "physics/real.glsl"
 #include "tone.glsl"
 // One step of the glow: to half the size, or back to twice the size and mixed with the present picture. The first step takes
 // the light that is brighter than a level. Each step's weights add up to 1, so that no light is created (filters of Bjorge,
 // "Bandwidth-efficient rendering", 2015).
 
-layout(constant_id = 0) const bool UP = false;
-
-layout(constant_id = 1) const bool FIRST = false;
+BLOOM_CONSTANTS(DECLARED)
 
 layout(set = 0, binding = 0) uniform sampler2D picture;
 layout(push_constant) uniform Push { BloomPush push; };

@@ -1,13 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "constants.h"
 #include "physics/real.glsl"
 #include "tone.glsl"
 #include "dither.glsl"
 // Shows a viewport's exposed light with its glow; without a glow, warp.frag shows it by itself.
 
-layout(constant_id = 0) const bool DITHERED = true;
-layout(constant_id = 1) const bool RANGE = false; // the light went through the curve that shows everything at once
+DITHER_CONSTANTS(DECLARED)
+RANGE_CONSTANTS(DECLARED)
 
 layout(set = 0, binding = 0) uniform sampler2D picture; // alpha 0: shows nothing
 layout(set = 0, binding = 1) uniform sampler2D glow;    // half as large

@@ -1,9 +1,11 @@
 #version 460
+#extension GL_GOOGLE_include_directive : require
+#include "constants.h"
 // A block of 4 x 4 texels of a picture in the format BC7 (Khronos Data Format Specification 1.3, chapter 20), in its mode 6:
 // two ends of four channels, 7 bits each and one more that an end's channels share, and 4 bits for each texel's place
 // between them. The picture's edge fills a block that reaches beyond it.
 
-layout(constant_id = 0) const bool COLOURS = true; // the picture is decoded by sRGB's curve, the block keeps stored values
+COMPRESS_CONSTANTS(DECLARED)
 
 layout(set = 0, binding = 0) uniform sampler2D picture; // one level
 layout(location = 0) out uvec4 block;

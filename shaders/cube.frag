@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "constants.h"
 #include "physics/real.glsl"
 #include "physics/aberration.glsl"
 #include "physics/worldline.glsl"
@@ -8,32 +9,10 @@
 // emission basis spectra. Constants compile out the parts that a world does not need. MAPPED: a build for surfaces with gloss
 // or with maps that have coordinates of their own; matt surfaces do not pay for it.
 
-layout(constant_id = 0) const bool BASE_TEXTURE = true;
-layout(constant_id = 1) const bool EMISSIVE_TEXTURE = true;
-layout(constant_id = 2) const bool MASKED = true;
-layout(constant_id = 3) const bool UNLIT = false;
-layout(constant_id = 4) const int LIGHTS = MAX_LIGHTS;
-layout(constant_id = 5) const int REFLECTED = 3;
-layout(constant_id = 6) const int OWN = 0;
-layout(constant_id = 7) const int KINDS = 1; // number of kinds of spectra that illuminate surfaces
-layout(constant_id = 8) const bool MATRICES = false; // otherwise the coefficients are the colour with ultraviolet and
-                                                     // infrared
-layout(constant_id = 9) const bool CLOCK = false;
-layout(constant_id = 10) const bool FINITE_EXISTENCE = false; // tests existence intervals
-layout(constant_id = 11) const bool SEVERAL_REST_FRAMES = false; // one of several rest frames: also writes its coverage,
-                                                                 // after the coefficients
-layout(constant_id = 12) const bool LAMPS_MOVE = false;
-layout(constant_id = 13) const bool BLINK = false;
-// constant_id 14 is cube.vert's
-layout(constant_id = 15) const bool UNSHIFTED = false; // light is stored as its colour at D = 1
-
-layout(constant_id = 20) const int SHADOWS = 0; // bits: lamps with maps; from the 8th on: point lamps; the 16th: daylight
-
-layout(constant_id = 21) const bool BLENDED = false; // over what is behind it, by its alpha
-// constant_id 22 is cube.vert's
-layout(constant_id = 23) const bool CONES = false; // some lamps shine in cones
-layout(constant_id = 24) const bool WITH_ALPHA = false; // some of the world's surfaces are blended
-// constant_id 25 is cube.vert's
+COEFFICIENT_CONSTANTS(DECLARED)
+MOTION_CONSTANTS(DECLARED) // of several rest frames: also writes its coverage, after the coefficients
+CORNER_CONSTANTS(DECLARED)
+TEXEL_CONSTANTS(DECLARED)
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // Spectra::columns

@@ -1,14 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "constants.h"
 // Draws a rest frame around its eye event, in the cube map's axes, into one image of the plan, or directly into a plain picture.
 
-layout(constant_id = 9) const bool CLOCK = false;
-layout(constant_id = 10) const bool FINITE_EXISTENCE = false;
-layout(constant_id = 13) const bool BLINK = false;
-layout(constant_id = 14) const bool MOVES = false; // animated
-layout(constant_id = 22) const bool DEFORMS = false; // and of a changing shape
-layout(constant_id = 25) const int TOPOLOGY = 0; // Topology; pipelines that differ in it alone must not be taken for each other
+CORNER_CONSTANTS(DECLARED)
+POSE_CONSTANTS(DECLARED)
+TOPOLOGY_CONSTANTS(DECLARED)
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 1) readonly buffer Instances { InstanceEntry instances[]; };

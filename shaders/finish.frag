@@ -1,14 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "constants.h"
 #include "dither.glsl"
 // Turns an output's canvases, in linear light, into its screen's or projector's input: it combines both eyes, matches the
 // projectors' colours, applies blend ramps and black level, and applies the input's curve.
 
-layout(constant_id = 0) const int COMBINE = 0; // 0: one canvas; two by 1 rows, 2 columns, 3 checkerboard; 4: both added
-layout(constant_id = 1) const bool MASKED = false;
-layout(constant_id = 2) const int CURVE = 0; // 0: sRGB; 1: gamma; 2: table
-layout(constant_id = 3) const bool DITHERED = true;
+DITHER_CONSTANTS(DECLARED)
+FINISH_CONSTANTS(DECLARED)
 
 layout(set = 0, binding = 0) uniform sampler2D left_picture;
 layout(set = 0, binding = 1) uniform sampler2D right_picture;
@@ -55,7 +54,7 @@ void main()
         light = through(push.left0, push.left1, push.left2, own);
     }
     light = max(light, vec3(0.0));
-    if (MASKED)
+    if (SCREENED)
         light = light * push.curve.y * spread(weights, p) + spread(black_level, p);
     light = min(light, vec3(1.0));
     if (CURVE == 0) {

@@ -3,7 +3,9 @@
 #include "panorama.glsl"
 #include "physics/eclipse.glsl"
 
-layout(constant_id = 26) const int GLOBES = 0; // of the world
+#include "constants.h"
+
+GLOBE_CONSTANTS(DECLARED)
 
 layout(set = 0, binding = 15) uniform Globes { GlobeConstants globes; };
 layout(set = 0, binding = 16) uniform sampler2DArray globe_maps; // parts of up to three kinds of ground

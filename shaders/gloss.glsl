@@ -2,10 +2,9 @@
 // GGX distributes, height-correlated shadowing by Smith, Fresnel's reflection by Schlick. All light is over that of a matt
 // white surface that faces its source, so the model's densities are multiplied by pi.
 
-layout(constant_id = 16) const bool MATT = false; // no gloss: the maps alone
-layout(constant_id = 17) const bool ROUGHNESS_MAP = false;
-layout(constant_id = 18) const bool NORMAL_MAP = false;
-layout(constant_id = 19) const bool OCCLUSION_MAP = false;
+#include "constants.h"
+
+GLOSS_CONSTANTS(DECLARED)
 
 layout(set = 1, binding = 2) uniform sampler2D roughness_texture; // green: roughness, blue: metallic
 layout(set = 1, binding = 3) uniform sampler2D normal_texture;

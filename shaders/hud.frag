@@ -1,14 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "constants.h"
 #include "view.glsl"
 #include "physics/real.glsl"
 #include "scale.glsl"
 // The head-up display: a panel at infinity in the cockpit, seen through the same directions as the world.
 
-layout(constant_id = 1) const bool SCALE = false; // with the scale of false colours in the rectangle view.eye of the panel
-
-layout(constant_id = 2) const bool LIGHT = false; // the panel is a picture of light with a frame around it
+PANEL_CONSTANTS(DECLARED)
 
 layout(set = 0, binding = 1) uniform sampler2D panel; // r: letters, g: the dark plate behind them
 layout(push_constant) uniform Push { ViewPush view; };

@@ -1,7 +1,9 @@
 #version 460
+#extension GL_GOOGLE_include_directive : require
+#include "constants.h"
 // Adds one layer of overlapping viewports to an output's canvas: each pixel's light times its share.
 
-layout(constant_id = 0) const bool PLAIN = false; // by the parts of the viewports alone, without masks and brightness
+LAYER_CONSTANTS(DECLARED)
 
 layout(set = 0, binding = 0) uniform sampler2D picture; // the layer's views
 layout(set = 0, binding = 1) uniform sampler2D shares;  // Shade::shares: rgb: factor, a: part

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "constants.h"
 #include "physics/real.glsl"
 #include "physics/aberration.glsl"
 #include "physics/galilean.glsl"
@@ -11,7 +12,7 @@
 // Samples the view's luminance for the exposure: one pixel represents zenith.z x zenith.w pixels of the viewport. Where
 // colours have directions of their own, green's is used.
 
-layout(constant_id = 25) const bool RANGE = false;
+RANGE_CONSTANTS(DECLARED)
 layout(location = 0) out vec2 metered; // luminance of the scene-linear light at EV 0; solid angle, 0: nothing is shown
 
 void main()

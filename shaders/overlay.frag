@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "constants.h"
 #include "physics/real.glsl"
 #include "physics/aberration.glsl"
 #include "physics/galilean.glsl"
@@ -11,7 +12,7 @@
 // The measuring overlays of a viewport: the world's directions, the ring where D is 1, distances and retarded times in
 // false colours, the crosshair and the marks. Line widths are in the viewport's own pixels.
 
-layout(constant_id = 10) const int OVERLAY = OVERLAY_NONE;
+OVERLAY_PASS_CONSTANTS(DECLARED)
 
 layout(set = 1, binding = 0) uniform Constants { OverlayConstants overlay; };
 layout(location = 0) out vec4 shown; // premultiplied

@@ -1,6 +1,8 @@
 // The part that a view has of an output's pixel where viewports overlap (Shade::shares), for the exposure's samples.
 
-layout(constant_id = 21) const bool LAYERED = false;
+#include "constants.h"
+
+PART_CONSTANTS(DECLARED)
 
 layout(set = 0, binding = 13) uniform sampler2D shares;
 

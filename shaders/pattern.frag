@@ -1,10 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "constants.h"
 #include "view.glsl"
 // Test patterns for lining up projectors. Linear light.
 
-layout(constant_id = 1) const int PATTERN = PATTERN_GRID;
+PATTERN_CONSTANTS(DECLARED)
 layout(set = 0, binding = 1) uniform sampler2D label; // r: letters
 layout(push_constant) uniform Push { PatternPush pattern; };
 layout(location = 0) out vec4 shown;

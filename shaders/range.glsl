@@ -1,6 +1,8 @@
 // The curve of luminance that shows everything at once: the same for all outputs and eyes. range_curve.h says what it is.
 
-layout(constant_id = 25) const bool RANGE = false;
+#include "constants.h"
+
+RANGE_CONSTANTS(DECLARED)
 layout(set = 0, binding = 20) uniform Range { RangeConstants range; };
 
 // The factor that brings light of this luminance (scene-linear, at EV 0) to its shown luminance. All three channels have it,

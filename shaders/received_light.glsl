@@ -5,39 +5,23 @@
 // ONE_REST_FRAME as well, for worlds where nothing moves. The last build's pipelines are made in a fifth of the time. A fourth,
 // with ONE_REST_FRAME and WITH_GLOBES, is for worlds with globes.
 
-layout(constant_id = 1) const bool ABERRATION = true;
-layout(constant_id = 2) const bool DOPPLER = true;
-layout(constant_id = 3) const bool HEADLIGHT = true;
-layout(constant_id = 4) const bool MIPS = false;
-layout(constant_id = 5) const bool CHANNELS = false; // red, green and blue have directions of their own
+#include "constants.h"
+
+COEFFICIENT_CONSTANTS(DECLARED)
+RECEIVED_CONSTANTS(DECLARED)
 #ifdef OWN_EYE
 const bool REPROJECT = false;
 #else
-layout(constant_id = 6) const bool REPROJECT = false; // the eye is not where the cube map was drawn
-layout(constant_id = 7) const bool TURNING = false; // the eye's side depends on the azimuth
+EYE_CONSTANTS(DECLARED)
 #endif
-layout(constant_id = 8) const bool STARS = false;
-// constant_id 9 is warp.glsl's; 10 has a meaning of its own in each pass
-layout(constant_id = 11) const int REFLECTED = 3; // coefficients of reflected sunlight: 3 are a colour
-layout(constant_id = 12) const int OWN = 0; // coefficients of emission basis spectra
-layout(constant_id = 13) const bool BY_TABLE = true; // otherwise the coefficients are the unshifted colour
-layout(constant_id = 15) const bool GALILEAN = false; // Galilean aberration, for comparison
-layout(constant_id = 16) const bool SINGLE = false; // one image of the plan, ahead, covers all: view.eye is its
-                                                    // TileEntry::texel_from_face
-layout(constant_id = 17) const int RAYS = 1; // along each side of a pixel
-layout(constant_id = 18) const bool CUT = false; // some tile of the plan has more than one image
 #ifdef ONE_REST_FRAME
 const bool SEVERAL_REST_FRAMES = false, WORLD_ALONE = false;
 const int REST_FRAMES = 1;
 #else
-layout(constant_id = 14) const bool SEVERAL_REST_FRAMES = false; // several rest frames, each with its own part of the cube map
-layout(constant_id = 22) const bool WORLD_ALONE = false; // of several rest frames only the world's is seen here
-layout(constant_id = 23) const int REST_FRAMES = MAX_REST_FRAMES; // of the world; MAX_REST_FRAMES: more than a few
-layout(constant_id = 24) const bool MILKY_WAY = false; // the sky has a panorama
+MOTION_CONSTANTS(DECLARED)
+REST_FRAME_CONSTANTS(DECLARED)
+PANORAMA_CONSTANTS(DECLARED)
 #endif
-layout(constant_id = 19) const int CUBE_SAMPLES = 1; // of each texel
-layout(constant_id = 20) const bool UNALIGNED = false; // some cube map has other axes than the motion's
-layout(constant_id = 27) const bool WITH_ALPHA = false; // a group has three coefficients
 
 const int GROUPS = GROUP_COUNT(REFLECTED + OWN, WITH_ALPHA);
 

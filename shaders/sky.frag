@@ -1,9 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "constants.h"
 
-layout(constant_id = 0) const int GROUPS = 1;
-layout(constant_id = 1) const bool MILKY_WAY = false;
+SKY_PASS_CONSTANTS(DECLARED)
+PANORAMA_CONSTANTS(DECLARED)
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 1, binding = 0) uniform sampler2D milky_way;
 layout(location = 0) in vec3 way;

@@ -1,13 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "constants.h"
 #include "physics/real.glsl"
 #include "physics/glare.glsl"
 // A star's spot: round, and the same at any speed. It is so wide that the sum over its pixels does not depend on its
 // centre's place between pixels, within 0.5 %: no star twinkles as it drifts. What the glare around it holds, it lacks.
 
-layout(constant_id = 25) const bool RANGE = false; // w: luminance before the curve that shows everything at once
-layout(constant_id = 9) const bool HALVES = false; // the picture has 16 bits a number
+RANGE_CONSTANTS(DECLARED) // w: luminance before the curve
+STAR_CONSTANTS(DECLARED)
 
 layout(location = 0) flat in vec3 centre; // z: solid angle of a pixel
 layout(location = 1) flat in vec3 light;

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "constants.h"
 #include "physics/real.glsl"
 #include "physics/aberration.glsl"
 #include "physics/galilean.glsl"
@@ -14,7 +15,7 @@
 // have directions of their own, one for each colour. It has as many again where a display shows a direction at more than
 // one place.
 
-layout(constant_id = 10) const bool METERING_SAMPLES = false; // luminance samples for the exposure: one pixel for each star
+STAR_METER_CONSTANTS(DECLARED)
 
 layout(set = 0, binding = 6) uniform usampler2DArray inverse_map;
 layout(set = 1, binding = 0) uniform Constants { StarConstants turn; };

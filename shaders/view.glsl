@@ -1,9 +1,11 @@
 // The direction of an output pixel. Planar views are linear in the pixel; every other display has a direction map.
 
+#include "constants.h"
+
 #ifdef FLAT
 const bool MAP = false;
 #else
-layout(constant_id = 0) const bool MAP = false;
+MAP_CONSTANTS(DECLARED)
 #endif
 layout(set = 0, binding = 0) uniform usampler2DArray direction_map; // all 0: shows nothing
 

@@ -10,8 +10,10 @@
 #include "dither.glsl"
 #include "range.glsl"
 
-layout(constant_id = 9) const bool LINEAR = false;  // light for the glow, before the tone curve; alpha 0: shows nothing
-layout(constant_id = 10) const bool DITHERED = true; // the target has 8 bits
+#include "constants.h"
+
+LINEAR_CONSTANTS(DECLARED)
+DITHER_CONSTANTS(DECLARED)
 
 layout(location = 0) out vec4 shown;
 

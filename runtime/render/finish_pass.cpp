@@ -58,7 +58,7 @@ FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& outpu
 
     const Colour& colour = output.colour;
     variant_.combine = combine_of(output.packing);
-    variant_.masked = !shade.empty() || headroom != 1;
+    variant_.screened = !shade.empty() || headroom != 1;
     variant_.curve = !colour.lut.empty() ? 2 : colour.gamma != 0 ? 1 : 0;
     glm::dmat3 left = colour.matrix, right(0);
     if (variant_.combine == 4) {
@@ -174,7 +174,7 @@ void FinishPass::record(vk::CommandBuffer commands, const Target& target, bool p
             Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader,
             Access::eShaderSampledRead);
     FinishVariant variant = variant_;
-    variant.masked = variant.masked && !plain;
+    variant.screened = variant.screened && !plain;
     variant.dithered = !plain; // a pattern's steps are exact
     vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);

@@ -295,8 +295,10 @@ void put_shadows(Device& device, GpuWorld& gpu, World& world)
 SurfaceVariant GpuWorld::variant(int material, StoredLight light) const
 {
     const Material& m = world.materials[material];
-    SurfaceVariant variant{
-        m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(world.lamps.size())};
+    SurfaceVariant variant;
+    variant.base_texture = m.base_texture >= 0, variant.emissive_texture = m.emissive_texture >= 0;
+    variant.masked = m.alpha_cutoff > 0;
+    variant.unlit = m.unlit, variant.lights = m.unlit ? 0 : int(world.lamps.size());
     if (light != StoredLight::plain && m.mapped()) {
         variant.mapped = true, variant.matt = !m.gloss;
         variant.roughness_map = m.gloss && m.gloss->metallic_roughness.texture >= 0;

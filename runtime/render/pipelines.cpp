@@ -78,15 +78,26 @@ struct Pipelines::Pass {
 
 namespace {
 
-SpecializationConstants constants(const WarpVariant& v)
+#define STARBOW_VALUE(id, type, NAME, member, usual) {Constant::member, v.member},
+
+SpecializationConstants with(SpecializationConstants all, const CoefficientCounts& v)
 {
-    constexpr std::uint32_t of_the_pass = 0; // constant_id 10 has a meaning of its own in each pass
-    return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
-        of_the_pass, std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), v.by_table,
-        v.several_rest_frames, v.galilean, v.single, std::uint32_t(v.rays), v.cut, std::uint32_t(v.cube_samples),
-        v.unaligned, v.layered, v.world_alone, std::uint32_t(v.rest_frames), v.milky_way, v.range, std::uint32_t(v.globes),
-        v.coefficients.with_alpha};
+    for (const auto& [constant, value] :
+        std::initializer_list<SpecializationConstants::Value>{COEFFICIENT_CONSTANTS(STARBOW_VALUE)})
+        all.add(constant, value);
+    return all;
 }
+SpecializationConstants constants(const SurfaceVariant& v)
+{
+    return with({SURFACE_CONSTANTS(STARBOW_VALUE)}, v.coefficients).add(Constant::topology, int(v.topology));
+}
+SpecializationConstants constants(const WarpVariant& v) { return with({VIEW_CONSTANTS(STARBOW_VALUE)}, v.coefficients); }
+SpecializationConstants constants(const FinishVariant& v)
+{
+    return {DITHER_CONSTANTS(STARBOW_VALUE) FINISH_CONSTANTS(STARBOW_VALUE)};
+}
+
+#undef STARBOW_VALUE
 
 /// A shader that reads the cube map, in its builds (received_light.glsl).
 struct Builds {
@@ -148,10 +159,12 @@ vk::raii::Pipeline Pipelines::make(const Pass& pass) const
     auto module = [&](Spirv words) { return device_.device.createShaderModule({{}, words.size_bytes(), words.data()}); };
     vk::raii::ShaderModule vertex = module(pass.vertex), fragment = module(pass.fragment);
     std::vector<vk::SpecializationMapEntry> entries;
-    for (std::uint32_t i = 0; i < pass.constants.count; ++i)
-        entries.push_back({i, i * 4, 4});
+    constexpr std::size_t size = sizeof(SpecializationConstants::Value);
+    for (std::size_t i = 0; i < pass.constants.count; ++i)
+        entries.push_back({std::uint32_t(pass.constants.list[i].constant),
+            std::uint32_t(i * size + offsetof(SpecializationConstants::Value, value)), 4});
     vk::SpecializationInfo constants(
-        std::uint32_t(entries.size()), entries.data(), pass.constants.count * 4, pass.constants.list.data());
+        std::uint32_t(entries.size()), entries.data(), pass.constants.count * size, pass.constants.list.data());
     vk::PipelineShaderStageCreateInfo stages[] = {{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main", &constants},
         {{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main", &constants}};
 
@@ -212,11 +225,7 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
         .fragment = v.mapped ? Spirv(cube_mapped_frag) : Spirv(cube_frag),
         .layout = *layouts.surface_layout,
         .target = target,
-        .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
-            std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), std::uint32_t(v.kinds), v.matrices,
-            v.clock, v.finite_existence, v.several_rest_frames, v.lamps_move, v.blink, v.moves, v.unshifted, v.matt,
-            v.roughness_map, v.normal_map, v.occlusion_map, std::uint32_t(v.shadows), v.blended, v.deforms, v.cones,
-            v.coefficients.with_alpha, std::uint32_t(v.topology)},
+        .constants = constants(v),
         .depth = true,
         .vertices = true,
         .maps = v.mapped,
@@ -231,46 +240,40 @@ vk::Pipeline Pipelines::sky(bool milky_way, const TargetKind& target)
         .fragment = sky_frag,
         .layout = *layouts.surface_layout,
         .target = target,
-        .constants = {std::uint32_t(target.colours.size()), milky_way},
+        .constants = {{Constant::groups, int(target.colours.size())}, {Constant::milky_way, milky_way}},
         .depth = true});
 }
 
 vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
 {
-    SpecializationConstants all = constants(v);
-    all[10] = target != light_format; // 8 bits need dither
     return find_or_make({.name = "warp pipeline",
         .vertex = screen_vert,
         .fragment = (v.rays == 1 && !v.channels ? warp_builds : warp_rays_builds).of(v),
         .layout = *layouts.warp_layout,
         .target = {{target}},
-        .constants = all});
+        .constants = constants(v).add(Constant::dithered, target != light_format)});
 }
 
 vk::Pipeline Pipelines::dark(const WarpVariant& v, vk::Format target)
 {
     WarpVariant own{};
     own.map = v.map, own.stars = true, own.range = v.range;
-    SpecializationConstants all = constants(own);
-    all[10] = target != light_format;
     return find_or_make({.name = "dark pipeline",
         .vertex = screen_vert,
         .fragment = warp_dark_frag,
         .layout = *layouts.warp_layout,
         .target = {{target}},
-        .constants = all});
+        .constants = constants(own).add(Constant::dithered, target != light_format)});
 }
 
 vk::Pipeline Pipelines::stars(const WarpVariant& v, vk::Format target)
 {
-    SpecializationConstants all = constants(v);
-    all[9] = target == light_format;
     return find_or_make({.name = "stars pipeline",
         .vertex = stars_shader(v),
         .fragment = star_frag,
         .layout = *layouts.star_layout,
         .target = {{target}},
-        .constants = all,
+        .constants = constants(v).add(Constant::halves, target == light_format),
         .topology = Topology::points,
         .blending = Blending::add});
 }
@@ -297,14 +300,12 @@ vk::Pipeline Pipelines::probe(const WarpVariant& v)
 
 vk::Pipeline Pipelines::overlay(const WarpVariant& v, int overlay, vk::Format target)
 {
-    SpecializationConstants all = constants(v);
-    all[10] = std::uint32_t(overlay);
     return find_or_make({.name = "overlay pipeline",
         .vertex = screen_vert,
         .fragment = overlay_builds.of(v),
         .layout = *layouts.overlay_layout,
         .target = {{target}},
-        .constants = all,
+        .constants = constants(v).add(Constant::overlay, overlay),
         .blending = Blending::over});
 }
 
@@ -324,7 +325,7 @@ vk::Pipeline Pipelines::compress(bool colours)
         .fragment = compress_frag,
         .layout = *layouts.picture_layout,
         .target = {{words_format}},
-        .constants = {colours}});
+        .constants = {{Constant::colours, colours}}});
 }
 
 vk::Pipeline Pipelines::meter(const WarpVariant& v)
@@ -339,14 +340,12 @@ vk::Pipeline Pipelines::meter(const WarpVariant& v)
 
 vk::Pipeline Pipelines::star_meter(const WarpVariant& v)
 {
-    SpecializationConstants all = constants(v);
-    all[10] = true; // the meter reads one ray for each sample
     return find_or_make({.name = "star meter pipeline",
         .vertex = stars_shader(v),
         .fragment = star_meter_frag,
         .layout = *layouts.star_layout,
         .target = {{meter_format}},
-        .constants = all,
+        .constants = constants(v).add(Constant::metering_samples, true), // the meter reads one ray for each sample
         .topology = Topology::points});
 }
 
@@ -357,7 +356,7 @@ vk::Pipeline Pipelines::bloom(bool up, bool first)
         .fragment = bloom_frag,
         .layout = *layouts.picture_layout,
         .target = {{light_format}},
-        .constants = {up, first},
+        .constants = {{Constant::up, up}, {Constant::first, first}},
         .blending = up ? Blending::over : Blending::none});
 }
 
@@ -368,7 +367,7 @@ vk::Pipeline Pipelines::bloomed(bool range, vk::Format target)
         .fragment = bloomed_frag,
         .layout = *layouts.picture_layout,
         .target = {{target}},
-        .constants = {target != light_format, range}});
+        .constants = {{Constant::dithered, target != light_format}, {Constant::range, range}}});
 }
 
 vk::Pipeline Pipelines::hud(bool map, vk::Format target, bool scale, bool light)
@@ -378,7 +377,7 @@ vk::Pipeline Pipelines::hud(bool map, vk::Format target, bool scale, bool light)
         .fragment = hud_frag,
         .layout = *layouts.picture_layout,
         .target = {{target}},
-        .constants = {map, scale, light},
+        .constants = {{Constant::map, map}, {Constant::scale, scale}, {Constant::light, light}},
         .blending = Blending::over});
 }
 
@@ -389,7 +388,7 @@ vk::Pipeline Pipelines::lookup(vk::Format target)
         .fragment = lookup_frag,
         .layout = *layouts.picture_layout,
         .target = {{target}},
-        .constants = {false}});
+        .constants = {{Constant::map, false}}});
 }
 
 vk::Pipeline Pipelines::scaled(vk::Format target)
@@ -408,7 +407,7 @@ vk::Pipeline Pipelines::layer(bool plain)
         .fragment = layer_frag,
         .layout = *layouts.picture_layout,
         .target = {{light_format}},
-        .constants = {plain},
+        .constants = {{Constant::plain, plain}},
         .blending = Blending::add});
 }
 
@@ -419,7 +418,7 @@ vk::Pipeline Pipelines::finish(const FinishVariant& v, vk::Format target)
         .fragment = finish_frag,
         .layout = *layouts.finish_layout,
         .target = {{target}},
-        .constants = {std::uint32_t(v.combine), v.masked, std::uint32_t(v.curve), v.dithered}});
+        .constants = constants(v)});
 }
 
 vk::Pipeline Pipelines::fade(vk::Format target)
@@ -439,7 +438,7 @@ vk::Pipeline Pipelines::vignette(bool map, vk::Format target)
         .fragment = vignette_frag,
         .layout = *layouts.warp_layout,
         .target = {{target}},
-        .constants = {map},
+        .constants = {{Constant::map, map}},
         .blending = Blending::over});
 }
 
@@ -450,7 +449,7 @@ vk::Pipeline Pipelines::pattern(bool map, int pattern, vk::Format target)
         .fragment = pattern_frag,
         .layout = *layouts.picture_layout,
         .target = {{target}},
-        .constants = {map, std::uint32_t(pattern)}});
+        .constants = {{Constant::map, map}, {Constant::pattern, pattern}}});
 }
 
 } // namespace starbow

@@ -2,8 +2,11 @@
 #include "pipeline_layouts.h"
 #include "resources.h"
 #include "runtime/world/world.h"
+#include "shaders/constants.h"
 #include "shaders/shared_structs.h"
 #include <array>
+#include <compare>
+#include <cstring>
 #include <map>
 #include <string_view>
 #include <tuple>
@@ -41,10 +44,19 @@ struct Formats {
     auto operator<=>(const Formats&) const = default;
 };
 
-/// Counts of the basis coefficients that represent light: constants of the passes that write and read the cube map.
+// The specialization constants of shaders/constants.h: their ids, and structs with a member for each of a list.
+#define STARBOW_ID(id, type, NAME, member, usual) member = id,
+#define STARBOW_MEMBER(id, type, NAME, member, usual) type member = usual;
+
+enum class Constant : std::uint32_t {
+    COEFFICIENT_CONSTANTS(STARBOW_ID) SURFACE_CONSTANTS(STARBOW_ID) VIEW_CONSTANTS_ALONE(STARBOW_ID)
+        PASS_CONSTANTS(STARBOW_ID)
+};
+
+/// Counts of the basis coefficients that represent light, of the passes that write and read the cube map. with_alpha: each
+/// image leaves its fourth number to the alpha of blended surfaces.
 struct CoefficientCounts {
-    int reflected = 3, own = 0;
-    bool with_alpha = false; ///< each image leaves its fourth number to the alpha of blended surfaces
+    COEFFICIENT_CONSTANTS(STARBOW_MEMBER)
     /// Formats of the images that hold them, one group of coefficients each.
     Formats formats(bool half_floats) const
     {
@@ -61,62 +73,31 @@ struct CoefficientCounts {
     auto operator<=>(const CoefficientCounts&) const = default;
 };
 
-/// A material's variant of the cube pass: constant_ids of cube.frag.
+/// A material's variant of the cube pass.
 struct SurfaceVariant {
-    bool base_texture, emissive_texture, masked, unlit;
-    int lights;
+    SURFACE_CONSTANTS(STARBOW_MEMBER)
     CoefficientCounts coefficients{};
-    int kinds = 1; ///< number of kinds of spectra that shine
-    bool matrices = false; ///< otherwise the coefficients are the colour with ultraviolet and infrared
-    bool clock = false;
-    bool finite_existence = false; ///< tests existence intervals
-    bool several_rest_frames = false; ///< the world has several rest frames
-    bool lamps_move = false;
-    bool cones = false; ///< some lamps shine in cones
-    bool blink = false;
-    bool moves = false; ///< animated
-    bool deforms = false;
-    bool unshifted = false; ///< light is stored as its colour at D = 1
-    int shadows = 0; ///< constant_id 20 of cube.frag
-    bool blended = false; ///< drawn over what is behind it, by its alpha
-    bool mapped = false; ///< gloss, or maps with coordinates of their own; the following hold for it alone
-    bool matt = false, roughness_map = false, normal_map = false, occlusion_map = false;
     Topology topology = Topology::triangles;
+    bool mapped = false; ///< gloss, or maps with coordinates of their own: the constants of gloss hold for it alone
     auto operator<=>(const SurfaceVariant&) const = default;
 };
-/// A viewport's variant of the warp pass: constant_ids of view.glsl and received_light.glsl.
+
+/// A view's variant of the passes that read the cube map.
 struct WarpVariant {
-    bool map, aberration, doppler, headlight, mips;
-    bool channels = false; ///< red, green and blue look different ways
-    bool reproject = false, turning = false; ///< stereo from one cube map; by the azimuth
-    bool stars = false; ///< added to the cube map's light
-    bool linear = false; ///< exposed linear light, for the glow
+    VIEW_CONSTANTS(STARBOW_MEMBER)
     CoefficientCounts coefficients{};
-    bool by_table = true; ///< otherwise the coefficients are the colour
-    bool several_rest_frames = false; ///< something moves in the world
-    bool galilean = false; ///< Galilean aberration
-    int rays = 1; ///< along each side of a pixel
-    bool single = false; ///< one image of the plan, ahead, shows all
-    bool cut = false; ///< tiles may have several images
-    int cube_samples = 1; ///< of each texel
-    bool unaligned = false; ///< some cube map may have other axes than the motion's
-    bool layered = false; ///< the exposure's samples count by the view's part of each pixel
-    bool world_alone = false; ///< no body is seen in these pixels, of several rest frames
-    bool milky_way = false; ///< of several rest frames: the sky has a panorama
-    int globes = 0; ///< of the world
-    int rest_frames = 1; ///< of the world, if something that moves is in view; MAX_REST_FRAMES: more than a few
-    bool range = false; ///< through the curve that shows everything at once
     auto operator<=>(const WarpVariant&) const = default;
 };
 
-/// An output's variant of the finish pass: constant_ids of finish.frag.
+/// An output's variant of the finish pass. dithered: its target has 8 bits a number.
 struct FinishVariant {
-    int combine = 0; ///< 0: one canvas; two by rows: 1, columns: 2, checkerboard: 3, added: 4
-    bool masked = false;
-    int curve = 0; ///< 0 sRGB, 1 gamma, 2 table
-    bool dithered = true;
+    DITHER_CONSTANTS(STARBOW_MEMBER)
+    FINISH_CONSTANTS(STARBOW_MEMBER)
     auto operator<=>(const FinishVariant&) const = default;
 };
+
+#undef STARBOW_ID
+#undef STARBOW_MEMBER
 
 /// The images that a pass draws into.
 struct TargetKind {
@@ -125,20 +106,40 @@ struct TargetKind {
     auto operator<=>(const TargetKind&) const = default;
 };
 
-/// The specialization constants of a pass; constant_id is the index. On the stack, as Formats.
+/// The values of a pipeline's specialization constants. On the stack, as Formats.
 struct SpecializationConstants {
-    std::array<std::uint32_t, 28> list{};
+    struct Value {
+        Constant constant{};
+        std::int32_t value = 0; ///< of a bool 0 or 1
+
+        Value() = default;
+        Value(Constant given, std::int32_t its_value)
+            : constant(given)
+            , value(its_value)
+        {
+        }
+    };
+    std::array<Value, 32> list{};
     std::size_t count = 0;
 
     SpecializationConstants() = default;
-    template <class... Values>
-    requires(std::is_convertible_v<Values, std::uint32_t>&&...) SpecializationConstants(Values... values)
-        : list{std::uint32_t(values)...}
-        , count(sizeof...(values))
+    SpecializationConstants(std::initializer_list<Value> values)
     {
+        for (const Value& value : values)
+            list.at(count++) = value;
     }
-    std::uint32_t& operator[](std::size_t i) { return list[i]; }
-    auto operator<=>(const SpecializationConstants&) const = default;
+    /// Adds one that they do not have yet.
+    SpecializationConstants& add(Constant constant, std::int32_t value)
+    {
+        list.at(count++) = {constant, value};
+        return *this;
+    }
+    // In any order, but fast: each draw looks its pipeline up.
+    std::strong_ordering operator<=>(const SpecializationConstants& other) const
+    {
+        return std::memcmp(list.data(), other.list.data(), sizeof list) <=> 0;
+    }
+    bool operator==(const SpecializationConstants& other) const { return *this <=> other == 0; }
 };
 
 /// Pipelines that stay although no frame uses them. On lavapipe one takes 3 MB, and 0.05 s to make again from the driver's

@@ -28,9 +28,13 @@ WarpVariant ViewConstants::variant(const ViewState& view) const
         || eyes_.all[view.eye].cube.several_rest_frames(); // without motion D is 1 everywhere
     const bool beside = state_.reprojects() && view.beside_m != glm::dvec3(0);
     const Effects& on = eyes_.observer_of(view).shot.effects;
-    WarpVariant variant{view.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
-        eyes_.plans[view.eye].levels > 1, view.compiled.channels() == 3, beside, beside && state_.layout.stereo.turning,
-        !world_.stars.stars.empty() || world_.globes};
+    WarpVariant variant;
+    variant.map = view.compiled.map != nullptr, variant.channels = view.compiled.channels() == 3;
+    variant.aberration = on.aberration && moves, variant.doppler = on.doppler && moves;
+    variant.headlight = on.headlight && moves;
+    variant.mips = eyes_.plans[view.eye].levels > 1;
+    variant.reproject = beside, variant.turning = beside && state_.layout.stereo.turning;
+    variant.stars = !world_.stars.stars.empty() || world_.globes;
     const StoredLight light = eyes_.all[view.eye].cube.light();
     variant.coefficients = world_.coefficients(light);
     variant.several_rest_frames = eyes_.all[view.eye].cube.several_rest_frames();
