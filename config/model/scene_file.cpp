@@ -170,8 +170,8 @@ SceneFile load_scene_file(const std::filesystem::path& file)
     if (auto p = find_member(top, "ground")) {
         reject_unknown_members(*p, {"middle", "half_width", "colour"});
         Ground& ground = scene.ground.emplace();
-        ground.middle = vec3(member(*p, "middle"), {-1e9, 1e9});
-        ground.half_width = number(member(*p, "half_width"), {0, 1e9, true});
+        ground.middle = vec3(member(*p, "middle"), {-Ground::most, Ground::most});
+        ground.half_width = number(member(*p, "half_width"), {0, Ground::most, true});
         if (auto colour = find_member(*p, "colour"))
             ground.colour = vec3(*colour, {0, 1});
     }

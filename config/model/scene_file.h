@@ -75,6 +75,8 @@ struct StarSky {
 
 /// A level square of tiles below a world that brings no ground of its own.
 struct Ground {
+    static constexpr double most = 1e9; ///< of its numbers, scene units
+
     glm::dvec3 middle{0}; ///< scene units
     double half_width = 100;
     glm::dvec3 colour{0.3}; ///< Rec. 709 linear reflectance; every other tile is a little darker

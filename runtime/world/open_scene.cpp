@@ -73,7 +73,8 @@ Shot start_of(const Outline& outline, const Middle& middle)
 }
 
 /// The ground for a world that has none: below its middle, as wide as makes its edge a horizon. None for points and lines
-/// alone, for a world that has a floor or stands in larger things, and for one that is seen from inside.
+/// alone, for a world that has a floor or stands in larger things, for one that is seen from inside, and for one that is
+/// larger or farther off than a ground may be.
 std::optional<Ground> ground_of(const Outline& outline, const Middle& middle, const Shot& start)
 {
     constexpr double widths = 30, gap = 2e-3, floor_part = 0.5; // gap: below a floor that is part of the thing
@@ -95,7 +96,9 @@ std::optional<Ground> ground_of(const Outline& outline, const Middle& middle, co
     ground.middle = {centre.x, middle.box.low.y - gap * middle.across(), centre.z};
     ground.half_width = widths * middle.across();
     ground.colour = {0.23, 0.24, 0.21};
-    return ground;
+    const bool too_large = glm::any(glm::greaterThan(glm::abs(ground.middle), glm::dvec3(Ground::most)))
+        || ground.half_width > Ground::most;
+    return too_large ? std::nullopt : std::optional(ground);
 }
 
 /// The least round speed of light at which the file's own animations are slow enough for it.

@@ -211,6 +211,15 @@ TEST_F(OpenSceneTest, AThingWithoutAFloorStandsOnAGround)
     EXPECT_FALSE(open_scene(write("floor.gltf", floor.text())).ground);
     doc.json["meshes"][0]["primitives"][0]["mode"] = 0;
     EXPECT_FALSE(open_scene(write("cloud.gltf", doc.text())).ground);
+    // None that a scene could not have: far off, and too wide. What is written loads.
+    for (const double away : {2e9, 0.0}) {
+        const double half = away > 0 ? 1024 : 1e8;
+        Doc large;
+        add_box(large, {away - half, -half, -half}, {away + half, half, half});
+        const SceneFile found = open_scene(write("large.gltf", large.text()));
+        EXPECT_FALSE(found.ground) << away;
+        EXPECT_EQ(load_scene_file(write("large.json", scene_text(found, folder))).light_speed_m_s, found.light_speed_m_s);
+    }
 }
 
 TEST_F(OpenSceneTest, TheWrittenSceneIsTheSuggestedOne)
