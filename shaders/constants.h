@@ -12,22 +12,22 @@
 #define DECLARED(id, type, name, member, usual) layout(constant_id = id) const type name = usual;
 #endif
 
-// Of light as coefficients.
+// The coefficients of light.
 #define COEFFICIENT_CONSTANTS(CONSTANT) \
     CONSTANT(0, int, REFLECTED, reflected, 3) /* of reflected sunlight: 3 are a colour */ \
     CONSTANT(1, int, OWN, own, 0) /* of emission basis spectra */ \
     CONSTANT(2, bool, WITH_ALPHA, with_alpha, false) /* a group has three, as some surfaces are blended */
 
-// Of worlds with several rest frames, each with its own part of the cube map.
+// A world's rest frames: several have each their own part of the cube map.
 #define MOTION_CONSTANTS(CONSTANT) CONSTANT(3, bool, SEVERAL_REST_FRAMES, several_rest_frames, false)
 
-// Of surfaces, in both stages.
+// Surfaces, in the vertex and the fragment stage.
 #define CORNER_CONSTANTS(CONSTANT) \
     CONSTANT(4, bool, CLOCK, clock, false) \
     CONSTANT(5, bool, FINITE_EXISTENCE, finite_existence, false) /* tests existence intervals */ \
     CONSTANT(6, bool, BLINK, blink, false)
 
-// Of surfaces' corners alone.
+// Surfaces, in the vertex stage alone.
 #define POSE_CONSTANTS(CONSTANT) \
     CONSTANT(7, bool, MOVES, moves, false) /* animated */ \
     CONSTANT(8, bool, DEFORMS, deforms, false) /* and of a changing shape */
@@ -35,7 +35,7 @@
 // Pipelines that differ in their topology alone must not be taken for each other.
 #define TOPOLOGY_CONSTANTS(CONSTANT) CONSTANT(9, int, TOPOLOGY, topology, 0)
 
-// Of surfaces' texels.
+// Surfaces, in the fragment stage alone.
 #define TEXEL_CONSTANTS(CONSTANT) \
     CONSTANT(10, bool, BASE_TEXTURE, base_texture, false) \
     CONSTANT(11, bool, EMISSIVE_TEXTURE, emissive_texture, false) \
@@ -50,7 +50,7 @@
     CONSTANT(20, int, SHADOWS, shadows, 0) /* bits: lamps with maps; from the 8th on point lamps; the 16th daylight */ \
     CONSTANT(21, bool, BLENDED, blended, false) /* over what is behind it, by its alpha */
 
-// Of surfaces with gloss or with maps that have coordinates of their own.
+// Surfaces with gloss, or with maps that have coordinates of their own.
 #define GLOSS_CONSTANTS(CONSTANT) \
     CONSTANT(22, bool, MATT, matt, false) /* no gloss: the maps alone */ \
     CONSTANT(23, bool, ROUGHNESS_MAP, roughness_map, false) \
@@ -61,7 +61,7 @@
     MOTION_CONSTANTS(CONSTANT) CORNER_CONSTANTS(CONSTANT) POSE_CONSTANTS(CONSTANT) TEXEL_CONSTANTS(CONSTANT) \
     GLOSS_CONSTANTS(CONSTANT)
 
-// Of a view.
+// A view's pixels, and the light that they receive.
 #define MAP_CONSTANTS(CONSTANT) CONSTANT(30, bool, MAP, map, false) /* a direction map; otherwise linear in the pixel */
 #define RECEIVED_CONSTANTS(CONSTANT) \
     CONSTANT(31, bool, ABERRATION, aberration, false) \
@@ -79,7 +79,7 @@
     CONSTANT(42, int, CUBE_SAMPLES, cube_samples, 1) /* of each texel */ \
     CONSTANT(43, bool, UNALIGNED, unaligned, false) /* some cube map has other axes than the motion's */
 
-// Of two eyes that share one cube map.
+// Two eyes that share one cube map.
 #define EYE_CONSTANTS(CONSTANT) \
     CONSTANT(44, bool, REPROJECT, reproject, false) /* the eye is not where the cube map was drawn */ \
     CONSTANT(45, bool, TURNING, turning, false) /* the eye's side depends on the azimuth */
@@ -100,7 +100,7 @@
     PANORAMA_CONSTANTS(CONSTANT) GLOBE_CONSTANTS(CONSTANT) RANGE_CONSTANTS(CONSTANT) PART_CONSTANTS(CONSTANT) \
     LINEAR_CONSTANTS(CONSTANT)
 
-// Of single passes.
+// Single passes.
 #define DITHER_CONSTANTS(CONSTANT) CONSTANT(60, bool, DITHERED, dithered, true) /* the target has 8 bits */
 #define STAR_CONSTANTS(CONSTANT) CONSTANT(61, bool, HALVES, halves, false) /* the picture has 16 bits a number */
 // Luminance samples for the exposure: one pixel for each star.

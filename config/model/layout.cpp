@@ -335,6 +335,14 @@ std::vector<std::string> nodes_of(const Layout& layout)
     return nodes;
 }
 
+bool has_two_eyes(const Layout& layout)
+{
+    return std::ranges::any_of(layout.outputs, [](const Output& output) {
+        return output.packing != Packing::mono
+            || std::ranges::any_of(output.viewports, [](const Viewport& viewport) { return viewport.eye != Eye::middle; });
+    });
+}
+
 Layout read_layout(const Place& top, const std::filesystem::path& file)
 {
     reject_unknown_members(top, {"$schema", "stereo", "blend", "hud", "head_tracker", "outputs"});

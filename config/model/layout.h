@@ -243,6 +243,9 @@ inline bool is_shown_by(const std::string& node, const Output& output) { return 
 /// The machines of a layout's outputs, in their order; none where one machine shows all.
 std::vector<std::string> nodes_of(const Layout& layout);
 
+/// True if some pictures of a layout are those of a left or a right eye.
+bool has_two_eyes(const Layout& layout);
+
 /// The pixels of a viewport in an output of `size`: x, y, width, height. Its edges are rounded, so that neighbours meet.
 glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size);
 

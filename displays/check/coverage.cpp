@@ -337,14 +337,8 @@ glm::dvec2 azimuth_elevation_deg(const glm::dvec3& d)
 
 std::vector<Coverage> coverages(const Layout& layout, const ViewRegion& sight)
 {
-    bool two_eyes = false;
-    for (const Output& output : layout.outputs) {
-        two_eyes |= output.packing != Packing::mono;
-        for (const Viewport& viewport : output.viewports)
-            two_eyes |= viewport.eye != Eye::middle;
-    }
     std::vector<Coverage> all;
-    for (Eye eye : two_eyes ? std::vector{Eye::left, Eye::right} : std::vector{Eye::middle})
+    for (Eye eye : has_two_eyes(layout) ? std::vector{Eye::left, Eye::right} : std::vector{Eye::middle})
         for (std::size_t o = 0; o < layout.outputs.size(); ++o)
             for (std::size_t v = 0; v < layout.outputs[o].viewports.size(); ++v)
                 if (const Eye of = layout.outputs[o].viewports[v].eye; of == eye || of == Eye::middle)

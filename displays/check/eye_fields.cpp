@@ -176,17 +176,14 @@ std::vector<EyeField> eye_fields(const Layout& seen)
 {
     const std::vector<std::vector<CompiledView>> views = compiled(seen);
     Fields fields{seen};
-    bool two_eyes = false;
     for (std::size_t output = 0; output < views.size(); ++output) {
         fields.shades.push_back(shade_of(seen, output, seen.outputs[output].size, views[output], {}));
-        for (const CompiledView& view : views[output]) {
+        for (const CompiledView& view : views[output])
             fields.all.push_back({&view, seen.outputs[output].viewports[view.view.viewport].order});
-            two_eyes = two_eyes || view.view.eye != Eye::middle;
-        }
     }
     std::ranges::stable_sort(fields.all, {}, &Placed::order);
     fields.room = headroom(fields.shades);
-    const std::vector<Eye> eyes = two_eyes ? std::vector{Eye::left, Eye::right} : std::vector{Eye::middle};
+    const std::vector<Eye> eyes = has_two_eyes(seen) ? std::vector{Eye::left, Eye::right} : std::vector{Eye::middle};
     for (std::size_t output = 0; output < views.size(); ++output)
         fields.add(output, eyes);
     std::ranges::stable_sort(fields.fields, {}, &EyeField::eye);

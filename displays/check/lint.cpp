@@ -67,8 +67,7 @@ bool masked(const Layout& layout, const Coverage& c)
 std::vector<std::string> eye_warnings(const Layout& layout, const std::vector<Coverage>& coverages)
 {
     std::vector<std::string> all;
-    const bool two_eyes
-        = std::any_of(coverages.begin(), coverages.end(), [](const Coverage& c) { return c.eye != Eye::middle; });
+    const bool two_eyes = has_two_eyes(layout);
     if (two_eyes && layout.stereo.separation_m > far_apart_m)
         all.push_back("the eyes are " + rounded(layout.stereo.separation_m) + " m apart; lengths are in metres");
     if (two_eyes && layout.stereo.hyper_stereo == 1 && !layout.stereo.by_light

@@ -1,7 +1,6 @@
 #include "placards.h"
 #include "config/json/error.h"
 #include "runtime/world/surroundings.h"
-#include <algorithm>
 #include <cstdio>
 
 namespace starbow {
@@ -18,11 +17,7 @@ bool wants_signs(const Session& session)
 double eyes_apart(const Layout& layout, const SceneFile& scene)
 {
     const Stereo& stereo = layout.stereo;
-    const bool two_eyes = std::ranges::any_of(layout.outputs, [](const Output& output) {
-        return output.packing != Packing::mono
-            || std::ranges::any_of(output.viewports, [](const Viewport& viewport) { return viewport.eye != Eye::middle; });
-    });
-    if (!two_eyes || stereo.turning || stereo.method == StereoMethod::shared)
+    if (!has_two_eyes(layout) || stereo.turning || stereo.method == StereoMethod::shared)
         return 0;
     return stereo.separation_m * stereo.units_per_m(scene.unit_m, scene.light_speed_m_s);
 }

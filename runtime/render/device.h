@@ -75,8 +75,8 @@ private:
     void finish(vk::raii::CommandBuffer& commands);
 };
 
-/// What save_pipelines of an earlier start has kept for this device, to the byte; empty where nothing is kept or the file is
-/// damaged, because a driver may check no more than the header.
+/// The compiled pipelines that save_pipelines of an earlier start has kept for this device, to the byte; empty where the file
+/// is missing or damaged, because a driver may check no more than the header.
 std::vector<std::uint8_t> kept_pipelines(const vk::PhysicalDeviceProperties& properties);
 
 /// One GPU's line in a listing.

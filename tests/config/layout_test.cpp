@@ -129,6 +129,18 @@ TEST(LayoutTest, NeighbouringViewportsHaveNoGapOrOverlap)
         }
 }
 
+TEST(LayoutTest, TwoEyesAreThoseOfAPackingOrOfViewports)
+{
+    const auto has = [](const std::string& text) { return has_two_eyes(load_layout(write_text("eyes.json", text))); };
+    EXPECT_FALSE(has(output(R"("packing": "mono")")));
+    EXPECT_TRUE(has(output(R"("packing": "anaglyph-dubois")")));
+    EXPECT_TRUE(has(viewport(R"("eye": "left")")));
+    for (const std::string name : {"cave5", "desk", "dome", "wall3"})
+        EXPECT_FALSE(has_two_eyes(load_layout(source_dir() / "config/layouts" / (name + ".json")))) << name;
+    for (const std::string name : {"anaglyph", "headset", "passive-pair", "stereo", "tv3d"})
+        EXPECT_TRUE(has_two_eyes(load_layout(source_dir() / "config/layouts" / (name + ".json")))) << name;
+}
+
 TEST(LayoutTest, WrongLayoutsAreRefused)
 {
     const std::string vp = "/outputs/0/viewports/0";

@@ -96,15 +96,7 @@ const std::map<std::string, Facts>& facts()
     const dvec3 pleiades = 403. * dvec3(0.30382802304345763, -0.5772852186744786, 0.7579118080050367);
     const Seen gold{"the golden ring", place(1.3, -0.35, -8), 0, golden}, home{"home", place(-1.3, 0, 0), 0, ship_dial},
         home_dial{"the clock at home", place(-1.3, 0, 0), 0, ship_dial, read_deg},
-        dial_away{"the traveller's clock",
-            [](const Frame&f) {
-                // Where its light left, on the way out and back.
-                const double clock = travellers_clock(f),
-                             own = std::isnan(clock) ? 6 : std::clamp(clock, 0., 12.); // at the turn
-                constexpr double g = 5. / 3, v = 0.8, astern = 0.08 * 0.62;
-                return dvec3(1.3, 0, own < 6 ? g * (astern - v * own) : -8 + g * (astern + v * (own - 6)));
-            },
-            0, ship_dial, read_deg};
+        dial_away{"the traveller's clock", travellers_dial, 0, ship_dial, read_deg};
     const std::vector<Seen> ring{gold}, ships{home_dial, {"the traveller", place(1.3, 0, 0), 0, ship_dial, read_deg}};
     const dvec3 whole_earth(0, earth_s, 0);
     static const std::map<std::string, Facts> all{

@@ -114,13 +114,7 @@ double wide_deg(const Frame& f, int k) { return f.size_deg(clock_at(k), {3.8, 0,
 // The twins.
 constexpr double g = 5. / 3, v = 0.8, astern = 0.08 * 0.62;
 const dvec3 home(-1.3, 0, 0), dial(1.24, 0, 0), golden(1.3, -0.35, -8);
-/// Where the traveller's dial was when its light left, and its size.
-dvec3 traveller(const Frame& f)
-{
-    const double clock = travellers_clock(f), own = std::isnan(clock) ? 6 : std::clamp(clock, 0., 12.);
-    return {1.3, 0, own < 6 ? g * (astern - v * own) : -8 + g * (astern + v * (own - 6))};
-}
-double traveller_deg(const Frame& f) { return f.size_deg(traveller(f), dial); }
+double traveller_deg(const Frame& f) { return f.size_deg(travellers_dial(f), dial); }
 double home_deg(const Frame& f) { return f.size_deg(home, dial); }
 /// The clock of the ship beside which the eye flies out, which rests beside the eye; the light's way is that on board.
 dvec3 beside(const Frame& f)
@@ -666,7 +660,7 @@ const std::map<std::string, Description>& descriptions()
             {"Das rechte Schiff schießt durch die Ringe davon und schrumpft auf wenig mehr als seine halbe Größe",
                 {{"The right ship",
                      [](const Spoken& s) {
-                         return s.always([](const Frame& f) { return f.in_picture(traveller(f)).x > 0; });
+                         return s.always([](const Frame& f) { return f.in_picture(travellers_dial(f)).x > 0; });
                      }},
                     {"to little more than half its size",
                         [](const Spoken& s) {
@@ -679,14 +673,15 @@ const std::map<std::string, Description>& descriptions()
                      [](const Spoken& s) { return s.grows([](const Frame& f) { return -traveller_deg(f); }, 0.05); }},
                     {"towards the golden ring",
                         [](const Spoken& s) {
-                            return glm::distance(traveller(s.end()), golden) < glm::distance(traveller(s.begin()), golden);
+                            return glm::distance(travellers_dial(s.end()), golden)
+                                < glm::distance(travellers_dial(s.begin()), golden);
                         }}}}},
         {"twins.see-3",
             {"Das Bild steht still: Das andere Schiff ist im goldenen Ring",
                 {{"stands still", stands},
                     {"in the golden ring",
                         [](const Spoken& s) {
-                            const dvec3 off = traveller(s.end()) - golden; // its clock; the hull is 0.98 below
+                            const dvec3 off = travellers_dial(s.end()) - golden; // its clock; the hull is 0.98 below
                             return std::abs(off.z) < 0.3 && std::hypot(off.x, off.y) < 1.2
                                 && std::hypot(off.x, off.y - 0.98) < 1.2;
                         }}}}},

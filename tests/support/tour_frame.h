@@ -88,6 +88,13 @@ inline double travellers_clock(const Frame& frame)
     const double since_home = frame.left({1.3, 0, astern}); // at rest, before and after
     return since_home <= 0 ? since_home : since_home >= 20 ? since_home - 8 : shown;
 }
+/// The place of the traveller's dial at the moment at which its light left, on the way out, at the turn and back.
+inline dvec3 travellers_dial(const Frame& frame)
+{
+    constexpr double g = 5. / 3, v = 0.8, astern = 0.08 * 0.62;
+    const double clock = travellers_clock(frame), own = std::isnan(clock) ? 6 : std::clamp(clock, 0., 12.);
+    return {1.3, 0, own < 6 ? g * (astern - v * own) : -8 + g * (astern + v * (own - 6))};
+}
 inline double home_clock(const Frame& frame) { return frame.left({-1.3, 0, 0.08 * 0.62}); }
 /// Home's present for the ship.
 inline double now_at_home(const Frame& frame)
