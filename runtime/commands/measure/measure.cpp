@@ -87,12 +87,9 @@ std::vector<Setting> settings_of(const MeasureOptions& options, const Trial& tri
     const std::vector<Setting> shipped = shipped_settings(options);
     if (options.which == "shipped")
         return shipped;
-    bool two_eyes = false;
-    for (const Output& output : trial.layout.outputs)
-        for (const Viewport& viewport : output.viewports)
-            two_eyes |= viewport.eye != Eye::middle;
     const ReferenceWorld world = open_reference_world(trial.scene);
-    return settings_to_try(shipped, trial.standard, two_eyes, needed_level(world.world, world.scene).level);
+    return settings_to_try(
+        shipped, trial.standard, has_two_eyes(trial.layout), needed_level(world.world, world.scene).level);
 }
 
 /// Makes the folder for the results, before hours of measuring.
