@@ -57,6 +57,14 @@ inline void find_first(RTCScene scene, RayContext& context, RTCRayHit& hit)
     arguments.context = &context;
     rtcIntersect1(scene, &hit, &arguments);
 }
+inline void find_first_of(RTCScene scene, RayContext& context, const int* valid, RTCRayHit8& hits)
+{
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context;
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcIntersect8(valid, scene, &hits, &arguments);
+}
 inline void find_any(RTCScene scene, RayContext& context, RTCRay& ray)
 {
     RTCOccludedArguments arguments;
@@ -68,6 +76,11 @@ inline void find_any(RTCScene scene, RayContext& context, RTCRay& ray)
 using RayContext = RTCIntersectContext;
 inline void begin_query(RayContext& context) { rtcInitIntersectContext(&context); }
 inline void find_first(RTCScene scene, RayContext& context, RTCRayHit& hit) { rtcIntersect1(scene, &context, &hit); }
+inline void find_first_of(RTCScene scene, RayContext& context, const int* valid, RTCRayHit8& hits)
+{
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect8(valid, scene, &context, &hits);
+}
 inline void find_any(RTCScene scene, RayContext& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
 #endif
 

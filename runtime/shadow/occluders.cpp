@@ -1,7 +1,9 @@
 #include "occluders.h"
 #include "embree_scene.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <new>
 
 namespace starbow {
@@ -113,6 +115,12 @@ struct Occluders::Scene {
         embree.attach(geometry, id);
     }
 
+    /// True if a ray along `way` meets the side of a triangle that is not visible.
+    bool is_back(unsigned geometry, unsigned number, const glm::vec3& normal, const glm::vec3& way) const
+    {
+        return glm::dot(normal, way) > 0 && !material_of((geometry == 0 ? whole : masked)[number]).double_sided;
+    }
+
     RTCRay ray(const glm::dvec3& from, const glm::dvec3& way, double far) const
     {
         RTCRay ray{};
@@ -151,9 +159,37 @@ std::optional<Occluders::Hit> Occluders::first(const glm::dvec3& from, const glm
     find_first(scene_->embree.scene, context, hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return {};
-    const Scene::Triangle& triangle = (hit.hit.geomID == 0 ? scene_->whole : scene_->masked)[hit.hit.primID];
-    const bool along = hit.hit.Ng_x * hit.ray.dir_x + hit.hit.Ng_y * hit.ray.dir_y + hit.hit.Ng_z * hit.ray.dir_z > 0;
-    return Hit{double(hit.ray.tfar), along && !scene_->material_of(triangle).double_sided};
+    return Hit{double(hit.ray.tfar),
+        scene_->is_back(hit.hit.geomID, hit.hit.primID, {hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z},
+            {hit.ray.dir_x, hit.ray.dir_y, hit.ray.dir_z})};
+}
+
+Occluders::Hits Occluders::first(const Vectors& from, const Vectors& ways) const
+{
+    RayContext context;
+    begin_query(context);
+    alignas(32) constexpr std::array<int, bundle> all{-1, -1, -1, -1, -1, -1, -1, -1};
+    RTCRayHit8 found;
+    RTCRay8& ray = found.ray;
+    for (int i = 0; i < bundle; ++i) {
+        ray.org_x[i] = from.x[i], ray.org_y[i] = from.y[i], ray.org_z[i] = from.z[i];
+        ray.dir_x[i] = ways.x[i], ray.dir_y[i] = ways.y[i], ray.dir_z[i] = ways.z[i];
+        ray.tnear[i] = 0, ray.tfar[i] = 1e37f, ray.time[i] = 0;
+        ray.mask[i] = ~0u, ray.id[i] = 0, ray.flags[i] = 0;
+        found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    find_first_of(scene_->embree.scene, context, all.data(), found);
+    Hits hits{};
+    for (int i = 0; i < bundle; ++i) {
+        const RTCHit8& hit = found.hit;
+        hits.distance[i] = std::numeric_limits<float>::infinity();
+        if (hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
+            continue;
+        hits.distance[i] = ray.tfar[i];
+        hits.back[i] = scene_->is_back(
+            hit.geomID[i], hit.primID[i], {hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]}, {ways.x[i], ways.y[i], ways.z[i]});
+    }
+    return hits;
 }
 
 bool Occluders::hidden(const glm::dvec3& from, const glm::dvec3& way, double far) const

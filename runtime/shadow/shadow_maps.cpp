@@ -2,6 +2,7 @@
 #include "runtime/world/parallel.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace starbow {
 namespace {
@@ -86,17 +87,24 @@ void fill_map(Shadows& shadows, const ShadowMap& map, const Occluders& occluders
         const int layer = int(line) / size, y = int(line) % size;
         std::uint16_t* texel
             = &shadows.texels[(std::size_t(map.layer + layer) * std::size_t(size) + std::size_t(y)) * std::size_t(size)];
-        for (int x = 0; x < size; ++x) {
-            const glm::dvec2 at(x + 0.5, y + 0.5);
-            std::optional<Occluders::Hit> hit;
-            if (map.point) {
-                hit = occluders.first(map.place, cube_direction(layer, 2.0 * at / double(size) - 1.0), 1e37);
-                texel[x] = hit ? number(-hit->distance) : 0;
-                continue;
+        static_assert(4096 % Occluders::bundle == 0);
+        for (int x = 0; x < size; x += Occluders::bundle) {
+            Occluders::Vectors from, ways;
+            for (int k = 0; k < Occluders::bundle; ++k) {
+                const glm::dvec2 at(x + k + 0.5, y + 0.5);
+                if (map.point) {
+                    from.set(k, map.place), ways.set(k, cube_direction(layer, 2.0 * at / double(size) - 1.0));
+                } else {
+                    const glm::dvec2 place = map.low[layer] + at * map.texel[layer];
+                    from.set(k, place.x * map.axes[0] + place.y * map.axes[1] + beyond * map.axes[2]);
+                    ways.set(k, -map.axes[2]);
+                }
             }
-            const glm::dvec2 place = map.low[layer] + at * map.texel[layer];
-            hit = occluders.first(place.x * map.axes[0] + place.y * map.axes[1] + beyond * map.axes[2], -map.axes[2], 1e37);
-            texel[x] = hit ? number(beyond - hit->distance) : 0;
+            const Occluders::Hits hits = occluders.first(from, ways);
+            for (int k = 0; k < Occluders::bundle; ++k)
+                texel[x + k] = hits.distance[k] < std::numeric_limits<float>::infinity()
+                    ? number(map.point ? -double(hits.distance[k]) : beyond - double(hits.distance[k]))
+                    : 0;
         }
     };
     in_parallel(std::size_t(layers) * std::size_t(size), row, progress, from, to);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <span>
 
@@ -25,6 +27,12 @@ struct SkyRays {
     std::array<glm::dvec3, sky_rays> way;
     std::array<std::array<glm::dvec3, 2>, sky_rays> cosine;
     std::array<glm::dvec3, 2> all{};
+    /// Rays that are close to each other, and their numbers.
+    struct Bundle {
+        Occluders::Vectors ways;
+        std::array<int, Occluders::bundle> rays;
+    };
+    std::array<Bundle, sky_rays / Occluders::bundle> bundles;
 
     SkyRays()
     {
@@ -35,6 +43,16 @@ struct SkyRays {
             for (int side = 0; side < 2; ++side)
                 all[side] += cosine[i][side] = glm::max(side == 0 ? way[i] : -way[i], 0.0);
         }
+        // By six strips of the same height, then by azimuth: a bundle is about as high as it is wide.
+        std::array<int, sky_rays> order;
+        std::iota(order.begin(), order.end(), 0);
+        std::ranges::sort(
+            order, {}, [&](int i) { return std::pair(int(3 * (1 - way[i].y)), std::atan2(way[i].z, way[i].x)); });
+        for (std::size_t i = 0; i < sky_rays; ++i) {
+            Bundle& bundle = bundles[i / Occluders::bundle];
+            bundle.rays[i % Occluders::bundle] = order[i];
+            bundle.ways.set(i % Occluders::bundle, way[order[i]]);
+        }
     }
 };
 
@@ -43,14 +61,25 @@ Cell cell_at(const Occluders& occluders, const glm::dvec3& place)
     static const SkyRays rays;
     std::array<glm::dvec3, 2> seen{};
     int backs = 0;
-    for (int i = 0; i < sky_rays; ++i) {
-        const auto hit = occluders.first(place, rays.way[i], 1e37);
-        if (hit)
-            backs += hit->back;
-        else
+    Occluders::Vectors from;
+    for (std::size_t i = 0; i < Occluders::bundle; ++i)
+        from.set(i, place);
+    std::array<bool, sky_rays> free;
+    int hits = 0;
+    for (const SkyRays::Bundle& bundle : rays.bundles) {
+        const Occluders::Hits met = occluders.first(from, bundle.ways);
+        for (std::size_t i = 0; i < Occluders::bundle; ++i) {
+            const bool hit = met.distance[i] < std::numeric_limits<float>::infinity();
+            free[std::size_t(bundle.rays[i])] = !hit;
+            hits += hit, backs += met.back[i];
+        }
+    }
+    if (hits == 0)
+        return {.s = glm::dvec3(1)};
+    for (int i = 0; i < sky_rays; ++i)
+        if (free[i])
             for (int side = 0; side < 2; ++side)
                 seen[side] += rays.cosine[i][side];
-    }
     const glm::dvec3 plus = seen[0] / rays.all[0], minus = seen[1] / rays.all[1];
     return {0.5 * (plus - minus), 0.5 * (plus + minus), backs > sky_rays / 5};
 }
