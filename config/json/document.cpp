@@ -1,6 +1,7 @@
 #include "reader.h"
 #include "whole_file.h"
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace starbow {
@@ -11,11 +12,26 @@ namespace {
 constexpr std::size_t most_bytes = std::size_t(16) << 20;
 constexpr std::size_t most_depth = 64;
 
+/// Endings of other programs' models, with their names.
+constexpr std::array<std::pair<std::string_view, const char*>, 10> models{
+    {{".obj", "a Wavefront OBJ"}, {".fbx", "an FBX"}, {".dae", "a COLLADA"}, {".stl", "an STL"}, {".ply", "a PLY"},
+        {".3ds", "a 3DS"}, {".blend", "a Blender"}, {".usd", "a USD"}, {".usdz", "a USD"}, {".x3d", "an X3D"}}};
+
 std::string contents(const std::filesystem::path& path, const std::string& file)
 {
+    std::string ending = path.extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    for (const auto& [model, name] : models)
+        if (ending == model)
+            throw InputError(file, "",
+                std::string("is ") + name + " model by its name; glTF 2.0 (.glb or .gltf) is right, and Blender exports it");
     std::string text = read_whole(path, most_bytes, "a JSON file");
     if (text.empty())
         throw InputError(file, "", "is empty; a JSON object in { } is right");
+    // JSON's first two characters are ASCII: UTF-16 has a zero beside one of them, or its mark before both.
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")
+        || (text.size() > 1 && (text[0] == '\0') != (text[1] == '\0')))
+        throw InputError(file, "", "is written in UTF-16; UTF-8 is right, which editors offer when a file is saved");
     return text;
 }
 

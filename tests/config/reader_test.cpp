@@ -55,6 +55,21 @@ TEST(ReaderTest, InvalidJsonIsReportedWithARemedy)
         }
 }
 
+TEST(ReaderTest, OtherProgramsFilesAreNamed)
+{
+    using namespace std::string_literals;
+    for (const std::string& text : {"\xff\xfe{\0}\0"s, "\xfe\xff\0{\0}"s, "{\0\n\0}\0"s, "\0{\0}"s})
+        EXPECT_TRUE(refusal(text).ends_with(
+            "reader.json: is written in UTF-16; UTF-8 is right, which editors offer when a file is saved"))
+            << refusal(text);
+    for (const auto& [name, kind] : {std::pair{"a.obj", "a Wavefront OBJ"}, {"b.FBX", "an FBX"}, {"c.dae", "a COLLADA"}}) {
+        const auto file = write_text(name, "# x");
+        EXPECT_EQ(complaint([&] { read_document(file); }),
+            file.string() + ": is " + kind
+                + " model by its name; glTF 2.0 (.glb or .gltf) is right, and Blender exports it");
+    }
+}
+
 TEST(ReaderTest, CommentsAreAllowed)
 {
     const Document d = document("// one\n{ /* two */ \"a\": 1 } // three");

@@ -260,7 +260,7 @@ void expect_true(Why why, const State& state, const char* language)
     const True aim = truth(m.observer, state.aim);
     const double second = m.seconds_per_time_unit, metres = second * m.light_speed_m_s;
     const auto shows = [&](const std::string& text, double is) { expect_shows(text, is, language); };
-    EXPECT_EQ(page.title, all[std::string("why.") + why_names[std::size_t(why)]]);
+    EXPECT_EQ(page.title, all[std::string("why.") + why_names[std::size_t(why)]].get<std::string>());
     const bool compares = m.effects.comparison != Comparison::none;
     if (compares && why != Why::dilation) {
         lines.take("why.comparison");

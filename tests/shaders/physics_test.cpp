@@ -780,7 +780,6 @@ TEST(Boost, ACircularOrbitTurnsByThomasPrecession)
         for (int fine = 0; fine < 2; ++fine) {
             const int steps = fine ? 40000 : 20000;
             const double speed = u_of_gamma(gamma);
-            glm::dquat q(1, 0, 0, 0);
             double total = 0;
             for (int i = 0; i < steps; ++i) {
                 const double a = 2 * pi * i / steps, b = 2 * pi * (i + 1) / steps;

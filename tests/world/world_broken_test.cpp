@@ -35,7 +35,9 @@ TEST_F(WorldBrokenTest, EveryFaultIsNamedByItsPointer)
     EXPECT_EQ(load(valid()).vertices.size(), 3u);
     const std::vector<Damage> damages = {
         {"/asset", "", "/: has no \"asset\""},
-        {"/asset/version", "\"1.0\"", "/asset/version: is \"1.0\"; should be \"2.0\""},
+        {"/asset/version", "\"1.0\"", "/asset/version: is glTF \"1.0\"; 2.0 is right"},
+        {"/asset/version", "1", "/asset/version: is glTF 1; 2.0 is right"},
+        {"/asset/version", "\"3.0\"", "/asset/version: is \"3.0\"; should be \"2.0\""},
         {"/asset/version", "2.0", "/asset/version: is 2.0; should be a text"},
         {"/asset/minVersion", "\"2.1\"", "/asset/minVersion"},
         {"/extensionsRequired", "[\"KHR_texture_basisu\"]", "/extensionsRequired/0: requires KTX2 textures"},

@@ -24,6 +24,11 @@ std::uint32_t little32(const Bytes& bytes, std::size_t at)
     return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | std::uint32_t(bytes[at + 3]) << 24;
 }
 
+std::string wrong_glb_version(const Bytes& bytes)
+{
+    return "GLB version " + std::to_string(little32(bytes, 4)) + "; should be 2, as today's programs export it";
+}
+
 /// The JSON and BIN chunks of a GLB (glTF 2.0, section 4.4).
 std::string split_glb(const Bytes& bytes, GltfFile& file)
 {
@@ -33,7 +38,7 @@ std::string split_glb(const Bytes& bytes, GltfFile& file)
     if (bytes.size() < 20)
         fail(0, "a GLB of " + std::to_string(bytes.size()) + " bytes; its headers alone take 20");
     if (little32(bytes, 4) != 2)
-        fail(4, "GLB version " + std::to_string(little32(bytes, 4)) + "; should be 2");
+        fail(4, wrong_glb_version(bytes));
     if (little32(bytes, 8) != bytes.size())
         fail(8,
             "the header says " + std::to_string(little32(bytes, 8)) + " bytes; the file has "
@@ -102,11 +107,28 @@ void check_json_bounds(const GltfFile& file, const std::string& json)
     }
 }
 
+/// Throws for a world in glTF 1.0, whose lists are objects: 2.0 can't read anything of it.
+void refuse_first_version(const GltfFile& file, const Json& json)
+{
+    const auto asset = json.is_object() ? json.find("asset") : json.end();
+    if (asset == json.end() || !asset->is_object())
+        return;
+    const auto version = asset->find("version");
+    if (version == asset->end())
+        return;
+    const bool first = version->is_number() ? *version < 2 : version->dump().starts_with("\"1.");
+    if (first)
+        throw InputError(
+            file.name, "/asset/version", "is glTF " + version->dump() + "; 2.0 is right, as today's programs export it");
+}
+
 Json parse_json(const GltfFile& file, const std::string& json)
 {
     check_json_bounds(file, json);
     try {
-        return Json::parse(json);
+        Json parsed = Json::parse(json);
+        refuse_first_version(file, parsed);
+        return parsed;
     } catch (const Json::parse_error& error) {
         std::size_t at = std::min(error.byte ? error.byte - 1 : 0, json.size());
         auto end = json.begin() + std::ptrdiff_t(at);
@@ -235,6 +257,8 @@ GltfFile read_gltf_json(const fs::path& path)
     out.is_glb = begins_glb(json);
     if (out.is_glb && json.size() == header) {
         const Bytes bytes(json.begin(), json.end());
+        if (little32(bytes, 4) != 2)
+            throw InputError(out.name, "byte 4", wrong_glb_version(bytes));
         if (little32(bytes, 16) != 0x4E4F534A)
             throw InputError(out.name, "byte 16", "the first chunk is not JSON; GLB requires it");
         const std::size_t length = little32(bytes, 12);
