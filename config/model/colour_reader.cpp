@@ -1,6 +1,6 @@
 #include "config/json/file_name.h"
 #include "config/json/whole_file.h"
-#include "layout_reader.h"
+#include "describe_layout.h"
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -119,22 +119,6 @@ std::vector<glm::dvec3> load_cube(const std::filesystem::path& file)
     return table;
 }
 
-std::vector<glm::dvec3> read_table(const Place& place, const std::filesystem::path& folder)
-{
-    if (place.json->is_string())
-        return load_cube(existing_file(place, folder));
-    if (!place.json->is_array())
-        complain(place, "is not a table; the name of a .cube file or a list of numbers in [ ] is right");
-    std::vector<glm::dvec3> table;
-    for (const Place& at : items(place, 2, most_entries, "entries, numbers or [red, green, blue],")) {
-        const glm::dvec3 entry = at.json->is_array() ? vec3(at, {0, 1}) : glm::dvec3(number(at, {0, 1}));
-        if (const std::string problem = fault(table, entry); !problem.empty())
-            complain(at, problem);
-        table.push_back(entry);
-    }
-    return table;
-}
-
 } // namespace
 
 std::filesystem::path existing_file(const Place& place, const std::filesystem::path& folder)
@@ -150,25 +134,59 @@ std::filesystem::path existing_file(const Place& place, const std::filesystem::p
     return file;
 }
 
-Colour read_colour(const Place& place, const std::filesystem::path& folder)
+std::vector<glm::dvec3> Table::read(const Place& place, const Folder& folder) const
 {
-    reject_unknown_members(place, {"gamma", "matrix", "lut"});
-    Colour colour;
-    const auto gamma = find_member(place, "gamma"), lut = find_member(place, "lut");
-    if (gamma && lut)
-        complain(*gamma, "stands beside \"lut\", which says the same; one of the two is right");
-    take(place, "gamma", colour.gamma, {0.1, 10});
-    if (auto p = find_member(place, "matrix")) {
-        const std::vector<Place> rows = items(*p, 3, 3, "rows of three numbers");
-        for (int row = 0; row < 3; ++row) {
-            const glm::dvec3 numbers = vec3(rows[std::size_t(row)], {-100, 100});
-            for (int column = 0; column < 3; ++column)
-                colour.matrix[column][row] = numbers[column];
-        }
+    if (place.json->is_string())
+        return load_cube(existing_file(place, folder));
+    if (!place.json->is_array())
+        complain(place, "is not a table; the name of a .cube file or a list of numbers in [ ] is right");
+    std::vector<glm::dvec3> table;
+    for (const Place& at : items(place, 2, most_entries, "entries, numbers or [red, green, blue],")) {
+        const glm::dvec3 entry = at.json->is_array() ? vec3(at, {0, 1}) : glm::dvec3(number(at, {0, 1}));
+        if (const std::string problem = fault(table, entry); !problem.empty())
+            complain(at, problem);
+        table.push_back(entry);
     }
-    if (lut)
-        colour.lut = read_table(*lut, folder);
-    return colour;
+    return table;
+}
+
+Json Table::schema(Json& definitions) const
+{
+    const Json input = Number{{0, 1}}.schema(definitions);
+    const Json entry{{"oneOf", {input, Numbers<3>{{0, 1}}.schema(definitions)}}};
+    const Json list{{"type", "array"}, {"minItems", 2}, {"maxItems", most_entries}, {"items", entry}};
+    return {{"oneOf", {Text{}.schema(definitions), list}}, {"examples", {"left-projector.cube", {0, 0.5, 0.73, 0.88, 1}}}};
+}
+
+glm::dmat3 Matrix::read(const Place& place, const Folder&) const
+{
+    glm::dmat3 matrix;
+    const std::vector<Place> rows = items(place, 3, 3, "rows of three numbers");
+    for (int row = 0; row < 3; ++row) {
+        const glm::dvec3 numbers = vec3(rows[std::size_t(row)], {-100, 100});
+        for (int column = 0; column < 3; ++column)
+            matrix[column][row] = numbers[column];
+    }
+    return matrix;
+}
+
+Json Matrix::written(const glm::dmat3& matrix) const
+{
+    Json rows = Json::array();
+    for (int row = 0; row < 3; ++row)
+        rows.push_back({matrix[0][row], matrix[1][row], matrix[2][row]});
+    return rows;
+}
+
+Json Matrix::schema(Json& definitions) const
+{
+    return {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", Numbers<3>{{-100, 100}}.schema(definitions)}};
+}
+
+void check_members(const Place& place, const Colour*)
+{
+    if (const auto gamma = find_member(place, "gamma"); gamma && find_member(place, "lut"))
+        complain(*gamma, "stands beside \"lut\", which says the same; one of the two is right");
 }
 
 } // namespace starbow

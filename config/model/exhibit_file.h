@@ -20,6 +20,11 @@ struct Machines {
     std::string exhibit; ///< the identity by which its machines know each other; empty: it follows from the layout
 };
 
+/// The worlds and tours that visitors can choose: names of shipped ones; none: all.
+struct Menu {
+    std::vector<std::string> scenes, tours;
+};
+
 /// The parts of an exhibit, and its rules of flight.
 struct Exhibit {
     // Paths, or names of shipped files.
@@ -28,7 +33,7 @@ struct Exhibit {
     std::filesystem::path profiles; ///< a folder with profiles of this exhibit's own sticks; empty: none
     std::string tour; ///< the shown tour, in its own scene; empty: none
     std::string language = "en"; ///< of the visitors' texts: a path, or the name of a shipped one
-    std::vector<std::string> menu_scenes{}, menu_tours{}; ///< that visitors can choose: names of shipped ones; none: all
+    Menu menu;
     Information information = Information::laboratory; ///< the first display of information
     bool speech = false; ///< captions, descriptions and goals are read aloud
     bool tutorial = true; ///< three prompts for the first minute
@@ -37,7 +42,6 @@ struct Exhibit {
     std::string ladder = "ladder"; ///< a path, or the name of a shipped one
     std::filesystem::path textfile; ///< receives the counts for node_exporter; empty: none
     Flying flying;
-    bool paced = false; ///< the visitors gain speed at each world's own pace
     std::optional<OneButton> one_button{}; ///< the visitors fly with one button; none: where they choose so in the menu
     bool left_handed = false; ///< the controls are a left-handed visitor's, from the start of each visit
     Exposing exposure;

@@ -77,6 +77,7 @@ struct Flying {
     std::optional<Pace> pace{}; ///< the world's, where a flight through it shall last its planned time
     std::vector<Solid> solids{}; ///< of the world
     Comfort comfort{};
+    bool paced = false; ///< the visitors gain speed at each world's own pace
 };
 
 } // namespace starbow

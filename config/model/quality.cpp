@@ -1,110 +1,44 @@
-#include "quality.h"
-#include "config/json/reader.h"
-#include <vector>
+#include "describe_quality.h"
 
 namespace starbow {
-namespace {
-
-const std::vector<std::pair<std::string_view, std::optional<SpectralLevel>>> levels = {
-    {"needed", {}}, {"colours", SpectralLevel::colours}, {"middle", SpectralLevel::middle}, {"fine", SpectralLevel::fine}};
-const std::vector<std::pair<std::string_view, std::optional<StereoMethod>>> methods = {{"layout", {}},
-    {"shared", StereoMethod::shared}, {"exact", StereoMethod::exact}, {"reprojected", StereoMethod::reprojected}};
-
-template <class Value>
-std::string name_of(const Value& value, const std::vector<std::pair<std::string_view, Value>>& choices)
+void check(const Place& place, const Ladder& ladder, const Folder&)
 {
-    return std::string(
-        std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.second == value; })->first);
+    const std::vector<Place> places = items(member(place, "levels"), 1, 100, "qualities");
+    const Quality& first = ladder.levels[0].quality;
+    for (std::size_t i = 1; i < ladder.levels.size(); ++i) {
+        const PresetLevel &level = ladder.levels[i], &before = ladder.levels[i - 1];
+        if (level.ms <= before.ms)
+            complain(member(places[i], "ms"),
+                "is no more than the level's before, " + shown(before.ms)
+                    + "; levels from the fastest to the slowest are right");
+        if (level.quality.spectra != first.spectra || level.quality.stereo != first.stereo
+            || level.quality.matrices != first.matrices)
+            complain(member(places[i], "quality"),
+                "has other spectra, stereo or matrices than the first level, which can't change in "
+                "flight; the same are right");
+    }
 }
-
-void take_whole(const Place& place, const std::string& name, int& value, int low, int high)
-{
-    if (auto p = find_member(place, name))
-        value = integer(*p, low, high);
-}
-
-Quality read_quality(const Place& top)
-{
-    reject_unknown_members(top,
-        {"$schema", "texels_per_pixel", "max_texels_per_pixel", "cube_samples", "lod_error_texels", "lod_shading_texels",
-            "image_cost_texels", "pixel_rays", "clip_levels", "mips", "half_floats", "matrices", "frames_per_cube",
-            "spectra", "stereo"});
-    Quality quality;
-    take(top, "texels_per_pixel", quality.texels_per_pixel, {0.05, 16});
-    take(top, "max_texels_per_pixel", quality.max_texels_per_pixel, {0.05, 1000});
-    take_whole(top, "cube_samples", quality.cube_samples, 1, 8);
-    if (quality.cube_samples & (quality.cube_samples - 1))
-        complain(member(top, "cube_samples"), "is not a number of samples that devices have; 1, 2, 4 or 8 is right");
-    take(top, "lod_error_texels", quality.lod_error_texels, {0, 100});
-    take(top, "lod_shading_texels", quality.lod_shading_texels, {0, 1000});
-    take(top, "image_cost_texels", quality.image_cost_texels, {0, 1e12});
-    take_whole(top, "pixel_rays", quality.pixel_rays, 1, 8);
-    take_whole(top, "clip_levels", quality.clip_levels, 0, 42);
-    take(top, "mips", quality.mips);
-    take(top, "half_floats", quality.half_floats);
-    take(top, "matrices", quality.matrices);
-    take_whole(top, "frames_per_cube", quality.frames_per_cube, 1, 60);
-    if (auto p = find_member(top, "spectra"))
-        quality.spectra = chosen(*p, levels);
-    if (auto p = find_member(top, "stereo"))
-        quality.stereo = chosen(*p, methods);
-    return quality;
-}
-
-nlohmann::ordered_json json_of(const Quality& quality)
-{
-    return {{"texels_per_pixel", quality.texels_per_pixel}, {"max_texels_per_pixel", quality.max_texels_per_pixel},
-        {"cube_samples", quality.cube_samples}, {"lod_error_texels", quality.lod_error_texels},
-        {"lod_shading_texels", quality.lod_shading_texels}, {"image_cost_texels", quality.image_cost_texels},
-        {"pixel_rays", quality.pixel_rays}, {"clip_levels", quality.clip_levels}, {"mips", quality.mips},
-        {"half_floats", quality.half_floats}, {"matrices", quality.matrices}, {"frames_per_cube", quality.frames_per_cube},
-        {"spectra", name_of(quality.spectra, levels)}, {"stereo", name_of(quality.stereo, methods)}};
-}
-
-} // namespace
 
 Quality load_quality(const std::filesystem::path& file)
 {
     const Document document = read_document(file);
-    return read_quality(root(document));
+    return read<Quality>(root(document));
 }
 
-std::string quality_text(const Quality& quality) { return json_of(quality).dump(4) + "\n"; }
+std::string quality_text(const Quality& quality) { return written(quality).dump(4) + "\n"; }
 
 std::vector<PresetLevel> load_ladder(const std::filesystem::path& file)
 {
     const Document document = read_document(file);
-    const Place top = root(document);
-    reject_unknown_members(top, {"$schema", "levels"});
-    std::vector<PresetLevel> ladder;
-    for (const Place& place : items(member(top, "levels"), 1, 100, "qualities")) {
-        reject_unknown_members(place, {"quality", "ms", "flip", "edges_px"});
-        PresetLevel level{read_quality(member(place, "quality"))};
-        level.ms = number(member(place, "ms"), {0, 1e6, true});
-        take(place, "flip", level.flip, {0, 1});
-        take(place, "edges_px", level.edges_px, {0, 1e4});
-        if (!ladder.empty() && level.ms <= ladder.back().ms)
-            complain(member(place, "ms"),
-                "is no more than the level's before, " + shown(ladder.back().ms)
-                    + "; levels from the fastest to the slowest are right");
-        if (!ladder.empty()
-            && (level.quality.spectra != ladder[0].quality.spectra || level.quality.stereo != ladder[0].quality.stereo
-                || level.quality.matrices != ladder[0].quality.matrices))
-            complain(member(place, "quality"),
-                "has other spectra, stereo or matrices than the first level, which can't change in "
-                "flight; the same are right");
-        ladder.push_back(level);
-    }
-    return ladder;
+    return read<Ladder>(root(document)).levels;
 }
 
 std::string ladder_text(const std::vector<PresetLevel>& ladder)
 {
-    nlohmann::ordered_json levels = nlohmann::ordered_json::array();
+    Json levels = Json::array();
     for (const PresetLevel& level : ladder)
-        levels.push_back(
-            {{"ms", level.ms}, {"flip", level.flip}, {"edges_px", level.edges_px}, {"quality", json_of(level.quality)}});
-    return nlohmann::ordered_json{{"levels", levels}}.dump(4) + "\n";
+        levels.push_back(written(level));
+    return Json{{"levels", levels}}.dump(4) + "\n";
 }
 
 Layout with_stereo(Layout layout, const Quality& quality)
@@ -139,8 +73,8 @@ std::string differences(const Quality& quality, const Quality& other)
     differs(q.half_floats, o.half_floats, q.half_floats ? "16 bits a number" : "32 bits a number");
     differs(q.matrices, o.matrices, q.matrices ? "flat views by matrix" : "flat views by map");
     differs(q.frames_per_cube, o.frames_per_cube, "a cube map for " + count(q.frames_per_cube, "frame", "frames"));
-    differs(q.spectra, o.spectra, "light: " + name_of(q.spectra, levels));
-    differs(q.stereo, o.stereo, "stereo: " + name_of(q.stereo, methods));
+    differs(q.spectra, o.spectra, "light: " + std::string(Named{&spectral_levels}.written(q.spectra)));
+    differs(q.stereo, o.stereo, "stereo: " + std::string(Named{&quality_methods}.written(q.stereo)));
     return all;
 }
 

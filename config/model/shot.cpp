@@ -102,6 +102,26 @@ glm::dvec3 read_velocity(const Place& place)
     return direction * read_proper_speed(place);
 }
 
+Json velocity_schema(Json& definitions)
+{
+    const auto speed = [&](Json shape, const char* says) {
+        shape["description"] = says;
+        return shape;
+    };
+    Json properties = Json::object();
+    properties["direction"] = {{"description", "The direction of the motion, [x, y, z] of any length."}, {"type", "array"},
+        {"minItems", 3}, {"maxItems", 3}, {"items", {{"type", "number"}}}};
+    properties["beta"]
+        = speed({{"type", "number"}, {"minimum", 0}, {"exclusiveMaximum", 1}}, "Speed over that of light. No unit.");
+    properties["gamma"] = speed(Number{{1, most_gamma}}.schema(definitions), "Lorentz factor. No unit.");
+    properties["rapidity"] = speed(Number{{0, std::acosh(most_gamma)}}.schema(definitions), "Rapidity. No unit.");
+    Json one_speed = Json::array();
+    for (const char* name : {"beta", "gamma", "rapidity"})
+        one_speed.push_back({{"required", {name}}});
+    return {{"type", "object"}, {"additionalProperties", false}, {"required", {"direction"}}, {"oneOf", one_speed},
+        {"properties", properties}};
+}
+
 Shot read_shot(const Place& place, bool with_scene)
 {
     std::vector<std::string_view> known{"time", "position", "velocity", "look", "up", "effects", "exposure_ev"};

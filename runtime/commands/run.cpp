@@ -78,7 +78,7 @@ ExhibitOptions open(const RunOptions& options)
         throw InputError("A tour's flight can't be recorded; --record without a tour is right");
     if (!options.language.empty())
         exhibit.language = options.language;
-    exhibit.paced = exhibit.paced && options.log.empty(); // in a laboratory the throttle is the students'
+    exhibit.flying.paced = exhibit.flying.paced && options.log.empty(); // in a laboratory the throttle is the students'
     if (!options.quality.empty())
         exhibit.quality = options.quality, exhibit.frame_budget_ms = 0;
     if (options.frame_budget_ms >= 0)

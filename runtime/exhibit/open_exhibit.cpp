@@ -16,7 +16,7 @@ ExhibitOptions open_exhibit(const Exhibit& exhibit)
         .layout = load_layout(shipped_file("layouts", exhibit.layout)),
         .words = std::move(words)};
     options.rules = exhibit.flying;
-    options.paced_flight = exhibit.paced;
+    options.paced_flight = exhibit.flying.paced;
     options.one_button = exhibit.one_button;
     options.left_handed = exhibit.left_handed;
     options.exposure = exhibit.exposure;
@@ -24,8 +24,8 @@ ExhibitOptions open_exhibit(const Exhibit& exhibit)
     options.tutorial = exhibit.tutorial;
     options.speech = exhibit.speech;
     options.information = exhibit.information;
-    options.menu_scenes = exhibit.menu_scenes.empty() ? shipped_names("scenes") : exhibit.menu_scenes;
-    options.menu_tours = exhibit.menu_tours.empty() ? shipped_names("tours") : exhibit.menu_tours;
+    options.menu_scenes = exhibit.menu.scenes.empty() ? shipped_names("scenes") : exhibit.menu.scenes;
+    options.menu_tours = exhibit.menu.tours.empty() ? shipped_names("tours") : exhibit.menu.tours;
     if (!exhibit.quality.empty())
         options.quality = load_quality(shipped_file("qualities", exhibit.quality));
     options.quality_name = std::filesystem::path(exhibit.quality).stem();

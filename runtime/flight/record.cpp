@@ -1,6 +1,5 @@
 #include "record.h"
-#include "config/model/comfort_reader.h"
-#include "config/model/exposing_reader.h"
+#include "config/model/rules_reader.h"
 #include "config/model/shot_reader.h"
 #include "input/switches.h"
 #include "shaders/shared_structs.h"
@@ -41,7 +40,7 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
     [[maybe_unused]] const auto& [key_pressed, key_held] = static_cast<const Touches&>(c); // not kept: a record is one visit
     [[maybe_unused]] const auto& [commands] = static_cast<const RemoteCommands&>(c);
     [[maybe_unused]] const auto& [mode, max_gamma, turn_deg_per_s, roll_deg_per_s, turn_jerk_deg_per_s3, rapidity_per_s,
-        rapidity_jerk_per_s2, boundary, pace, comfort, solids]
+        rapidity_jerk_per_s2, boundary, pace, solids, comfort, paced]
         = f;
     [[maybe_unused]] const auto& [no_roll, level_horizon, turn_steps_deg, vignette] = f.comfort;
     [[maybe_unused]] const auto& [elevation_deg, clear_deg, soft_deg, darkness] = *vignette;
@@ -109,22 +108,6 @@ Json json_of(const Effects& effects)
 {
     return {{"aberration", effects.aberration}, {"doppler", effects.doppler}, {"headlight", effects.headlight},
         {"comparison", comparison_names[std::size_t(effects.comparison)]}, {"false_colours", effects.false_colours}};
-}
-
-/// Without what is not used.
-Json json_of(const Comfort& comfort)
-{
-    Json json = Json::object();
-    if (comfort.no_roll)
-        json["no_roll"] = true;
-    if (comfort.level_horizon)
-        json["level_horizon"] = true;
-    if (comfort.turn_steps_deg > 0)
-        json["turn_steps_deg"] = comfort.turn_steps_deg;
-    if (comfort.vignette)
-        json["vignette"] = {{"elevation_deg", comfort.vignette->elevation_deg}, {"clear_deg", comfort.vignette->clear_deg},
-            {"soft_deg", comfort.vignette->soft_deg}, {"darkness", comfort.vignette->darkness}};
-    return json;
 }
 
 /// Reads the start. It is not in the form of a shot's file, where a speed and directions would be rounded.
@@ -338,9 +321,8 @@ std::string text_of(const RecordHeader& header)
         for (const glm::dvec3& at : solid.path)
             one["path"].push_back(components(at));
     }
-    json["flying"]["comfort"] = json_of(rules.comfort);
-    if (json["flying"]["comfort"].empty())
-        json["flying"].erase("comfort");
+    if (const Json comfort = written_comfort(rules.comfort); !comfort.empty())
+        json["flying"]["comfort"] = comfort;
     json["exposure"]
         = {{"automatic", header.exposing.automatic}, {"min_ev", header.exposing.min_ev}, {"max_ev", header.exposing.max_ev}};
     if (header.exposing.bloom)

@@ -129,7 +129,7 @@ TEST(ExhibitFileTest, OneButtonAndTheLeftHandAreRead)
     EXPECT_TRUE(exhibit.left_handed);
     const Exhibit usual = load_exhibit(write_text("exhibit.json", R"({ "one_button": {} })"));
     const json schema = json::parse(read_text(source_dir() / "config/schema/exhibit.schema.json"));
-    const json& times = schema["properties"]["one_button"]["properties"];
+    const json& times = schema["definitions"]["one_button"]["properties"];
     ASSERT_TRUE(usual.one_button);
     EXPECT_EQ(usual.one_button->scan_s, times["scan_s"]["default"].get<double>());
     EXPECT_EQ(usual.one_button->act_s, times["act_s"]["default"].get<double>());
@@ -159,7 +159,7 @@ TEST(ExhibitFileTest, ComfortIsReadAndWithoutItsBlockThereIsNone)
     EXPECT_EQ(smooth.vignette->darkness, 0.5);
     const Comfort usual = read(R"({ "comfort": { "vignette": {} } })");
     const json schema = json::parse(read_text(source_dir() / "config/schema/exhibit.schema.json"));
-    const json& edge = schema["properties"]["comfort"]["properties"]["vignette"]["properties"];
+    const json& edge = schema["definitions"]["vignette"]["properties"];
     ASSERT_TRUE(usual.vignette);
     EXPECT_EQ(usual.vignette->elevation_deg, edge["elevation_deg"]["default"].get<double>());
     EXPECT_EQ(usual.vignette->clear_deg, edge["clear_deg"]["default"].get<double>());
@@ -175,8 +175,8 @@ TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
         if (node.contains("default"))
             defaults[name] = node["default"];
     for (const char* part : {"flying", "exposure", "visit"})
-        for (const auto& [name, node] : schema["properties"][part]["properties"].items())
-            if (name != "unlock" && name != "bloom") // there is none, and the device decides
+        for (const auto& [name, node] : schema["definitions"][part]["properties"].items())
+            if (name != "unlock" && name != "bloom" && name != "attract") // there is none, and the device decides
                 defaults[part][name] = node.at("default");
     const Exhibit from_schema = load_exhibit(write_text("exhibit.json", defaults.dump())),
                   from_reader = load_exhibit(write_text("own.json", "{}"));

@@ -62,7 +62,8 @@ std::vector<Sample> samples()
 {
     for (const char* file : {"left.data", "f.csv", "m.png"})
         write_text(file, "x");
-    const json plain = parsed(R"({ "stereo": { "method": "reprojected" }, "blend": {}, "hud": {}, "outputs": [
+    const json plain
+        = parsed(R"({ "stereo": { "method": "reprojected" }, "blend": {}, "hud": {}, "head_tracker": {}, "outputs": [
         { "name": "a", "packing": "mono", "colour": {}, "monitor": { "connector": "HDMI-1" }, "viewports": [
             { "projection": { "type": "planar" }, "warp": { "file": "left.data" } }] }] })");
     const json flat = around(R"({ "type": "planar", "fov_x_deg": 80, "fov_y_deg": 60, "turn_deg": {} })");
@@ -81,6 +82,7 @@ std::vector<Sample> samples()
         {plain, "/stereo", "/definitions/stereo"},
         {plain, "/blend", "/definitions/blend"},
         {plain, "/hud", "/definitions/hud"},
+        {plain, "/head_tracker", "/definitions/head_tracker"},
         {plain, "/outputs/0", "/definitions/output"},
         {plain, "/outputs/0/colour", "/definitions/colour"},
         {plain, "/outputs/0/monitor", "/definitions/monitor"},
@@ -88,7 +90,7 @@ std::vector<Sample> samples()
         {plain, viewport_at + "/warp", "/definitions/warp"},
         {flat, projection_at, "/definitions/planar"},
         {flat, projection_at + "/turn_deg", "/definitions/turn_deg"},
-        {off_axis, projection_at + "/sides_deg", "/definitions/flat_sides_deg"},
+        {off_axis, projection_at + "/sides_deg", "/definitions/planar/properties/sides_deg"},
         {wall, projection_at, "/definitions/wall"},
         {around(R"({ "type": "fisheye" })"), projection_at, "/definitions/fisheye"},
         {cylinder, projection_at, "/definitions/cylinder"},
@@ -198,8 +200,8 @@ TEST(SchemaTest, SamplesCoverEveryObjectOfTheSchema)
 TEST(SchemaTest, ReaderAndSchemaKnowTheSameMembers)
 {
     std::set<std::string> words;
-    for (const char* file : {"layout", "projection_reader", "colour_reader"}) {
-        const std::string source = read_text(source_dir() / "config/model" / (std::string(file) + ".cpp"));
+    for (const char* file : {"layout.cpp", "projection_reader.cpp", "colour_reader.cpp", "describe_layout.h"}) {
+        const std::string source = read_text(source_dir() / "config/model" / file);
         for (const std::string& word : quoted_in(source, 0))
             if (std::regex_match(word, std::regex("[$a-z_]+")))
                 words.insert(word);

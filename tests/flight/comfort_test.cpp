@@ -254,7 +254,7 @@ TEST(ComfortTest, InFlightAndOnTheWayHomeNothingTurnsBetweenSteps)
         for (unsigned seed = 0; seed < 6; ++seed) {
             Flown steps(mode, {.level_horizon = true, .turn_steps_deg = 15});
             Hands hands(seed);
-            int whole = 0, home = 0;
+            int whole = 0;
             std::int64_t since = 1'000;
             for (int i = 0; i < 30 / 0.016; ++i) {
                 const Controls controls = hands.next();
@@ -273,7 +273,6 @@ TEST(ComfortTest, InFlightAndOnTheWayHomeNothingTurnsBetweenSteps)
                     ASSERT_LE(turned, 15.15);
                     ASSERT_GE(since, arrives ? 0 : 390) << name_of(mode) << seed;
                     since = 0;
-                    home += homing;
                     if (homing || homeward)
                         continue;
                     ++whole;

@@ -457,8 +457,7 @@ TEST(Flight, HomeIsTheStartsInstant)
             shot, flight_at(shot, rules), controls_with(Steering{.throttle_rate = 1, .turn = {0.2, 0.5, -0.1}}), 5, rules);
         flight = step(flight, controls_with(Steering{.home = true}), 0, rules, 1, shot);
         double fastest = 0;
-        int ticks = 0;
-        for (Flight before = flight; flight.homing; ++ticks, before = flight) {
+        for (Flight before = flight; flight.homing; before = flight) {
             flight = step(flight, {}, ms, rules, 1, shot);
             // The world stands still while the ship gains its speed.
             if (before.ship.time.total() == shot.time && flight.ship.time.total() == shot.time)

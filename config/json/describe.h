@@ -1,0 +1,430 @@
+#pragma once
+#include "reader.h"
+#include <cmath>
+#include <tuple>
+#include <variant>
+
+namespace starbow {
+
+// A struct that a file can hold is described once: a name, a form, a meaning and its members for each value of the file. Its
+// reader, its writer and its JSON schema follow from that. A form is how one value stands in a file. It has
+//
+//     Value read(const Place&, const Folder&) const     throws InputError for a wrong value
+//     Json written(const Value&) const                  the value as the file has it; not needed for a kind that is only
+//     read Json schema(Json& definitions) const              what a JSON schema says of it, without its meaning and its
+//     usual value
+//
+// and instead of `read` a form whose value makes several members has read_into(const Place&, Owner&, const Folder&).
+// Rules between members are a function check(const Place&, const Owner&, const Folder&), and `rules` for the schema. Rules
+// of the members' presence alone may be check_members(const Place&, const Owner*), which is called before values are read.
+
+using Json = nlohmann::ordered_json;
+/// The folder from which a file's paths start.
+using Folder = std::filesystem::path;
+
+/// One value of a file. Members: none for a value that another field's form reads, too.
+template <class Form, class Owner, class... Values> struct Field {
+    const char* name;
+    Form form;
+    const char* says; ///< its meaning, with its unit
+    bool is_needed;
+    std::tuple<Values Owner::*...> members;
+};
+/// A value that may be left out.
+template <class Form, class Owner, class... Values>
+constexpr auto field(const char* name, Form form, const char* says, Values Owner::*... members)
+{
+    return Field<Form, Owner, Values...>{name, form, says, false, {members...}};
+}
+template <class Form, class Owner, class... Values>
+constexpr auto needed(const char* name, Form form, const char* says, Values Owner::*... members)
+{
+    return Field<Form, Owner, Values...>{name, form, says, true, {members...}};
+}
+/// A value that makes members which another field makes, too, or none: `check` reads it.
+template <class Form, class Owner, class... Values> struct Again : Field<Form, Owner, Values...> {
+};
+template <class Form, class Owner, class... Values>
+constexpr auto again(const char* name, Form form, const char* says, Values Owner::*... members)
+{
+    return Again<Form, Owner, Values...>{{name, form, says, false, {members...}}};
+}
+/// Members of a struct that its file does not hold.
+template <class Owner, class... Values> struct NotInFile {
+};
+template <class Owner, class... Values> constexpr NotInFile<Owner, Values...> not_in_file(Values Owner::*...) { return {}; }
+
+/// The description of a struct; `name`: of its kind, of a tagged alternative its "type".
+template <class Owner, class... Fields> struct Description {
+    const char* name;
+    const char* says;
+    std::tuple<Fields...> fields;
+    const char* rules = "{}"; ///< JSON: what the schema says beside its members
+    bool is_file = false; ///< it may name its schema
+};
+template <class Owner, class... Fields> constexpr auto describe(const char* name, const char* says, Fields... fields)
+{
+    return Description<Owner, Fields...>{name, says, {fields...}};
+}
+template <class Owner, class... Fields> constexpr auto describe_file(const char* name, const char* says, Fields... fields)
+{
+    return Description<Owner, Fields...>{name, says, {fields...}, "{}", true};
+}
+template <class Description> constexpr Description with_rules(Description description, const char* rules)
+{
+    description.rules = rules;
+    return description;
+}
+
+/// A specialization for each struct of a file.
+template <class T> inline constexpr auto description = nullptr;
+template <class T>
+concept Described = !std::is_null_pointer_v<std::remove_const_t<decltype(description<T>)>>;
+
+namespace described {
+
+struct Anything {
+    template <class T> operator T() const;
+};
+template <class T, std::size_t... i> consteval bool takes(std::index_sequence<i...>)
+{
+    return requires { T{(void(i), Anything{})...}; };
+}
+/// The number of an aggregate's members.
+template <class T, std::size_t count = 1> consteval std::size_t members()
+{
+    if constexpr (takes<T>(std::make_index_sequence<count + 1>()))
+        return members<T, count + 1>();
+    else
+        return count;
+}
+template <class Form, class Owner, class... Values> consteval std::size_t covered(const Field<Form, Owner, Values...>*)
+{
+    return sizeof...(Values);
+}
+template <class Form, class Owner, class... Values> consteval std::size_t covered(const Again<Form, Owner, Values...>*)
+{
+    return 0;
+}
+template <class Owner, class... Values> consteval std::size_t covered(const NotInFile<Owner, Values...>*)
+{
+    return sizeof...(Values);
+}
+template <class Owner, class... Fields> consteval std::size_t all_covered(const Description<Owner, Fields...>*)
+{
+    return (covered(static_cast<const Fields*>(nullptr)) + ... + 0);
+}
+
+/// Calls visit with each field of a struct.
+template <class T, class Visit> void for_each_field(Visit&& visit)
+{
+    const auto each = [&]<class One>(const One& one) {
+        if constexpr (requires { one.form; })
+            visit(one);
+    };
+    std::apply([&](const auto&... fields) { (each(fields), ...); }, description<T>.fields);
+}
+
+template <class Form, class Owner, class... Values>
+void read_field(const Field<Form, Owner, Values...>& field, const Place& object, Owner& owner, const Folder& folder)
+{
+    const auto place = field.is_needed ? member(object, field.name) : find_member(object, field.name);
+    if (!place)
+        return;
+    if constexpr (requires { field.form.read_into(*place, owner, folder); })
+        field.form.read_into(*place, owner, folder);
+    else if constexpr (sizeof...(Values) == 1)
+        owner.*std::get<0>(field.members) = field.form.read(*place, folder);
+}
+
+} // namespace described
+
+/// True if a description names as many members as the struct has: a static_assert of it stops a member that was forgotten.
+template <class T> consteval bool is_complete()
+{
+    return described::members<T>() == described::all_covered(static_cast<decltype(&description<T>)>(nullptr));
+}
+
+/// Reads an object's members into a value that has the usual ones. `tag`: the member that says which alternative it is.
+template <Described T> void read_into(const Place& place, T& value, const Folder& folder, const char* tag = nullptr)
+{
+    std::vector<std::string_view> known;
+    if (tag)
+        known.push_back(tag);
+    if (description<T>.is_file)
+        known.push_back("$schema");
+    described::for_each_field<T>([&](const auto& field) { known.push_back(field.name); });
+    reject_unknown_members(place, known);
+    if (const auto schema = description<T>.is_file ? find_member(place, "$schema") : std::nullopt)
+        text(*schema);
+    if constexpr (requires { check_members(place, &value); })
+        check_members(place, &value);
+    described::for_each_field<T>([&](const auto& field) { described::read_field(field, place, value, folder); });
+    if constexpr (requires { check(place, value, folder); })
+        check(place, value, folder);
+}
+template <Described T> T read(const Place& place, const Folder& folder = {}, const char* tag = nullptr)
+{
+    T value{};
+    read_into(place, value, folder, tag);
+    return value;
+}
+
+namespace described {
+
+/// A field's value as the file has it; null where it has none.
+template <class Form, class Owner, class... Values>
+Json written_field(const Field<Form, Owner, Values...>& field, const Owner& owner)
+{
+    if constexpr (sizeof...(Values) > 0) {
+        const auto& value = owner.*std::get<0>(field.members);
+        if constexpr (requires { field.form.written(value); })
+            return field.form.written(value);
+        else if constexpr (requires { field.form.written(*value); })
+            return value ? field.form.written(*value) : Json();
+    }
+    return nullptr;
+}
+
+/// The usual value of a field for its schema; null: there is none to tell.
+template <class Form, class Owner, class... Values> Json usual(const Field<Form, Owner, Values...>& field)
+{
+    const Json value = written_field(field, Owner{});
+    if constexpr (requires { field.form.range.low; })
+        if (value.is_number() && value < field.form.range.low)
+            return nullptr; // it stands for none
+    const bool none
+        = value.is_object() || value.empty() || (value.is_string() && value.get_ref<const std::string&>().empty());
+    return none ? Json() : value;
+}
+
+} // namespace described
+
+/// A value as its file has it, with every member.
+template <Described T> Json written(const T& value)
+{
+    Json object = Json::object();
+    described::for_each_field<T>([&](const auto& field) {
+        if (Json one = described::written_field(field, value); !one.is_null())
+            object[field.name] = std::move(one);
+    });
+    return object;
+}
+/// The same, without the members that have their usual values.
+template <Described T> Json written_briefly(const T& value)
+{
+    Json object = written(value);
+    const Json usual = written(T{});
+    for (const auto& [name, one] : usual.items())
+        if (object[name] == one)
+            object.erase(name);
+    return object;
+}
+
+/// The schema of an object. definitions: receives those of the structs inside it.
+template <Described T> Json object_schema(Json& definitions, const char* tag = nullptr)
+{
+    Json required = Json::array(), properties = Json::object();
+    if (tag) {
+        properties[tag] = {{"description", "The kind of this object."}, {"const", description<T>.name}};
+        required.push_back(tag);
+    }
+    if (description<T>.is_file)
+        properties["$schema"]
+            = {{"description", "The path of this schema, for editors."}, {"type", "string"}, {"minLength", 1}};
+    described::for_each_field<T>([&](const auto& field) {
+        Json property = field.form.schema(definitions);
+        if (!property.contains("$ref")) {
+            property["description"] = field.says;
+            if (const Json usual = described::usual(field); !usual.is_null() && !field.is_needed)
+                property["default"] = usual;
+        }
+        properties[field.name] = property;
+        if (field.is_needed)
+            required.push_back(field.name);
+    });
+    Json schema{{"description", description<T>.says}, {"type", "object"}, {"additionalProperties", false}};
+    if (!required.empty())
+        schema["required"] = required;
+    schema["properties"] = properties;
+    schema.update(Json::parse(description<T>.rules));
+    return schema;
+}
+
+/// The JSON schema (draft 7) of a kind of file.
+template <Described T> Json file_schema()
+{
+    Json definitions = Json::object(),
+         schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
+             {"title", std::string("Starbow ") + description<T>.name}};
+    schema.update(object_schema<T>(definitions));
+    if (!definitions.empty())
+        schema["definitions"] = definitions;
+    return schema;
+}
+
+// The forms.
+
+struct Number {
+    Range range;
+    double step = 0; ///< above 0: the alignment keys change it by so much
+    double read(const Place& place, const Folder&) const { return number(place, range); }
+    Json written(double value) const { return value; }
+    Json schema(Json&) const;
+};
+struct Whole {
+    int low, high;
+    int read(const Place& place, const Folder&) const { return integer(place, low, high); }
+    Json written(int value) const { return value; }
+    Json schema(Json&) const;
+};
+struct Flag {
+    bool read(const Place& place, const Folder&) const { return boolean(place); }
+    Json written(bool value) const { return value; }
+    Json schema(Json&) const;
+};
+struct Text {
+    const char* examples = nullptr; ///< JSON, for the schema
+    std::string read(const Place& place, const Folder&) const { return text(place); }
+    Json written(const std::string& value) const { return value; }
+    Json schema(Json&) const;
+};
+/// A vector of numbers.
+template <int count> struct Numbers {
+    using Vector = glm::vec<count, double>;
+    Range range;
+    Vector read(const Place& place, const Folder&) const
+    {
+        if constexpr (count == 2)
+            return vec2(place, range);
+        else if constexpr (count == 3)
+            return vec3(place, range);
+        else
+            return vec4(place, range);
+    }
+    Json written(const Vector& value) const
+    {
+        Json list = Json::array();
+        for (int i = 0; i < count; ++i)
+            list.push_back(value[i]);
+        return list;
+    }
+    Json schema(Json& definitions) const
+    {
+        return {{"type", "array"}, {"minItems", count}, {"maxItems", count}, {"items", Number{range}.schema(definitions)}};
+    }
+};
+/// Two whole numbers.
+struct WholePair {
+    int low, high;
+    glm::ivec2 read(const Place& place, const Folder& folder) const;
+    Json written(const glm::ivec2& value) const { return {value.x, value.y}; }
+    Json schema(Json&) const;
+};
+/// A name that stands for a value.
+template <class Value> struct Named {
+    const std::vector<std::pair<std::string_view, Value>>* names;
+    Value read(const Place& place, const Folder&) const { return chosen(place, *names); }
+    Json written(const Value& value) const
+    {
+        for (const auto& [name, its] : *names)
+            if (its == value)
+                return name;
+        return nullptr;
+    }
+    Json schema(Json&) const { return {{"enum", names_of(*names)}}; }
+};
+template <class Value> Named(const std::vector<std::pair<std::string_view, Value>>*) -> Named<Value>;
+/// An object of its own.
+template <class T> struct Object {
+    T read(const Place& place, const Folder& folder) const { return starbow::read<T>(place, folder); }
+    Json written(const T& value) const { return starbow::written(value); }
+    Json schema(Json& definitions) const
+    {
+        if (!definitions.contains(description<T>.name)) {
+            definitions[description<T>.name] = nullptr;
+            Json schema = object_schema<T>(definitions);
+            definitions[description<T>.name] = std::move(schema);
+        }
+        return {{"$ref", std::string("#/definitions/") + description<T>.name}};
+    }
+};
+/// The same, in a place where its schema differs from that of its tagged kind.
+template <class T> struct Inline {
+    T read(const Place& place, const Folder& folder) const { return starbow::read<T>(place, folder); }
+    Json schema(Json& definitions) const { return object_schema<T>(definitions); }
+};
+/// One of several structs, by the member "type".
+template <class Variant> struct Tagged;
+template <class... Kinds> struct Tagged<std::variant<Kinds...>> {
+    std::variant<Kinds...> read(const Place& place, const Folder& folder) const
+    {
+        if (!place.json->is_object())
+            reject_unknown_members(place, {});
+        const std::string type = one_of(member(place, "type"), {description<Kinds>.name...});
+        std::variant<Kinds...> value;
+        const auto try_one = [&]<class Kind>(const Kind*) {
+            if (type == description<Kind>.name)
+                value = starbow::read<Kind>(place, folder, "type");
+        };
+        (try_one(static_cast<const Kinds*>(nullptr)), ...);
+        return value;
+    }
+    Json schema(Json& definitions) const
+    {
+        Json kinds = Json::array();
+        const auto add = [&]<class Kind>(const Kind*) {
+            if (!definitions.contains(description<Kind>.name)) {
+                Json schema = object_schema<Kind>(definitions, "type");
+                definitions[description<Kind>.name] = std::move(schema);
+            }
+            kinds.push_back({{"$ref", std::string("#/definitions/") + description<Kind>.name}});
+        };
+        (add(static_cast<const Kinds*>(nullptr)), ...);
+        return {{"type", "object"}, {"required", {"type"}}, {"oneOf", kinds}};
+    }
+};
+/// A member of a member, which the file has beside the latter, not in it.
+template <class Form, class Owner, class Part, class Value> struct Within {
+    Form form;
+    Part Owner::*part;
+    Value Part::*value;
+    void read_into(const Place& place, Owner& owner, const Folder& folder) const
+    {
+        owner.*part.*value = form.read(place, folder);
+    }
+    Json written(const Part& from) const requires requires { form.written(from.*value); }
+    {
+        return form.written(from.*value);
+    }
+    Json schema(Json& definitions) const { return form.schema(definitions); }
+};
+template <class Form, class Owner, class Part, class Value>
+Within(Form, Part Owner::*, Value Part::*) -> Within<Form, Owner, Part, Value>;
+template <class Form> struct List {
+    Form form;
+    std::size_t least, most;
+    const char* what; ///< its elements, in the plural
+    auto read(const Place& place, const Folder& folder) const
+    {
+        std::vector<decltype(form.read(place, folder))> all;
+        for (const Place& one : items(place, least, most, what))
+            all.push_back(form.read(one, folder));
+        return all;
+    }
+    Json schema(Json& definitions) const
+    {
+        return {{"type", "array"}, {"minItems", least}, {"maxItems", most}, {"items", form.schema(definitions)}};
+    }
+};
+template <class Form> List(Form, std::size_t, std::size_t, const char*) -> List<Form>;
+/// A value with a reader of its own. shape: JSON, its schema.
+template <class Value> struct Own {
+    Value (*reader)(const Place&, const Folder&);
+    const char* shape;
+    Value read(const Place& place, const Folder& folder) const { return reader(place, folder); }
+    Json schema(Json&) const { return Json::parse(shape); }
+};
+template <class Value> Own(Value (*)(const Place&, const Folder&), const char*) -> Own<Value>;
+
+} // namespace starbow
