@@ -249,7 +249,7 @@ Profile usual_profile(const Descriptor& descriptor)
             = {{1, ButtonRole::stop}, {2, ButtonRole::home}, {3, ButtonRole::doppler}, {4, ButtonRole::headlight},
                 {5, ButtonRole::look_ahead}, {6, ButtonRole::aberration}, {9, ButtonRole::hud}, {10, ButtonRole::next_mode}};
         profile.mirrored_buttons = {{5, 6}};
-        profile.hat_y = AxisRole::faster;
+        profile.hat.y = AxisRole::faster;
         return profile;
     }
     use(desktop, axis_rz, AxisRole::roll_right); // the twist
@@ -268,7 +268,7 @@ Profile usual_profile(const Descriptor& descriptor)
     profile.buttons = {{1, ButtonRole::stop}, {2, ButtonRole::home}, {3, ButtonRole::undo}, {4, ButtonRole::doppler},
         {5, ButtonRole::headlight}, {6, ButtonRole::aberration}, {7, ButtonRole::hud}, {8, ButtonRole::next_mode},
         {9, ButtonRole::menu}};
-    profile.hat_x = AxisRole::look_right, profile.hat_y = AxisRole::look_up;
+    profile.hat.x = AxisRole::look_right, profile.hat.y = AxisRole::look_up;
     return profile;
 }
 
@@ -402,8 +402,8 @@ void Mapping::point_hat(std::optional<std::int64_t> value, double dt_s, Controls
     if (!degrees)
         return;
     const double a = *degrees * pi / 180;
-    add_role(profile_.hat_x.value_or(AxisRole::none), std::round(std::sin(a)), dt_s, controls);
-    add_role(profile_.hat_y.value_or(AxisRole::none), std::round(std::cos(a)), dt_s, controls);
+    add_role(profile_.hat.x.value_or(AxisRole::none), std::round(std::sin(a)), dt_s, controls);
+    add_role(profile_.hat.y.value_or(AxisRole::none), std::round(std::cos(a)), dt_s, controls);
 }
 
 } // namespace starbow

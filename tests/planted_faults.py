@@ -55,10 +55,10 @@ FAULTS = [
     ("light", "runtime/light/exposure.cpp", 'if (below <= bright_from * all)', 'if (below < bright_from * all)', "Metering.*"),
     ("displays", "displays/projections/equirectangular.cpp", 'pi / 2 - step_.y / 4', 'pi / 2', "PanoramaTest.*"),
 
-    ("config", "config/model/adjust.cpp", 'return {-90, 90};', 'return {-180, 180};', "Adjust.*"),
+    ("config", "config/model/describe_layout.h", 'Number{{-90, 90}, 0.5, "height"}', 'Number{{-180, 180}, 0.5, "height"}', "Adjust.*"),
     ("config", "config/model/turn.cpp", 'std::atan2(-ahead.y * axes[1].x, ahead.y * axes[1].z)',
      'std::atan2(ahead.y * axes[1].x, ahead.y * axes[1].z)', "ImportSgct*"),
-    ("config", "config/model/quality.cpp", '|| level.quality.matrices != ladder[0].quality.matrices)', ')', "QualityTest.*"),
+    ("config", "config/model/quality.cpp", '|| level.quality.matrices != first.matrices)', ')', "QualityTest.*"),
     ("config", "config/model/solar_system.cpp", 'per_day + per_century / 36525', 'per_day + per_century / 36500', "SolarSystemTest.*"),
     ("config", "config/model/exhibit_file.cpp", ' || name.ends_with(".jsonl")', '', "ExhibitFileTest.*"),
 

@@ -14,13 +14,20 @@ namespace starbow {
 //     read Json schema(Json& definitions) const              what a JSON schema says of it, without its meaning and its
 //     usual value
 //
-// and instead of `read` a form whose value makes several members has read_into(const Place&, Owner&, const Folder&).
-// Rules between members are a function check(const Place&, const Owner&, const Folder&), and `rules` for the schema. Rules
-// of the members' presence alone may be check_members(const Place&, const Owner*), which is called before values are read.
+// and instead of `read` a form whose value makes several members has read_into(const Place&, Owner&, const Folder&); one
+// that `check` reads has neither. Rules between members are a function check(const Place&, const Owner&, const Folder&), and
+// `rules` for the schema. Rules of the members' presence alone may be check_members(const Place&, const Owner*), which is
+// called before values are read.
 
 using Json = nlohmann::ordered_json;
-/// The folder from which a file's paths start.
-using Folder = std::filesystem::path;
+/// The folder from which a file's paths start. A kind of file whose forms need more derives from it.
+struct Folder {
+    std::filesystem::path path;
+    Folder(std::filesystem::path start = {})
+        : path(std::move(start))
+    {
+    }
+};
 
 /// One value of a file. Members: none for a value that another field's form reads, too.
 template <class Form, class Owner, class... Values> struct Field {
@@ -29,6 +36,7 @@ template <class Form, class Owner, class... Values> struct Field {
     const char* says; ///< its meaning, with its unit
     bool is_needed;
     std::tuple<Values Owner::*...> members;
+    static constexpr bool is_again = false;
 };
 /// A value that may be left out.
 template <class Form, class Owner, class... Values>
@@ -75,6 +83,16 @@ template <class Description> constexpr Description with_rules(Description descri
     description.rules = rules;
     return description;
 }
+
+/// The form of a number.
+struct Number {
+    Range range;
+    double step = 0; ///< above 0: the alignment keys change it by so much, under this name for people
+    const char* turned = "";
+    double read(const Place& place, const Folder&) const { return number(place, range); }
+    Json written(double value) const { return value; }
+    Json schema(Json&) const;
+};
 
 /// A specialization for each struct of a file.
 template <class T> inline constexpr auto description = nullptr;
@@ -133,7 +151,7 @@ void read_field(const Field<Form, Owner, Values...>& field, const Place& object,
         return;
     if constexpr (requires { field.form.read_into(*place, owner, folder); })
         field.form.read_into(*place, owner, folder);
-    else if constexpr (sizeof...(Values) == 1)
+    else if constexpr (sizeof...(Values) == 1 && requires { field.form.read(*place, folder); })
         owner.*std::get<0>(field.members) = field.form.read(*place, folder);
 }
 
@@ -145,32 +163,105 @@ template <class T> consteval bool is_complete()
     return described::members<T>() == described::all_covered(static_cast<decltype(&description<T>)>(nullptr));
 }
 
-/// Reads an object's members into a value that has the usual ones. `tag`: the member that says which alternative it is.
-template <Described T> void read_into(const Place& place, T& value, const Folder& folder, const char* tag = nullptr)
+/// Of an object in some places: the member that says which alternative it is, and a member that it has not.
+struct Variation {
+    const char* tag = nullptr;
+    const char* without = nullptr;
+    bool lacks(const char* name) const { return without && std::string_view(without) == name; }
+};
+
+namespace described {
+
+/// True for an object that is a file of its own, which may name its schema.
+template <class T> bool names_schema(const Variation& as) { return description<T>.is_file && !as.without; }
+
+} // namespace described
+
+/// Reads an object's members into a value that has the usual ones.
+template <Described T> void read_into(const Place& place, T& value, const Folder& folder, const Variation& as = {})
 {
     std::vector<std::string_view> known;
-    if (tag)
-        known.push_back(tag);
-    if (description<T>.is_file)
+    if (as.tag)
+        known.push_back(as.tag);
+    if (described::names_schema<T>(as))
         known.push_back("$schema");
-    described::for_each_field<T>([&](const auto& field) { known.push_back(field.name); });
+    described::for_each_field<T>([&](const auto& field) {
+        if (!as.lacks(field.name))
+            known.push_back(field.name);
+    });
     reject_unknown_members(place, known);
-    if (const auto schema = description<T>.is_file ? find_member(place, "$schema") : std::nullopt)
+    if (const auto schema = described::names_schema<T>(as) ? find_member(place, "$schema") : std::nullopt)
         text(*schema);
     if constexpr (requires { check_members(place, &value); })
         check_members(place, &value);
-    described::for_each_field<T>([&](const auto& field) { described::read_field(field, place, value, folder); });
+    described::for_each_field<T>([&](const auto& field) {
+        if (!as.lacks(field.name))
+            described::read_field(field, place, value, folder);
+    });
     if constexpr (requires { check(place, value, folder); })
         check(place, value, folder);
 }
-template <Described T> T read(const Place& place, const Folder& folder = {}, const char* tag = nullptr)
+template <Described T> T read(const Place& place, const Folder& folder = {}, const Variation& as = {})
 {
     T value{};
-    read_into(place, value, folder, tag);
+    read_into(place, value, folder, as);
     return value;
 }
 
 namespace described {
+
+void add_number(std::string& text, double number);
+/// Adds every number and text of a value to a key: equal values have equal keys, others have others.
+template <class T> void add_to_key(std::string& text, const T& value)
+{
+    if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+        add_number(text, double(value));
+    } else if constexpr (Described<T>) {
+        text.append(description<T>.name).append(" ");
+        for_each_field<T>([&](const auto& field) {
+            if constexpr (!std::remove_cvref_t<decltype(field)>::is_again)
+                std::apply([&](const auto... members) { (add_to_key(text, value.*members), ...); }, field.members);
+        });
+    } else if constexpr (requires { value.index(); }) {
+        std::visit([&](const auto& one) { add_to_key(text, one); }, value);
+    } else if constexpr (requires { value.has_value(); }) {
+        add_number(text, value.has_value());
+        if (value)
+            add_to_key(text, *value);
+    } else if constexpr (requires { value.begin(); }) {
+        add_number(text, double(value.size()));
+        for (const auto& one : value)
+            add_to_key(text, one);
+    } else {
+        for (int i = 0; i < value.length(); ++i)
+            add_to_key(text, value[i]);
+    }
+}
+
+/// A number that the alignment keys change.
+struct Turnable {
+    std::string pointer; ///< in the file
+    double* number;
+    Number form;
+};
+/// Adds those of a value at a pointer, and of the objects in it.
+template <class T> void add_turnables(std::vector<Turnable>& all, const std::string& pointer, T& value)
+{
+    if constexpr (requires { value.index(); })
+        std::visit([&](auto& one) { add_turnables(all, pointer, one); }, value);
+    else
+        for_each_field<T>([&]<class Form, class Owner, class... Values>(const Field<Form, Owner, Values...>& field) {
+            const std::string at = pointer + "/" + field.name;
+            if constexpr (std::is_same_v<Form, Number>) {
+                if (field.form.step > 0)
+                    all.push_back({at, &(value.*std::get<0>(field.members)), field.form});
+            } else if constexpr (requires { Form::is_whole; } && sizeof...(Values) == 1) {
+                auto& member = value.*std::get<0>(field.members);
+                if constexpr (!requires { member.has_value(); })
+                    add_turnables(all, at, member);
+            }
+        });
+}
 
 /// A field's value as the file has it; null where it has none.
 template <class Form, class Owner, class... Values>
@@ -191,7 +282,7 @@ template <class Form, class Owner, class... Values> Json usual(const Field<Form,
 {
     const Json value = written_field(field, Owner{});
     if constexpr (requires { field.form.range.low; })
-        if (value.is_number() && value < field.form.range.low)
+        if (value.is_number() && !(value >= field.form.range.low && value <= field.form.range.high))
             return nullptr; // it stands for none
     const bool none
         = value.is_object() || value.empty() || (value.is_string() && value.get_ref<const std::string&>().empty());
@@ -210,29 +301,35 @@ template <Described T> Json written(const T& value)
     });
     return object;
 }
-/// The same, without the members that have their usual values.
+/// The same, without the members that may be left out and have their usual values.
 template <Described T> Json written_briefly(const T& value)
 {
-    Json object = written(value);
-    const Json usual = written(T{});
-    for (const auto& [name, one] : usual.items())
-        if (object[name] == one)
-            object.erase(name);
+    Json object = Json::object();
+    described::for_each_field<T>([&](const auto& field) {
+        Json one = described::written_field(field, value);
+        if (field.is_needed || one != described::written_field(field, T{}))
+            object[field.name] = std::move(one);
+    });
     return object;
 }
 
+/// A value on one line, as people write it: { "a": 1, "b": [2, 3.5] }. Bytes that are no UTF-8 are replaced.
+std::string on_one_line(const Json& value);
+
 /// The schema of an object. definitions: receives those of the structs inside it.
-template <Described T> Json object_schema(Json& definitions, const char* tag = nullptr)
+template <Described T> Json object_schema(Json& definitions, const Variation& as = {})
 {
     Json required = Json::array(), properties = Json::object();
-    if (tag) {
-        properties[tag] = {{"description", "The kind of this object."}, {"const", description<T>.name}};
-        required.push_back(tag);
+    if (as.tag) {
+        properties[as.tag] = {{"description", "The kind of this object."}, {"const", description<T>.name}};
+        required.push_back(as.tag);
     }
-    if (description<T>.is_file)
+    if (described::names_schema<T>(as))
         properties["$schema"]
             = {{"description", "The path of this schema, for editors."}, {"type", "string"}, {"minLength", 1}};
     described::for_each_field<T>([&](const auto& field) {
+        if (as.lacks(field.name))
+            return;
         Json property = field.form.schema(definitions);
         if (!property.contains("$ref")) {
             property["description"] = field.says;
@@ -265,13 +362,6 @@ template <Described T> Json file_schema()
 
 // The forms.
 
-struct Number {
-    Range range;
-    double step = 0; ///< above 0: the alignment keys change it by so much
-    double read(const Place& place, const Folder&) const { return number(place, range); }
-    Json written(double value) const { return value; }
-    Json schema(Json&) const;
-};
 struct Whole {
     int low, high;
     int read(const Place& place, const Folder&) const { return integer(place, low, high); }
@@ -337,6 +427,7 @@ template <class Value> struct Named {
 template <class Value> Named(const std::vector<std::pair<std::string_view, Value>>*) -> Named<Value>;
 /// An object of its own.
 template <class T> struct Object {
+    static constexpr bool is_whole = true; // nothing varies
     T read(const Place& place, const Folder& folder) const { return starbow::read<T>(place, folder); }
     Json written(const T& value) const { return starbow::written(value); }
     Json schema(Json& definitions) const
@@ -349,10 +440,11 @@ template <class T> struct Object {
         return {{"$ref", std::string("#/definitions/") + description<T>.name}};
     }
 };
-/// The same, in a place where its schema differs from that of its tagged kind.
-template <class T> struct Inline {
-    T read(const Place& place, const Folder& folder) const { return starbow::read<T>(place, folder); }
-    Json schema(Json& definitions) const { return object_schema<T>(definitions); }
+/// The same, in a place where it varies.
+template <class T> struct Varied {
+    Variation as;
+    T read(const Place& place, const Folder& folder) const { return starbow::read<T>(place, folder, as); }
+    Json schema(Json& definitions) const { return object_schema<T>(definitions, as); }
 };
 /// One of several structs, by the member "type".
 template <class Variant> struct Tagged;
@@ -365,7 +457,7 @@ template <class... Kinds> struct Tagged<std::variant<Kinds...>> {
         std::variant<Kinds...> value;
         const auto try_one = [&]<class Kind>(const Kind*) {
             if (type == description<Kind>.name)
-                value = starbow::read<Kind>(place, folder, "type");
+                value = starbow::read<Kind>(place, folder, {.tag = "type"});
         };
         (try_one(static_cast<const Kinds*>(nullptr)), ...);
         return value;
@@ -375,7 +467,7 @@ template <class... Kinds> struct Tagged<std::variant<Kinds...>> {
         Json kinds = Json::array();
         const auto add = [&]<class Kind>(const Kind*) {
             if (!definitions.contains(description<Kind>.name)) {
-                Json schema = object_schema<Kind>(definitions, "type");
+                Json schema = object_schema<Kind>(definitions, {.tag = "type"});
                 definitions[description<Kind>.name] = std::move(schema);
             }
             kinds.push_back({{"$ref", std::string("#/definitions/") + description<Kind>.name}});
@@ -411,6 +503,16 @@ template <class Form> struct List {
         for (const Place& one : items(place, least, most, what))
             all.push_back(form.read(one, folder));
         return all;
+    }
+    template <class Value> Json written(const std::vector<Value>& all) const requires requires(const Value& one)
+    {
+        form.written(one);
+    }
+    {
+        Json list = Json::array();
+        for (const Value& one : all)
+            list.push_back(form.written(one));
+        return list;
     }
     Json schema(Json& definitions) const
     {

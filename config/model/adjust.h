@@ -16,7 +16,8 @@ struct Adjustable {
         std::size_t output = 0, viewport = 0;
     };
     std::vector<Spot> spots;
-    enum class Kind { tilt, rotation, yaw, pitch, roll, blend_power, hud_elevation } kind = Kind::tilt;
+    std::string what; ///< the number's own name: "tilt"
+    double low = 0, high = 0; ///< by the file's format
     double step = 0.1; ///< of one key press: degrees, or the power's own unit
 };
 

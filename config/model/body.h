@@ -23,8 +23,4 @@ struct Body {
                                   ///< cone of the one before; before the first and after the last the body does not exist
 };
 
-struct Place;
-/// Reads the scene file's member "bodies". Throws InputError.
-std::vector<Body> read_bodies(const Place& place);
-
 } // namespace starbow

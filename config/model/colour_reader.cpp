@@ -137,7 +137,7 @@ std::filesystem::path existing_file(const Place& place, const std::filesystem::p
 std::vector<glm::dvec3> Table::read(const Place& place, const Folder& folder) const
 {
     if (place.json->is_string())
-        return load_cube(existing_file(place, folder));
+        return load_cube(existing_file(place, folder.path));
     if (!place.json->is_array())
         complain(place, "is not a table; the name of a .cube file or a list of numbers in [ ] is right");
     std::vector<glm::dvec3> table;

@@ -17,7 +17,7 @@ struct NameOrPath {
 struct PathFrom {
     std::filesystem::path read(const Place& place, const Folder& folder) const
     {
-        return (folder / text(place)).lexically_normal();
+        return (folder.path / text(place)).lexically_normal();
     }
     Json schema(Json& definitions) const { return Text{}.schema(definitions); }
 };

@@ -19,19 +19,24 @@ static_assert(most_pixels_across <= (1 << 28) / most_pixels_across, "an output's
 
 /// A path, from the layout's folder, of a file that is there.
 struct ExistingFile {
-    std::filesystem::path read(const Place& place, const Folder& folder) const { return existing_file(place, folder); }
+    std::filesystem::path read(const Place& place, const Folder& folder) const { return existing_file(place, folder.path); }
     Json schema(Json& definitions) const { return Text{}.schema(definitions); }
 };
 
 template <>
 inline const auto description<Turn> = describe<Turn>("turn_deg",
     "The turn away from straight ahead, degrees: first yaw, then pitch, then roll.",
-    field("yaw", Number{whole_turn}, "To the right, degrees.", &Turn::yaw_deg),
-    field("pitch", Number{whole_turn}, "Up, degrees.", &Turn::pitch_deg),
-    field("roll", Number{whole_turn}, "Leans the picture's upper edge to the right as the viewer sees it, degrees.",
-        &Turn::roll_deg));
+    field("yaw", Number{whole_turn, 0.1, "yaw"}, "To the right, degrees.", &Turn::yaw_deg),
+    field("pitch", Number{whole_turn, 0.1, "pitch"}, "Up, degrees.", &Turn::pitch_deg),
+    field("roll", Number{whole_turn, 0.1, "roll"},
+        "Leans the picture's upper edge to the right as the viewer sees it, degrees.", &Turn::roll_deg));
 static_assert(is_complete<Turn>());
 
+inline void add_to_key(std::string& text, const Sides& sides)
+{
+    for (const double angle : {sides.left_deg, sides.right_deg, sides.down_deg, sides.up_deg})
+        described::add_number(text, angle);
+}
 /// The edges of a picture as angles, within limits.
 struct SidesWithin {
     Range across, upright;
@@ -96,11 +101,11 @@ inline const auto description<Fisheye> = with_rules(
             "and 350 "
             "with stereographic.",
             &Fisheye::aperture_deg),
-        field("tilt_deg", Number{{-180, 180}},
+        field("tilt_deg", Number{{-180, 180}, 0.1, "tilt"},
             "The dome's tilt forward, degrees: 0 is a level planetarium, 90 has the circle's centre straight ahead.",
             &Fisheye::tilt_deg),
-        field("rotation_deg", Number{whole_turn}, "Turns the picture counterclockwise about the circle's centre, degrees.",
-            &Fisheye::rotation_deg),
+        field("rotation_deg", Number{whole_turn, 0.1, "rotation"},
+            "Turns the picture counterclockwise about the circle's centre, degrees.", &Fisheye::rotation_deg),
         field("mapping", Named{&fisheye_mappings},
             "The function from the angle at the zenith to the distance from the circle's centre. It belongs to the "
             "projector's "
@@ -159,14 +164,14 @@ template <>
 inline const auto description<SphericalMirror> = describe<SphericalMirror>("mirror",
     "A projector that lights a dome through a spherical mirror, with the dome seen by the eye at eye_m.",
     needed("projector_m", Numbers<3>{room_m}, place_in_cockpit, &SphericalMirror::projector_m),
-    needed("projector", Inline<Planar>{}, "The angles of the projector's picture at its lens, before the mirror.",
+    needed("projector", Varied<Planar>{}, "The angles of the projector's picture at its lens, before the mirror.",
         &SphericalMirror::projector),
     needed("mirror_m", Numbers<3>{room_m}, place_in_cockpit, &SphericalMirror::mirror_m),
     needed("mirror_radius_m", Number{{0.001, 1000}}, "The radius of the mirror's sphere, metres.",
         &SphericalMirror::mirror_radius_m),
     field("dome_m", Numbers<3>{room_m}, place_in_cockpit, &SphericalMirror::dome_m),
     needed("dome_radius_m", Number{{0.01, 1e4}}, "The dome's radius, metres.", &SphericalMirror::dome_radius_m),
-    field("dome_tilt_deg", Number{{-180, 180}}, "The dome's tilt forward, degrees, as a fisheye's tilt_deg.",
+    field("dome_tilt_deg", Number{{-180, 180}, 0.1, "tilt"}, "The dome's tilt forward, degrees, as a fisheye's tilt_deg.",
         &SphericalMirror::dome_tilt_deg),
     field("dome_aperture_deg", Number{{1, 360}},
         "The angle across the whole dome, degrees; light beyond its rim is not shown.",
@@ -434,7 +439,7 @@ inline const auto description<Blend> = describe<Blend>("blend", "Blend ramps for
         "a "
         "calibration do the same.",
         &Blend::ramps),
-    field("power", Number{{0.1, 10}},
+    field("power", Number{{0.1, 10}, 0.05, "power"},
         "The power of the ramps before they are scaled to add up to 1: more than 1 is steeper in the middle. No unit.",
         &Blend::power));
 static_assert(is_complete<Blend>());
@@ -446,7 +451,7 @@ inline const auto description<HudPlacement> = describe<HudPlacement>("hud",
     "shape.",
     field("azimuth_deg", Number{{-180, 180}}, "The azimuth of its middle, to the right of straight ahead, degrees.",
         &HudPlacement::azimuth_deg),
-    field("elevation_deg", Number{{-90, 90}}, "The elevation of its middle, above straight ahead, degrees.",
+    field("elevation_deg", Number{{-90, 90}, 0.5, "height"}, "The elevation of its middle, above straight ahead, degrees.",
         &HudPlacement::elevation_deg),
     field("width_deg", Number{{1, 120}}, "Its apparent width, degrees.", &HudPlacement::width_deg));
 static_assert(is_complete<HudPlacement>());

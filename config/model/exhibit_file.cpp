@@ -11,7 +11,7 @@ std::string NameOrPath::read(const Place& place, const Folder& folder) const
 {
     const std::string name = text(place);
     const bool path = name.find('/') != name.npos || name.ends_with(".json") || name.ends_with(".jsonl");
-    return path ? (folder / name).lexically_normal().string() : name;
+    return path ? (folder.path / name).lexically_normal().string() : name;
 }
 
 std::string ShippedName::read(const Place& place, const Folder&) const

@@ -1,6 +1,6 @@
 #include "describe_layout.h"
+#include "describe_shot.h"
 #include "layout_reader.h"
-#include "shot_reader.h"
 #include <algorithm>
 #include <arpa/inet.h>
 #include <cctype>

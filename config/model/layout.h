@@ -101,6 +101,9 @@ struct Lens {
 
 using Projection = std::variant<Planar, Wall, Fisheye, Cylinder, Equirectangular, CubeFaces, SphericalMirror, Lens>;
 
+/// A text in which every number of a projection stands: the key of what is computed from it.
+std::string projection_key(const Projection& projection);
+
 /// The form of a PFM's values, which no PFM declares. The defaults are those of the format's standard and of MPCDI's.
 struct FloatMapForm {
     bool first_row_on_top = false;

@@ -73,6 +73,11 @@ struct ButtonUse {
     bool operator==(const ButtonUse&) const = default;
 };
 
+/// A hat's roles; none: the usual ones.
+struct Hat {
+    std::optional<AxisRole> x, y; ///< to the sides, and up and down
+};
+
 /// The use of one kind of device.
 struct Profile {
     std::string name;
@@ -81,7 +86,7 @@ struct Profile {
     std::vector<AxisUse> axes;
     std::vector<ButtonUse> buttons;
     std::vector<std::array<int, 2>> mirrored_buttons; ///< pairs that change places for a left-handed visitor
-    std::optional<AxisRole> hat_x, hat_y; ///< the hat's roles: to the sides, and up and down
+    Hat hat;
     std::filesystem::path file;
 };
 

@@ -133,6 +133,13 @@ void check(const Place& place, const Lens& lens, const Folder&)
         }
 }
 
+std::string projection_key(const Projection& projection)
+{
+    std::string text;
+    described::add_to_key(text, projection);
+    return text;
+}
+
 void check_eye(const Place& place, const Projection& projection, const glm::dvec3& eye_m, double eyes_apart_m)
 {
     const std::string eye = std::string("[").append(shown(eye_m.x) + ", " + shown(eye_m.y) + ", " + shown(eye_m.z) + "]");

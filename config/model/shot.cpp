@@ -1,5 +1,5 @@
 #include "shot.h"
-#include "shot_reader.h"
+#include "describe_shot.h"
 #include <algorithm>
 #include <cmath>
 
@@ -44,21 +44,6 @@ double read_proper_speed(const Place& place)
     return std::sinh(number(*rapidity, {0, std::acosh(most_gamma)}));
 }
 
-glm::dquat read_orientation(const Place& place)
-{
-    glm::dvec3 look{0, 0, -1}, up{0, 1, 0};
-    const auto look_at = find_member(place, "look"), up_at = find_member(place, "up");
-    if (look_at)
-        look = unit_direction(*look_at);
-    if (up_at)
-        up = unit_direction(*up_at);
-    if (glm::length(glm::cross(look, up)) < 1e-6)
-        complain(up_at ? *up_at : *look_at,
-            std::string("is parallel to \"") + (up_at ? "look" : "up")
-                + "\"; a direction that is not parallel to it is right");
-    return orientation(look, up);
-}
-
 } // namespace
 
 glm::dvec3 unit_direction(const Place& place)
@@ -76,23 +61,26 @@ glm::dquat orientation(const glm::dvec3& look, const glm::dvec3& up)
     return glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(right, ahead), -ahead)));
 }
 
-Effects read_effects(const Place& place)
+glm::dquat read_orientation(const Place& place)
 {
-    reject_unknown_members(place, {"aberration", "doppler", "headlight", "comparison", "false_colours"});
-    Effects effects;
-    if (auto p = find_member(place, "aberration"))
-        effects.aberration = boolean(*p);
-    if (auto p = find_member(place, "doppler"))
-        effects.doppler = boolean(*p);
-    if (auto p = find_member(place, "headlight"))
-        effects.headlight = boolean(*p);
-    if (auto p = find_member(place, "comparison"))
-        effects.comparison = chosen<Comparison>(*p,
-            {{comparison_names[0], Comparison::none}, {comparison_names[1], Comparison::galilean},
-                {comparison_names[2], Comparison::no_light_delay}});
-    if (auto p = find_member(place, "false_colours"))
-        effects.false_colours = boolean(*p);
-    return effects;
+    glm::dvec3 look{0, 0, -1}, up{0, 1, 0};
+    const auto look_at = find_member(place, "look"), up_at = find_member(place, "up");
+    if (look_at)
+        look = unit_direction(*look_at);
+    if (up_at)
+        up = unit_direction(*up_at);
+    if (glm::length(glm::cross(look, up)) < 1e-6)
+        complain(up_at ? *up_at : *look_at,
+            std::string("is parallel to \"") + (up_at ? "look" : "up")
+                + "\"; a direction that is not parallel to it is right");
+    return orientation(look, up);
+}
+
+Effects read_effects(const Place& place) { return read<Effects>(place); }
+
+Json UnitDirection::schema(Json&) const
+{
+    return {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", {{"type", "number"}}}};
 }
 
 glm::dvec3 read_velocity(const Place& place)
@@ -109,8 +97,8 @@ Json velocity_schema(Json& definitions)
         return shape;
     };
     Json properties = Json::object();
-    properties["direction"] = {{"description", "The direction of the motion, [x, y, z] of any length."}, {"type", "array"},
-        {"minItems", 3}, {"maxItems", 3}, {"items", {{"type", "number"}}}};
+    properties["direction"]
+        = speed(UnitDirection{}.schema(definitions), "The direction of the motion, [x, y, z] of any length.");
     properties["beta"]
         = speed({{"type", "number"}, {"minimum", 0}, {"exclusiveMaximum", 1}}, "Speed over that of light. No unit.");
     properties["gamma"] = speed(Number{{1, most_gamma}}.schema(definitions), "Lorentz factor. No unit.");
@@ -122,27 +110,11 @@ Json velocity_schema(Json& definitions)
         {"properties", properties}};
 }
 
+void check(const Place& place, Shot& shot, const Folder&) { shot.ship_from_cockpit = read_orientation(place); }
+
 Shot read_shot(const Place& place, bool with_scene)
 {
-    std::vector<std::string_view> known{"time", "position", "velocity", "look", "up", "effects", "exposure_ev"};
-    if (with_scene)
-        known.push_back("scene");
-    reject_unknown_members(place, known);
-    Shot shot;
-    if (with_scene)
-        shot.scene = text(member(place, "scene"));
-    if (auto p = find_member(place, "time"))
-        shot.time = number(*p, {-farthest, farthest});
-    if (auto p = find_member(place, "position"))
-        shot.position = vec3(*p, {-farthest, farthest});
-    if (auto p = find_member(place, "velocity"))
-        shot.u = read_velocity(*p);
-    shot.ship_from_cockpit = read_orientation(place);
-    if (auto p = find_member(place, "effects"))
-        shot.effects = read_effects(*p);
-    if (auto p = find_member(place, "exposure_ev"))
-        shot.exposure_ev = number(*p, {-60, 60});
-    return shot;
+    return read<Shot>(place, {}, {.without = with_scene ? nullptr : "scene"});
 }
 
 Comparison comparison_named(std::string_view name)

@@ -1,5 +1,5 @@
 #pragma once
-#include "config/json/describe.h"
+#include "config/json/reader.h"
 #include "shot.h"
 
 namespace starbow {
@@ -12,12 +12,13 @@ glm::dvec3 unit_direction(const Place& place);
 
 /// gamma beta from a direction and exactly one of "gamma", "beta" and "rapidity".
 glm::dvec3 read_velocity(const Place& place);
-/// The schema of such a velocity.
-Json velocity_schema(Json& definitions);
 
 /// Reads the members that a shot's file and a scene's start share. `with_scene`: also the member "scene", which is then
 /// required.
 Shot read_shot(const Place& place, bool with_scene);
+
+/// The rotation of an object's members "look" and "up"; without them, straight ahead along -z.
+glm::dquat read_orientation(const Place& place);
 
 Effects read_effects(const Place& place);
 

@@ -5,6 +5,7 @@
 #include "words.h"
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,7 +17,7 @@ namespace starbow {
 /// A choice is right where the measured number is at least `from` and below `below`.
 struct Choice {
     std::string text;
-    double from, below;
+    double from = -std::numeric_limits<double>::infinity(), below = std::numeric_limits<double>::infinity();
 };
 /// A number that the visitor sets; it is right within the tolerance of the measured one.
 struct NumberToSet {

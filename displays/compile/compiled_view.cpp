@@ -14,78 +14,18 @@
 namespace starbow {
 namespace {
 
-/// Everything that a view's map depends on, as text.
-struct Key {
-    std::ostringstream text;
-    Key() { text.precision(17); }
-    void operator()(double v) { text << v << ' '; }
-    void operator()(const glm::dvec2& v) { text << v.x << ' ' << v.y << ' '; }
-    void operator()(const glm::dvec3& v) { text << v.x << ' ' << v.y << ' ' << v.z << ' '; }
-    void operator()(const Turn& t) { text << t.yaw_deg << ' ' << t.pitch_deg << ' ' << t.roll_deg << ' '; }
-    void operator()(const Sides& s)
-    {
-        text << s.left_deg << ' ' << s.right_deg << ' ' << s.down_deg << ' ' << s.up_deg << ' ';
-    }
-    void operator()(const Planar& p)
-    {
-        text << "planar " << p.fov_y_deg << ' ' << p.sides.has_value() << ' ';
-        if (p.sides)
-            (*this)(*p.sides);
-        (*this)(p.turn);
-    }
-    void operator()(const Wall& w)
-    {
-        text << "wall ";
-        (*this)(w.lower_left_m), (*this)(w.lower_right_m), (*this)(w.upper_left_m);
-    }
-    void operator()(const Fisheye& f)
-    {
-        text << "fisheye " << int(f.mapping) << ' ' << f.aperture_deg << ' ' << f.tilt_deg << ' ' << f.rotation_deg << ' '
-             << f.diameter << ' ';
-        (*this)(f.centre);
-    }
-    void operator()(const Cylinder& c)
-    {
-        text << "cylinder ";
-        (*this)(c.sides), (*this)(c.turn);
-    }
-    void operator()(const Equirectangular& e)
-    {
-        text << "equirectangular ";
-        (*this)(e.sides), (*this)(e.turn);
-    }
-    void operator()(const CubeFaces& c)
-    {
-        text << "cube " << int(c.arrangement) << ' ';
-        (*this)(c.turn);
-    }
-    void operator()(const SphericalMirror& m)
-    {
-        text << "mirror ";
-        (*this)(m.projector_m), (*this)(m.projector), (*this)(m.mirror_m), (*this)(m.mirror_radius_m), (*this)(m.dome_m);
-        (*this)(m.dome_radius_m), (*this)(m.dome_tilt_deg), (*this)(m.dome_aperture_deg);
-    }
-    void operator()(const Lens& l)
-    {
-        text << "lens " << int(l.form) << ' ' << l.fov_y_deg << ' ';
-        for (const Lens::Colour& colour : l.colours) {
-            (*this)(colour.centre);
-            for (double k : colour.k)
-                (*this)(k);
-        }
-        (*this)(l.turn);
-    }
-};
-
+/// The key of everything that a view's map depends on.
 std::uint64_t key_of(const View& view, const std::string& warp)
 {
-    Key key;
-    key.text << MAP_SOURCES << ' ' << view.size.x << ' ' << view.size.y << ' ' << view.picture.size.x << ' '
-             << view.picture.size.y << ' ' << view.projection_given << ' ';
-    key(view.picture_from_pixel), key(view.picture.eye_m);
-    std::visit(key, view.picture.projection);
+    std::ostringstream text;
+    text.precision(17);
+    const glm::dvec3& eye = view.picture.eye_m;
+    text << MAP_SOURCES << ' ' << view.size.x << ' ' << view.size.y << ' ' << view.picture.size.x << ' '
+         << view.picture.size.y << ' ' << view.projection_given << ' ' << view.picture_from_pixel.x << ' '
+         << view.picture_from_pixel.y << ' ' << eye.x << ' ' << eye.y << ' ' << eye.z << ' '
+         << projection_key(view.picture.projection);
     Hash hash;
-    hash.add(key.text.str());
+    hash.add(text.str());
     hash.add(warp);
     return hash.value;
 }

@@ -22,6 +22,7 @@ void add_import(Subcommand& app, std::function<int()>& chosen);
 void add_tell(Subcommand& app, std::function<int()>& chosen);
 void add_challenges(Subcommand& app, std::function<int()>& chosen);
 void add_class(Subcommand& app, std::function<int()>& chosen);
+void add_help(Subcommand& app, std::function<int()>& chosen);
 
 /// The commands of starbow-tools, a program of its own: few people measure, and it is built when one of them is first asked
 /// for.

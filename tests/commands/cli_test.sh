@@ -217,7 +217,7 @@ for arguments in '' 'fly' 'render' 'render --shot' 'run --frames -1' 'check' 're
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ]; then passed=$((passed + 1)); else fail "'$arguments' is not refused with exit 2 in one line: $said"; fi
 done
 
-begins_with 'fly is not a command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench, measure, report, soak, tell, challenges and class are' fly
+begins_with 'fly is not a command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench, measure, report, soak, tell, challenges, class and help are' fly
 begins_with 'look is not a command; inspect and convert are' warp look
 begins_with "--ouput is not an option of 'starbow render'; --help, --layout, --shot, --scene, --out," render --shot start --ouput o1
 begins_with "--sizes is not an option of 'starbow warp inspect'; " warp inspect x --sizes 3
@@ -244,7 +244,7 @@ begins_with 'There is no none.json in config/tours' run --tour none
 begins_with 'There is no xx.json in config/words; there are: de, en' run --tour rainbow --language xx
 
 # Every subcommand's help ends with an example.
-for command in run render check warp import displays doctor tell; do
+for command in run render check warp import displays doctor tell help; do
     if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
 
@@ -252,6 +252,10 @@ for command in '' 'warp inspect' 'warp convert' 'import sgct'; do
     # shellcheck disable=SC2086
     if "$program" $command --help | grep -A1 '^Examples\?:' | grep -q "starbow ${command:-run} "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
+
+# Every kind of file is described on one screen or two.
+if "$program" help quality | grep -q '^  clip_levels: a whole number from 0 to 42; usual: 42$'; then passed=$((passed + 1)); else fail 'help quality does not say clip_levels'; fi
+begins_with 'the kind of file stick is not known; "exhibit", "layout", "profile", "quality", "ladder", "scene", "shot" or "tour" is right' help stick
 
 # Lengths are printed to the millimetre.
 printf '{ "outputs": [ { "name": "a", "viewports": [ { "projection": { "type": "wall", "lower_left_m": [-1, 0, -2], "lower_right_m": [1, 0, -2], "upper_left_m": [-1, 1.125, -2] } } ] } ] }' > "$folder/wall.json"

@@ -1,5 +1,6 @@
 // The schema from which editors complete layouts must agree with the reader.
 #include "config/model/layout_reader.h"
+#include "config/model/schemas.h"
 #include "tests/support/files.h"
 #include "tests/support/schema_check.h"
 #include <functional>
@@ -127,17 +128,27 @@ std::set<std::string> quoted_in(const std::string& text, std::size_t from)
 
 } // namespace
 
-TEST(SchemaTest, ShippedLayoutsAreValidAndNameTheSchema)
+TEST(SchemaTest, EveryShippedFileNamesItsSchemaAndIsValid)
 {
-    ASSERT_GE(shipped("config/layouts").size(), 14u);
-    for (const auto& file : shipped("config/layouts")) {
-        SCOPED_TRACE(file);
-        const json layout = parsed(read_text(file));
-        EXPECT_TRUE(schema_accepts(layout));
-        EXPECT_TRUE(std::filesystem::equivalent(file.parent_path() / layout.at("$schema").get<std::string>(),
-            source_dir() / "config/schema/layout.schema.json"));
-        EXPECT_TRUE(read_text(file).starts_with("//")) << "must begin with its purpose";
+    std::set<std::string> named;
+    for (const char* folder : {"exhibits", "layouts", "profiles", "qualities", "scenes", "shots", "tours"})
+        for (const auto& file : shipped(std::string("config/") + folder)) {
+            SCOPED_TRACE(file);
+            const json content = parsed(read_text(file));
+            const std::string schema = content.value("$schema", "");
+            ASSERT_TRUE(schema.starts_with("../schema/") && schema.ends_with(".schema.json")) << schema;
+            ASSERT_TRUE(std::filesystem::exists(file.parent_path() / schema)) << schema;
+            named.insert(schema.substr(10, schema.size() - 22));
+            EXPECT_TRUE(starbow::testing::schema_accepts(*named.find(schema.substr(10, schema.size() - 22)), content));
+        }
+    const std::vector<std::string> kinds = kinds_with_schema();
+    EXPECT_EQ(named.size(), kinds.size());
+    for (const std::string& kind : kinds) {
+        EXPECT_TRUE(named.count(kind)) << kind;
+        EXPECT_EQ(read_text(source_dir() / "config/schema" / (kind + ".schema.json")), schema_text(kind));
     }
+    for (const auto& file : shipped("config/layouts"))
+        EXPECT_TRUE(read_text(file).starts_with("//")) << file << " must begin with its purpose";
 }
 
 TEST(SchemaTest, EveryFieldHasADescriptionWithItsUnit)

@@ -234,7 +234,7 @@ TEST(CalibrationTest, TheProfileHasTheChosenRolesAndMeasuredRanges)
     EXPECT_EQ(profile.buttons,
         (std::vector<ButtonUse>{{2, ButtonRole::home}, {4, ButtonRole::stop}, {5, ButtonRole::headlight},
             {6, ButtonRole::aberration}, {7, ButtonRole::hud}, {8, ButtonRole::next_mode}, {9, ButtonRole::menu}}));
-    EXPECT_EQ(profile.hat_x, AxisRole::look_right);
+    EXPECT_EQ(profile.hat.x, AxisRole::look_right);
     // Another calibration that keeps the roles gives the same.
     EXPECT_EQ(calibrated(profile, descriptor, axes, {}).axes, profile.axes);
 }

@@ -284,7 +284,7 @@ TEST(DevicesTest, ABurstThatNoHandsMakeIsLeftOut)
 TEST(DevicesTest, ATapOfARateLastsAFrame)
 {
     Mapping mapping(grip,
-        {.name = "", .buttons = {{1, ButtonRole::brighter}}, .hat_x = AxisRole::push_right, .hat_y = AxisRole::push_up});
+        {.name = "", .buttons = {{1, ButtonRole::brighter}}, .hat = {.x = AxisRole::push_right, .y = AxisRole::push_up}});
     DeviceState state;
     auto frames = frames_after(mapping, state, {let_go, first, let_go, first, let_go}, 3);
     EXPECT_EQ(frames[0].exposure, 1);

@@ -296,7 +296,7 @@ TEST(ProfileTest, WrittenProfilesReadBackTheSame)
         {1, 0x30, 0, AxisRole::none, false, 0, 1, std::array{-0.25, 1.0 / 3, 1e9}}};
     full.buttons = {{128, ButtonRole::darker}, {1, ButtonRole::none}};
     full.mirrored_buttons = {{1, 128}, {7, 8}};
-    full.hat_y = AxisRole::push_back;
+    full.hat.y = AxisRole::push_back;
     all.push_back(full);
     Profile bare;
     bare.name = "b", bare.vendor = 1, bare.product = 0;
@@ -314,8 +314,8 @@ TEST(ProfileTest, WrittenProfilesReadBackTheSame)
         EXPECT_EQ(back.axes, profile.axes);
         EXPECT_EQ(back.buttons, profile.buttons);
         EXPECT_EQ(back.mirrored_buttons, profile.mirrored_buttons);
-        EXPECT_EQ(back.hat_x, profile.hat_x);
-        EXPECT_EQ(back.hat_y, profile.hat_y);
+        EXPECT_EQ(back.hat.x, profile.hat.x);
+        EXPECT_EQ(back.hat.y, profile.hat.y);
     }
     // A name that is not UTF-8 loses the wrong bytes, and the file loads.
     bare.name = "a\xff";

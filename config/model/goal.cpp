@@ -1,0 +1,39 @@
+#include "describe_shot.h"
+#include "measure_reader.h"
+
+namespace starbow {
+
+Measure read_measure(const Place& place) { return read<Measure>(place); }
+
+void check(const Place& place, const Measure& measure, const Folder&)
+{
+    const auto at = find_member(place, "at"), relative_to = find_member(place, "relative_to");
+    if (has_place(measure.quantity))
+        member(place, "at");
+    else if (at || relative_to)
+        complain(at ? *at : *relative_to, "is a place too many: this is measured on the ship alone; none is right");
+}
+
+Saying GoalText::read(const Place& place, const Folder&) const
+{
+    Saying saying = read_saying(place);
+    if (!saying.key.empty() && !saying.key.starts_with("goal."))
+        complain(place, "is not a text; a key of the words that begins with \"goal.\", or { \"en\": \"...\" } is right");
+    return saying;
+}
+
+Json GoalText::schema(Json&) const
+{
+    return Json::parse(R"({ "oneOf": [{ "type": "string", "pattern": "^goal\\." },
+        { "type": "object", "minProperties": 1, "additionalProperties": { "type": "string", "minLength": 1 } }] })");
+}
+
+void check(const Place& place, const GoalCondition& condition, const Folder&)
+{
+    if (!(condition.from < condition.below))
+        complain(member(place, "below"), "leaves nothing from " + shown(condition.from) + " on; a greater number is right");
+    if (condition.from < any_measured.low && condition.below > any_measured.high)
+        complain(place, "always holds; \"from\" or \"below\", or both, are right");
+}
+
+} // namespace starbow
