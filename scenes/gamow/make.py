@@ -562,6 +562,7 @@ def bodies():
 SCENE = """// A street where light flies at 5 metres a second (after George Gamow's Mr Tompkins): trams at 3 m/s, cyclists at 4 m/s, and whoever
 // walks briskly sees the houses lean. One unit is one metre. scenes/gamow/make.py writes the glTF and this file.
 {
+    "$schema": "../schema/scene.schema.json",
     "gltf": "../../scenes/gamow/gamow.glb",
     "unit_m": 1,
     "light_speed_m_s": 5,

@@ -215,6 +215,7 @@ SCENE = """// Two light clocks: a pulse of light goes up and down between mirror
 // one event to another. They stand on a promenade by a lake, in the evening: light shows best there. One unit is one light-second.
 // scenes/light-clock/make.py writes the glTF and this file.
 {
+    "$schema": "../schema/scene.schema.json",
     "gltf": "../../scenes/light-clock/light-clock.glb",
     "unit_m": 299792458,
     "light_speed_m_s": 299792458,

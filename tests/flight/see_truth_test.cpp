@@ -1,8 +1,12 @@
 // The descriptions that are read aloud to people who do not see: each statement that can be computed is a predicate of the
 // flight's state while the description's step lasts, by formulas that share no code with the program. A description that is
 // not listed here fails, and one whose words have changed fails until it is looked at again.
+#include "config/model/scene_file.h"
 #include "config/model/shipped.h"
 #include "config/model/tour_file.h"
+#include "runtime/shadow/occluders.h"
+#include "runtime/world/world.h"
+#include "runtime/world/worldline.h"
 #include "tests/support/files.h"
 #include "tests/support/tour_frame.h"
 #include "tests/support/words_files.h"
@@ -53,7 +57,10 @@ constexpr double half_wide = 16. / 9; ///< a picture of 16 to 9, in half heights
 bool in_wide(const Frame& f, const dvec3& at)
 {
     const dvec2 p = f.in_picture(at);
-    return std::abs(p.x) < half_wide && std::abs(p.y) < 1;
+    const bool in_view = std::abs(p.x) < half_wide && std::abs(p.y) < 1;
+    if (in_view && Frame::when_seen)
+        Frame::when_seen(f, at);
+    return in_view;
 }
 
 // The avenue.
@@ -834,6 +841,52 @@ TEST(SeeTruth, EveryStatementIsThatOfTheStep)
         }
     for (const auto& [key, one] : descriptions())
         EXPECT_TRUE(met.contains(key) || one.statements.empty()) << key << " is never said";
+}
+
+/// Light comes straight from what rests in the world: no still thing stands in its way. Of many like things, as the columns
+/// of an avenue, some stand behind others.
+TEST(SeeTruth, NoStillThingHidesWhatADescriptionNames)
+{
+    const nlohmann::json english = words_file("en");
+    std::size_t worlds = 0, asked = 0;
+    for (const std::filesystem::path& file : shipped("config/tours")) {
+        const Tour tour = load_tour(
+            file, words(), [](const std::string& name) { return source_dir() / "config/shots" / (name + ".json"); });
+        const bool path = tour.scene.find('/') != tour.scene.npos;
+        const SceneFile scene = load_scene_file(path ? file.parent_path() / tour.scene : shipped_file("scenes", tour.scene));
+        World world = load_world(scene);
+        place_bodies(world, scene);
+        const Occluders things(world, world.instances);
+        if (things.triangles() == 0)
+            continue;
+        ++worlds;
+        std::map<std::string, std::pair<int, int>> places; // hidden, and all, by the place's text
+        Frame::when_seen = [&](const Frame& f, const dvec3& place) {
+            const auto hit = things.first(f.at, glm::normalize(place - f.at), 1e37);
+            // A place is inside its thing, of which the twins' planet is the largest: 26 of 114 away. Stars are no things
+            // here.
+            const bool hidden
+                = hit && f.away(place) < 1e6 && hit->distance < f.away(place) - std::max(0.25 * f.away(place), 0.7);
+            auto& [misses, all]
+                = places[std::to_string(place.x) + " " + std::to_string(place.y) + " " + std::to_string(place.z)];
+            ++all, ++asked, misses += hidden;
+        };
+        for (const auto& [key, spoken] : spoken_of(file, english))
+            for (const Statement& statement : descriptions().at(key).statements) {
+                places.clear();
+                statement.holds(spoken);
+                std::size_t hidden = 0;
+                for (const auto& [place, count] : places)
+                    if (count.first > 0)
+                        ++hidden;
+                EXPECT_LE(hidden, places.size() > 3 ? places.size() / 2 : 0)
+                    << key << ": " << statement.words << ": hidden are " << hidden << " of " << places.size();
+            }
+        Frame::when_seen = {};
+    }
+    EXPECT_GE(worlds, 5u);
+    EXPECT_GT(asked, 1000u);
+    std::printf("  %zu looks in %zu worlds\n", asked, worlds);
 }
 
 } // namespace see_truth_test

@@ -4,6 +4,7 @@
 #include "runtime/flight/tour.h"
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace starbow::testing {
@@ -40,8 +41,13 @@ struct Frame {
     {
         const dvec3 n = seen(place);
         const double half = std::tan(30 * degree);
-        return n.z < 0 && std::abs(n.y / n.z) < half && std::abs(n.x / n.z) < half * 4 / 3;
+        const bool in_view = n.z < 0 && std::abs(n.y / n.z) < half && std::abs(n.x / n.z) < half * 4 / 3;
+        if (in_view && when_seen)
+            when_seen(*this, place);
+        return in_view;
     }
+    /// Learns of every place that is in view; none: nobody asks.
+    static inline std::function<void(const Frame&, const dvec3&)> when_seen;
     /// How large a thing is seen, degrees: between the directions of its ends, which are `across` apart in the world.
     double size_deg(const dvec3& place, const dvec3& across) const
     {
