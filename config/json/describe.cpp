@@ -22,6 +22,98 @@ std::string bracketed(const std::vector<std::string>& texts, char open, char clo
 
 } // namespace
 
+bool Variation::lacks(const char* name) const { return without && std::string_view(without) == name; }
+
+const Place* described::Members::find(const char* name, bool needed)
+{
+    now = needed ? member(object, name) : find_member(object, name);
+    return now ? &*now : nullptr;
+}
+
+void described::reject_others(
+    const Place& place, std::initializer_list<const char*> known, const Variation& as, bool names_schema)
+{
+    std::vector<std::string_view> names;
+    if (as.tag)
+        names.emplace_back(as.tag);
+    if (names_schema)
+        names.emplace_back("$schema");
+    for (const char* name : known)
+        if (name && !as.lacks(name))
+            names.emplace_back(name);
+    reject_unknown_members(place, names);
+    if (const auto schema = names_schema ? find_member(place, "$schema") : std::nullopt)
+        text(*schema);
+}
+
+void described::add(
+    std::vector<Property>& all, const char* name, const char* says, bool is_needed, Json&& shape, Json&& usual)
+{
+    all.push_back({name, says, is_needed, std::move(shape), std::move(usual)});
+}
+
+Json described::schema_of(const char* name, const char* says, const char* rules, bool names_schema, const Variation& as,
+    std::vector<Property> fields)
+{
+    Json required = Json::array(), properties = Json::object();
+    if (as.tag) {
+        properties[as.tag] = {{"description", "The kind of this object."}, {"const", name}};
+        required.push_back(as.tag);
+    }
+    if (names_schema)
+        properties["$schema"]
+            = {{"description", "The path of this schema, for editors."}, {"type", "string"}, {"minLength", 1}};
+    for (Property& field : fields) {
+        Json& shape = field.shape;
+        if (!shape.contains("$ref")) {
+            shape["description"] = field.says;
+            const Json& usual = field.usual;
+            // A number beyond its range stands for none.
+            const bool none = field.is_needed || usual.is_null() || usual.empty()
+                || (usual.is_string() && usual.get_ref<const std::string&>().empty())
+                || (usual.is_number() && shape.contains("maximum")
+                    && (usual > shape["maximum"] || (shape.contains("minimum") && usual < shape["minimum"])));
+            if (!none)
+                shape["default"] = usual;
+        }
+        properties[field.name] = std::move(shape);
+        if (field.is_needed)
+            required.push_back(field.name);
+    }
+    Json schema{{"description", says}, {"type", "object"}, {"additionalProperties", false}};
+    if (!required.empty())
+        schema["required"] = required;
+    schema["properties"] = properties;
+    schema.update(Json::parse(rules));
+    return schema;
+}
+
+Json described::whole_schema(const char* name, const Json& object, const Json& definitions)
+{
+    Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", std::string("Starbow ") + name}};
+    schema.update(object);
+    if (!definitions.empty())
+        schema["definitions"] = definitions;
+    return schema;
+}
+
+Json described::reference(Json& definitions, const char* name, Json (*made)(Json& definitions))
+{
+    if (!definitions.contains(name)) {
+        definitions[name] = nullptr; // in its place, before those inside it
+        Json schema = made(definitions);
+        definitions[name] = std::move(schema);
+    }
+    return {{"$ref", std::string("#/definitions/") + name}};
+}
+
+Json described::list_schema(std::size_t least, std::size_t most, Json item)
+{
+    return {{"type", "array"}, {"minItems", least}, {"maxItems", most}, {"items", std::move(item)}};
+}
+
+Json described::names_schema(const std::vector<std::string_view>& names) { return {{"enum", names}}; }
+
 void described::add_number(std::string& text, double number)
 {
     char digits[40];

@@ -143,10 +143,17 @@ template <class T, class Visit> void for_each_field(Visit&& visit)
     std::apply([&](const auto&... fields) { (each(fields), ...); }, description<T>.fields);
 }
 
+/// An object's members one after the other. It is no template: there are hundreds of fields.
+struct Members {
+    const Place& object;
+    std::optional<Place> now;
+    /// The member, or null where it is missing and need not be there.
+    const Place* find(const char* name, bool needed);
+};
 template <class Form, class Owner, class... Values>
-void read_field(const Field<Form, Owner, Values...>& field, const Place& object, Owner& owner, const Folder& folder)
+void read_field(const Field<Form, Owner, Values...>& field, Members& members, Owner& owner, const Folder& folder)
 {
-    const auto place = field.is_needed ? member(object, field.name) : find_member(object, field.name);
+    const Place* place = members.find(field.name, field.is_needed);
     if (!place)
         return;
     if constexpr (requires { field.form.read_into(*place, owner, folder); })
@@ -154,6 +161,11 @@ void read_field(const Field<Form, Owner, Values...>& field, const Place& object,
     else if constexpr (sizeof...(Values) == 1 && requires { field.form.read(*place, folder); })
         owner.*std::get<0>(field.members) = field.form.read(*place, folder);
 }
+template <class Form, class Owner, class... Values> constexpr const char* name_of(const Field<Form, Owner, Values...>& field)
+{
+    return field.name;
+}
+template <class Owner, class... Values> constexpr const char* name_of(const NotInFile<Owner, Values...>&) { return nullptr; }
 
 } // namespace described
 
@@ -167,36 +179,32 @@ template <class T> consteval bool is_complete()
 struct Variation {
     const char* tag = nullptr;
     const char* without = nullptr;
-    bool lacks(const char* name) const { return without && std::string_view(without) == name; }
+    bool lacks(const char* name) const;
 };
 
 namespace described {
 
 /// True for an object that is a file of its own, which may name its schema.
 template <class T> bool names_schema(const Variation& as) { return description<T>.is_file && !as.without; }
+/// Throws for a member that is none of the known ones (null: none), and for a "$schema" that is no text.
+void reject_others(const Place& place, std::initializer_list<const char*> known, const Variation& as, bool names_schema);
 
 } // namespace described
 
 /// Reads an object's members into a value that has the usual ones.
 template <Described T> void read_into(const Place& place, T& value, const Folder& folder, const Variation& as = {})
 {
-    std::vector<std::string_view> known;
-    if (as.tag)
-        known.push_back(as.tag);
-    if (described::names_schema<T>(as))
-        known.push_back("$schema");
-    described::for_each_field<T>([&](const auto& field) {
-        if (!as.lacks(field.name))
-            known.push_back(field.name);
-    });
-    reject_unknown_members(place, known);
-    if (const auto schema = described::names_schema<T>(as) ? find_member(place, "$schema") : std::nullopt)
-        text(*schema);
+    std::apply(
+        [&](const auto&... fields) {
+            described::reject_others(place, {described::name_of(fields)...}, as, described::names_schema<T>(as));
+        },
+        description<T>.fields);
     if constexpr (requires { check_members(place, &value); })
         check_members(place, &value);
+    described::Members members{place, {}};
     described::for_each_field<T>([&](const auto& field) {
         if (!as.lacks(field.name))
-            described::read_field(field, place, value, folder);
+            described::read_field(field, members, value, folder);
     });
     if constexpr (requires { check(place, value, folder); })
         check(place, value, folder);
@@ -277,17 +285,30 @@ Json written_field(const Field<Form, Owner, Values...>& field, const Owner& owne
     return nullptr;
 }
 
-/// The usual value of a field for its schema; null: there is none to tell.
-template <class Form, class Owner, class... Values> Json usual(const Field<Form, Owner, Values...>& field)
+/// A field's part of a schema. What follows is no template: schemas of a hundred fields would take half a minute to compile.
+struct Property {
+    const char* name;
+    const char* says;
+    bool is_needed;
+    Json shape;
+    Json usual; ///< null: there is none to tell
+};
+/// The usual value of a field for its schema.
+template <class Form, class Owner, class... Values>
+Json usual(const Field<Form, Owner, Values...>& field, const Owner& owner)
 {
-    const Json value = written_field(field, Owner{});
-    if constexpr (requires { field.form.range.low; })
-        if (value.is_number() && !(value >= field.form.range.low && value <= field.form.range.high))
-            return nullptr; // it stands for none
-    const bool none
-        = value.is_object() || value.empty() || (value.is_string() && value.get_ref<const std::string&>().empty());
-    return none ? Json() : value;
+    if constexpr (!requires { Form::tells_nothing_usual; })
+        return written_field(field, owner);
+    return nullptr;
 }
+void add(std::vector<Property>& all, const char* name, const char* says, bool is_needed, Json&& shape, Json&& usual);
+Json schema_of(const char* name, const char* says, const char* rules, bool names_schema, const Variation& as,
+    std::vector<Property> properties);
+Json whole_schema(const char* name, const Json& object, const Json& definitions);
+/// A reference to a definition, which is made if it is not there yet.
+Json reference(Json& definitions, const char* name, Json (*made)(Json& definitions));
+Json list_schema(std::size_t least, std::size_t most, Json item);
+Json names_schema(const std::vector<std::string_view>& names);
 
 } // namespace described
 
@@ -305,9 +326,10 @@ template <Described T> Json written(const T& value)
 template <Described T> Json written_briefly(const T& value)
 {
     Json object = Json::object();
+    const T usual{};
     described::for_each_field<T>([&](const auto& field) {
         Json one = described::written_field(field, value);
-        if (field.is_needed || one != described::written_field(field, T{}))
+        if (field.is_needed || one != described::written_field(field, usual))
             object[field.name] = std::move(one);
     });
     return object;
@@ -319,45 +341,23 @@ std::string on_one_line(const Json& value);
 /// The schema of an object. definitions: receives those of the structs inside it.
 template <Described T> Json object_schema(Json& definitions, const Variation& as = {})
 {
-    Json required = Json::array(), properties = Json::object();
-    if (as.tag) {
-        properties[as.tag] = {{"description", "The kind of this object."}, {"const", description<T>.name}};
-        required.push_back(as.tag);
-    }
-    if (described::names_schema<T>(as))
-        properties["$schema"]
-            = {{"description", "The path of this schema, for editors."}, {"type", "string"}, {"minLength", 1}};
+    const T usual{};
+    std::vector<described::Property> properties;
     described::for_each_field<T>([&](const auto& field) {
-        if (as.lacks(field.name))
-            return;
-        Json property = field.form.schema(definitions);
-        if (!property.contains("$ref")) {
-            property["description"] = field.says;
-            if (const Json usual = described::usual(field); !usual.is_null() && !field.is_needed)
-                property["default"] = usual;
-        }
-        properties[field.name] = property;
-        if (field.is_needed)
-            required.push_back(field.name);
+        if (!as.lacks(field.name))
+            described::add(properties, field.name, field.says, field.is_needed, field.form.schema(definitions),
+                described::usual(field, usual));
     });
-    Json schema{{"description", description<T>.says}, {"type", "object"}, {"additionalProperties", false}};
-    if (!required.empty())
-        schema["required"] = required;
-    schema["properties"] = properties;
-    schema.update(Json::parse(description<T>.rules));
-    return schema;
+    return described::schema_of(description<T>.name, description<T>.says, description<T>.rules,
+        described::names_schema<T>(as), as, std::move(properties));
 }
 
 /// The JSON schema (draft 7) of a kind of file.
 template <Described T> Json file_schema()
 {
-    Json definitions = Json::object(),
-         schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
-             {"title", std::string("Starbow ") + description<T>.name}};
-    schema.update(object_schema<T>(definitions));
-    if (!definitions.empty())
-        schema["definitions"] = definitions;
-    return schema;
+    Json definitions = Json::object();
+    const Json object = object_schema<T>(definitions);
+    return described::whole_schema(description<T>.name, object, definitions);
 }
 
 // The forms.
@@ -399,10 +399,7 @@ template <int count> struct Numbers {
             list.push_back(value[i]);
         return list;
     }
-    Json schema(Json& definitions) const
-    {
-        return {{"type", "array"}, {"minItems", count}, {"maxItems", count}, {"items", Number{range}.schema(definitions)}};
-    }
+    Json schema(Json& definitions) const { return described::list_schema(count, count, Number{range}.schema(definitions)); }
 };
 /// Two whole numbers.
 struct WholePair {
@@ -422,26 +419,22 @@ template <class Value> struct Named {
                 return name;
         return nullptr;
     }
-    Json schema(Json&) const { return {{"enum", names_of(*names)}}; }
+    Json schema(Json&) const { return described::names_schema(names_of(*names)); }
 };
 template <class Value> Named(const std::vector<std::pair<std::string_view, Value>>*) -> Named<Value>;
 /// An object of its own.
 template <class T> struct Object {
-    static constexpr bool is_whole = true; // nothing varies
+    static constexpr bool is_whole = true, tells_nothing_usual = true; // nothing varies
     T read(const Place& place, const Folder& folder) const { return starbow::read<T>(place, folder); }
     Json written(const T& value) const { return starbow::written(value); }
     Json schema(Json& definitions) const
     {
-        if (!definitions.contains(description<T>.name)) {
-            definitions[description<T>.name] = nullptr;
-            Json schema = object_schema<T>(definitions);
-            definitions[description<T>.name] = std::move(schema);
-        }
-        return {{"$ref", std::string("#/definitions/") + description<T>.name}};
+        return described::reference(definitions, description<T>.name, [](Json& all) { return object_schema<T>(all); });
     }
 };
 /// The same, in a place where it varies.
 template <class T> struct Varied {
+    static constexpr bool tells_nothing_usual = true;
     Variation as;
     T read(const Place& place, const Folder& folder) const { return starbow::read<T>(place, folder, as); }
     Json schema(Json& definitions) const { return object_schema<T>(definitions, as); }
@@ -449,6 +442,7 @@ template <class T> struct Varied {
 /// One of several structs, by the member "type".
 template <class Variant> struct Tagged;
 template <class... Kinds> struct Tagged<std::variant<Kinds...>> {
+    static constexpr bool tells_nothing_usual = true;
     std::variant<Kinds...> read(const Place& place, const Folder& folder) const
     {
         if (!place.json->is_object())
@@ -465,14 +459,9 @@ template <class... Kinds> struct Tagged<std::variant<Kinds...>> {
     Json schema(Json& definitions) const
     {
         Json kinds = Json::array();
-        const auto add = [&]<class Kind>(const Kind*) {
-            if (!definitions.contains(description<Kind>.name)) {
-                Json schema = object_schema<Kind>(definitions, {.tag = "type"});
-                definitions[description<Kind>.name] = std::move(schema);
-            }
-            kinds.push_back({{"$ref", std::string("#/definitions/") + description<Kind>.name}});
-        };
-        (add(static_cast<const Kinds*>(nullptr)), ...);
+        (kinds.push_back(described::reference(
+             definitions, description<Kinds>.name, [](Json& all) { return object_schema<Kinds>(all, {.tag = "type"}); })),
+            ...);
         return {{"type", "object"}, {"required", {"type"}}, {"oneOf", kinds}};
     }
 };
@@ -494,6 +483,7 @@ template <class Form, class Owner, class Part, class Value> struct Within {
 template <class Form, class Owner, class Part, class Value>
 Within(Form, Part Owner::*, Value Part::*) -> Within<Form, Owner, Part, Value>;
 template <class Form> struct List {
+    static constexpr bool tells_nothing_usual = true;
     Form form;
     std::size_t least, most;
     const char* what; ///< its elements, in the plural
@@ -514,10 +504,7 @@ template <class Form> struct List {
             list.push_back(form.written(one));
         return list;
     }
-    Json schema(Json& definitions) const
-    {
-        return {{"type", "array"}, {"minItems", least}, {"maxItems", most}, {"items", form.schema(definitions)}};
-    }
+    Json schema(Json& definitions) const { return described::list_schema(least, most, form.schema(definitions)); }
 };
 template <class Form> List(Form, std::size_t, std::size_t, const char*) -> List<Form>;
 /// A value with a reader of its own. shape: JSON, its schema.

@@ -29,7 +29,7 @@ struct ShippedName {
 };
 
 template <>
-inline const auto description<Vignette> = describe<Vignette>("vignette",
+inline constexpr auto description<Vignette> = describe<Vignette>("vignette",
     "The picture's edge darkens while the ship turns. Not beside turn_steps_deg.",
     field("elevation_deg", Number{{-90, 90}},
         "The middle of the clear part above straight ahead, for domes whose front is higher, degrees.",
@@ -43,7 +43,7 @@ inline const auto description<Vignette> = describe<Vignette>("vignette",
 static_assert(is_complete<Vignette>());
 
 template <>
-inline const auto description<Comfort> = describe<Comfort>("comfort",
+inline constexpr auto description<Comfort> = describe<Comfort>("comfort",
     "Rules against motion sickness, for a dome or a headset, where the whole field of view turns.",
     field("no_roll", Flag{}, "true: the controls' roll does nothing.", &Comfort::no_roll),
     field("level_horizon", Flag{},
@@ -58,7 +58,7 @@ static_assert(is_complete<Comfort>());
 void check(const Place& place, const Comfort& comfort, const Folder&);
 
 template <>
-inline const auto description<Flying> = describe<Flying>("flying",
+inline constexpr auto description<Flying> = describe<Flying>("flying",
     "The rules of flight, with limits that spare visitors' stomachs. Seconds are the visitor's.",
     field("mode", Named{&flight_modes},
         "guided: the throttle's place sets the speed, and the velocity follows the nose. free: the throttle's place sets "
@@ -89,7 +89,7 @@ inline const auto description<Flying> = describe<Flying>("flying",
 static_assert(is_complete<Flying>());
 
 template <>
-inline const auto description<Exposing> = describe<Exposing>("exposure",
+inline constexpr auto description<Exposing> = describe<Exposing>("exposure",
     "The exposure of the pictures. EV are powers of two of the light; the visitor's change is added.",
     field("mode", Named{&exposure_modes},
         "eye: one exposure, as an eye sees it. range: one curve of brightness shows everything at once. Each visit begins "
@@ -113,7 +113,7 @@ void check(const Place& place, const Exposing& exposing, const Folder&);
 /// A word that can be typed blind.
 std::string read_unlock(const Place& place, const Folder&);
 template <>
-inline const auto description<Visiting> = describe<Visiting>("visit",
+inline constexpr auto description<Visiting> = describe<Visiting>("visit",
     "The exhibit attends to its visitors by itself: while nobody is there it shows tours, a touch begins a visit, and after "
     "it "
     "everything is as at the start. Without it somebody else attends to them.",
@@ -139,7 +139,7 @@ static_assert(is_complete<Visiting>());
 
 std::string read_identity(const Place& place, const Folder&);
 template <>
-inline const auto description<Machines> = describe<Machines>("machines",
+inline constexpr auto description<Machines> = describe<Machines>("machines",
     "Several machines show this exhibit together: each output of the layout has a node, and each machine is started with "
     "starbow "
     "run --node and its name. Without it one machine shows all.",
@@ -170,15 +170,15 @@ struct IpAddress {
 std::string read_host_name(const Place& place, const Folder&);
 inline const std::vector<std::pair<std::string_view, bool>> osc_roles{{"docent", false}, {"engineer", true}};
 template <>
-inline const auto description<OscSettings> = describe<OscSettings>("osc", "Commands by OSC over UDP, which has no login.",
-    needed("port", Whole{1, 65535}, "The UDP port.", &OscSettings::port),
+inline constexpr auto description<OscSettings> = describe<OscSettings>("osc",
+    "Commands by OSC over UDP, which has no login.", needed("port", Whole{1, 65535}, "The UDP port.", &OscSettings::port),
     needed("from", List{IpAddress{}, 1, 64, "IP addresses that may send commands"},
         "The IP addresses whose commands are taken.", &OscSettings::from),
     field("role", Named{&osc_roles}, "The role of all senders.", &OscSettings::engineer));
 static_assert(is_complete<OscSettings>());
 
 template <>
-inline const auto description<RemoteSettings> = with_rules(
+inline constexpr auto description<RemoteSettings> = with_rules(
     describe<RemoteSettings>("remote",
         "A page for tablets and telephones, OSC, and starbow tell. Without it no port is opened.",
         needed("port", Whole{1, 65535}, "The TCP port of the page.", &RemoteSettings::port),
@@ -203,7 +203,7 @@ static_assert(is_complete<RemoteSettings>());
 void check(const Place& place, const RemoteSettings& remote, const Folder&);
 
 template <>
-inline const auto description<OneButton> = describe<OneButton>("one_button",
+inline constexpr auto description<OneButton> = describe<OneButton>("one_button",
     "The visitors fly with one button: the display shows the choices in turn, and a press of any key or button takes the "
     "shown "
     "one.",
@@ -213,7 +213,7 @@ inline const auto description<OneButton> = describe<OneButton>("one_button",
 static_assert(is_complete<OneButton>());
 
 template <>
-inline const auto description<Presenting> = describe<Presenting>("presenter",
+inline constexpr auto description<Presenting> = describe<Presenting>("presenter",
     "A window for the guide beside the visitors' ones: their picture small, the tour's cue sheet, and everything that a "
     "guide can "
     "do, by keys and by the mouse.",
@@ -221,7 +221,7 @@ inline const auto description<Presenting> = describe<Presenting>("presenter",
 static_assert(is_complete<Presenting>());
 
 template <>
-inline const auto description<Menu> = describe<Menu>("menu",
+inline constexpr auto description<Menu> = describe<Menu>("menu",
     "What visitors can choose in their menu, by the names of shipped files. Without a list, all of them.",
     field("scenes", List{ShippedName{"scenes"}, 1, 20, "names of shipped files"}, "The worlds that visitors can choose.",
         &Menu::scenes),
@@ -230,7 +230,7 @@ inline const auto description<Menu> = describe<Menu>("menu",
 static_assert(is_complete<Menu>());
 
 template <>
-inline const auto description<Exhibit> = describe_file<Exhibit>("exhibit",
+inline constexpr auto description<Exhibit> = describe_file<Exhibit>("exhibit",
     "The parts of an exhibit, and its rules of flight. Paths start at this file's folder; names without a slash and without "
     ".json "
     "are those of shipped files.",

@@ -24,7 +24,7 @@ struct ExistingFile {
 };
 
 template <>
-inline const auto description<Turn> = describe<Turn>("turn_deg",
+inline constexpr auto description<Turn> = describe<Turn>("turn_deg",
     "The turn away from straight ahead, degrees: first yaw, then pitch, then roll.",
     field("yaw", Number{whole_turn, 0.1, "yaw"}, "To the right, degrees.", &Turn::yaw_deg),
     field("pitch", Number{whole_turn, 0.1, "pitch"}, "Up, degrees.", &Turn::pitch_deg),
@@ -51,7 +51,7 @@ struct FovAcross {
     Json schema(Json& definitions) const { return Number{flat_fov}.schema(definitions); }
 };
 template <>
-inline const auto description<Planar> = with_rules(
+inline constexpr auto description<Planar> = with_rules(
     describe<Planar>("planar", "A flat window, seen from its axis unless sides_deg says otherwise.",
         field("fov_y_deg", Number{flat_fov}, "The angle from the picture's lower to its upper edge, degrees.",
             &Planar::fov_y_deg),
@@ -76,7 +76,7 @@ static_assert(is_complete<Planar>());
 void check_members(const Place& place, const Planar*);
 
 template <>
-inline const auto description<Wall> = with_rules(
+inline constexpr auto description<Wall> = with_rules(
     describe<Wall>("wall",
         "A flat screen that stands in the room, by three of its corners as the visitor sees it. They make a right angle "
         "within 1 "
@@ -93,7 +93,7 @@ inline const std::vector<std::pair<std::string_view, FisheyeMapping>> fisheye_ma
     {"equidistant", FisheyeMapping::equidistant}, {"equisolid", FisheyeMapping::equisolid},
     {"stereographic", FisheyeMapping::stereographic}, {"orthographic", FisheyeMapping::orthographic}};
 template <>
-inline const auto description<Fisheye> = with_rules(
+inline constexpr auto description<Fisheye> = with_rules(
     describe<Fisheye>("fisheye",
         "A domemaster: a circle whose centre is the dome's zenith, the front at the bottom, the right hand on the right.",
         field("aperture_deg", Number{{1, 360}},
@@ -135,14 +135,14 @@ constexpr SidesWithin sides_of_panorama(double least_elevation, double most_elev
             "Elevation of the lower edge, degrees.", "Elevation of the upper edge, degrees."}};
 }
 template <>
-inline const auto description<Cylinder> = describe<Cylinder>("cylinder",
+inline constexpr auto description<Cylinder> = describe<Cylinder>("cylinder",
     "A cylinder about the upright axis: columns evenly spaced in azimuth, rows in height on its wall.",
     field("sides_deg", sides_of_panorama(-89, 89, Cylinder{}.sides), panorama_sides, &Cylinder::sides),
     field("turn_deg", Object<Turn>{}, "", &Cylinder::turn));
 static_assert(is_complete<Cylinder>());
 
 template <>
-inline const auto description<Equirectangular> = describe<Equirectangular>("equirectangular",
+inline constexpr auto description<Equirectangular> = describe<Equirectangular>("equirectangular",
     "A panorama: columns evenly spaced in azimuth, rows in elevation.",
     field("sides_deg", sides_of_panorama(-90, 90, Equirectangular{}.sides), panorama_sides, &Equirectangular::sides),
     field("turn_deg", Object<Turn>{}, "", &Equirectangular::turn));
@@ -151,7 +151,7 @@ static_assert(is_complete<Equirectangular>());
 inline const std::vector<std::pair<std::string_view, CubeFaces::Arrangement>> cube_arrangements{
     {"row", CubeFaces::Arrangement::row}, {"cross", CubeFaces::Arrangement::cross}};
 template <>
-inline const auto description<CubeFaces> = describe<CubeFaces>("cube", "The six faces of a cube in one picture.",
+inline constexpr auto description<CubeFaces> = describe<CubeFaces>("cube", "The six faces of a cube in one picture.",
     field("arrangement", Named{&cube_arrangements},
         "row: 6 x 1, +x -x +y -y +z -z as cube map files have them, seen from inside. cross: 4 x 3, up above and down below "
         "the "
@@ -161,7 +161,7 @@ inline const auto description<CubeFaces> = describe<CubeFaces>("cube", "The six 
 static_assert(is_complete<CubeFaces>());
 
 template <>
-inline const auto description<SphericalMirror> = describe<SphericalMirror>("mirror",
+inline constexpr auto description<SphericalMirror> = describe<SphericalMirror>("mirror",
     "A projector that lights a dome through a spherical mirror, with the dome seen by the eye at eye_m.",
     needed("projector_m", Numbers<3>{room_m}, place_in_cockpit, &SphericalMirror::projector_m),
     needed("projector", Varied<Planar>{}, "The angles of the projector's picture at its lens, before the mirror.",
@@ -185,7 +185,7 @@ struct LensNumbers {
     Json schema(Json& definitions) const { return Numbers<4>{{-1e3, 1e3}}.schema(definitions); }
 };
 template <>
-inline const auto description<Lens::Colour> = describe<Lens::Colour>("lens_colour",
+inline constexpr auto description<Lens::Colour> = describe<Lens::Colour>("lens_colour",
     "The lens's distortion of one colour. Red and blue equal green if left out.",
     field("centre", Numbers<2>{{-1, 2}}, "The lens's centre, in fractions of the picture from its top left.",
         &Lens::Colour::centre),
@@ -201,7 +201,7 @@ struct LensColour {
 inline const std::vector<std::pair<std::string_view, Lens::Form>> lens_forms{
     {"panotools", Lens::Form::panotools}, {"vive", Lens::Form::vive}};
 template <>
-inline const auto description<Lens> = describe<Lens>("lens",
+inline constexpr auto description<Lens> = describe<Lens>("lens",
     "A headset's lens: each colour of each pixel has a direction of its own.",
     field("form", Named{&lens_forms},
         "With r the distance from centre in halves of the picture's height, the lens shows at p the point p f(r) of a flat "
@@ -219,7 +219,7 @@ inline const std::vector<std::pair<std::string_view, bool>> first_rows{{"top", t
     v_directions{{"down", false}, {"up", true}}, sample_places{{"centres", false}, {"edges", true}},
     map_values{{"places", false}, {"offsets", true}};
 template <>
-inline const auto description<Warp> = describe<Warp>("warp",
+inline constexpr auto description<Warp> = describe<Warp>("warp",
     "A calibration's file that warps the projection, or has one of its own. Under a warp a fisheye's picture is a square.",
     needed("file", ExistingFile{}, "Its path, from this layout's folder.", &Warp::file),
     field("frustum", ExistingFile{},
@@ -252,7 +252,7 @@ struct ObserverForm {
 inline const std::vector<std::pair<std::string_view, Eye>> eye_names{
     {"middle", Eye::middle}, {"left", Eye::left}, {"right", Eye::right}};
 template <>
-inline const auto description<Viewport> = with_rules(
+inline constexpr auto description<Viewport> = with_rules(
     describe<Viewport>("viewport", "A rectangle of an output with one projection and one eye.",
         field("rect", Numbers<4>{{0, 1}},
             "x, y, width and height as fractions of the output (with a packing, of an eye's picture), from its top left.",
@@ -303,7 +303,7 @@ struct Table {
     Json schema(Json&) const;
 };
 template <>
-inline const auto description<Colour> = with_rules(
+inline constexpr auto description<Colour> = with_rules(
     describe<Colour>("colour",
         "The map from linear light to this screen's or projector's input; left out, it is an sRGB screen.",
         field("gamma", Number{{0.1, 10}}, "Input = light^(1 / gamma); left out, sRGB's curve. Not beside lut. No unit.",
@@ -321,7 +321,7 @@ static_assert(is_complete<Colour>());
 void check_members(const Place& place, const Colour*);
 
 template <>
-inline const auto description<MonitorName> = with_rules(
+inline constexpr auto description<MonitorName> = with_rules(
     describe<MonitorName>("monitor", "The monitor or projector of the window; every given member must fit.",
         field("connector", Text{}, "The system's name of the connector; xrandr lists them.", &MonitorName::connector),
         field("model", Text{}, "The monitor's own name (in its EDID).", &MonitorName::model),
@@ -344,7 +344,7 @@ inline const std::vector<std::pair<std::string_view, Packing>> packings{{"mono",
     {"anaglyph-red-cyan", Packing::anaglyph_red_cyan}, {"anaglyph-dubois", Packing::anaglyph_dubois},
     {"anaglyph-amber-blue", Packing::anaglyph_amber_blue}};
 template <>
-inline const auto description<Output> = with_rules(
+inline constexpr auto description<Output> = with_rules(
     describe<Output>("output", "A window on one monitor or projector.",
         needed("name", FileNamePart{},
             "The output's name, also of its picture's file, so every output has a name of its own: letters A-Z a-z, digits, "
@@ -394,7 +394,7 @@ inline const std::vector<std::pair<std::string_view, StereoMethod>> stereo_metho
     {"shared", StereoMethod::shared}, {"exact", StereoMethod::exact}, {"reprojected", StereoMethod::reprojected}};
 inline const std::vector<std::pair<std::string_view, bool>> baselines{{"fixed", false}, {"turning", true}};
 template <>
-inline const auto description<Stereo> = with_rules(
+inline constexpr auto description<Stereo> = with_rules(
     describe<Stereo>("stereo",
         "The method for two eyes' pictures, for every output with a packing and every viewport with an eye.",
         field("method", Named{&stereo_methods},
@@ -433,7 +433,7 @@ static_assert(is_complete<Stereo>());
 void check(const Place& place, const Stereo& stereo, const Folder&);
 
 template <>
-inline const auto description<Blend> = describe<Blend>("blend", "Blend ramps for outputs that overlap on a screen.",
+inline constexpr auto description<Blend> = describe<Blend>("blend", "Blend ramps for outputs that overlap on a screen.",
     field("ramps", Flag{},
         "true: ramps are computed where viewports that share no pixels show the same direction. Leave it out where masks of "
         "a "
@@ -445,7 +445,7 @@ inline const auto description<Blend> = describe<Blend>("blend", "Blend ramps for
 static_assert(is_complete<Blend>());
 
 template <>
-inline const auto description<HudPlacement> = describe<HudPlacement>("hud",
+inline constexpr auto description<HudPlacement> = describe<HudPlacement>("hud",
     "The place of the head-up display in the cockpit. Left out: the program finds one where it is seen whole, in a window "
     "of any "
     "shape.",
@@ -463,7 +463,7 @@ struct OwnAddress {
     Json schema(Json&) const { return {{"type", "string"}, {"format", "ipv4"}}; }
 };
 template <>
-inline const auto description<HeadTracking> = describe<HeadTracking>("head_tracker",
+inline constexpr auto description<HeadTracking> = describe<HeadTracking>("head_tracker",
     "The address and port that receive a tracked head; the view through walls follows it. The format is that of opentrack's "
     "\"UDP over network\" output: x (right), y (up), z (back) in centimetres from eye_m, yaw (left), pitch (up) and roll "
     "(left) "
@@ -479,7 +479,7 @@ inline const auto description<HeadTracking> = describe<HeadTracking>("head_track
 static_assert(is_complete<HeadTracking>());
 
 template <>
-inline const auto description<Layout> = describe_file<Layout>("layout",
+inline constexpr auto description<Layout> = describe_file<Layout>("layout",
     "The outputs of an exhibit: its windows, the view in each part of them, and its eye. Places are metres in the cockpit, "
     "from "
     "its middle: +x right, +y up, -z ahead. // and /* */ comments are allowed.",

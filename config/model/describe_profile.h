@@ -28,7 +28,8 @@ struct ButtonPair {
 };
 
 template <>
-inline const auto description<AxisUse> = describe<AxisUse>("axis", "The role of an axis, and the treatment of its values.",
+inline constexpr auto description<AxisUse> = describe<AxisUse>("axis",
+    "The role of an axis, and the treatment of its values.",
     field("page", Whole{1, 65535}, "HID usage page: 1 generic desktop, 2 simulation. No unit.", &AxisUse::page),
     needed("usage", Whole{1, 65535}, "HID usage: 48 X, 49 Y, 50 Z, 51 Rx, 52 Ry, 53 Rz, 54 slider, 55 dial. No unit.",
         &AxisUse::usage),
@@ -51,18 +52,18 @@ inline const auto description<AxisUse> = describe<AxisUse>("axis", "The role of 
 static_assert(is_complete<AxisUse>());
 
 template <>
-inline const auto description<ButtonUse> = describe<ButtonUse>("button", "The role of a button.",
+inline constexpr auto description<ButtonUse> = describe<ButtonUse>("button", "The role of a button.",
     needed("button", Whole{1, 128}, "The button's number, as the device counts, from 1. No unit.", &ButtonUse::button),
     needed("role", Named{&button_roles}, "The button's role.", &ButtonUse::role));
 static_assert(is_complete<ButtonUse>());
 
 template <>
-inline const auto description<Hat> = describe<Hat>("hat", "The hat's roles.",
+inline constexpr auto description<Hat> = describe<Hat>("hat", "The hat's roles.",
     field("x", Named{&axis_roles}, "To the sides.", &Hat::x), field("y", Named{&axis_roles}, "Up and down.", &Hat::y));
 static_assert(is_complete<Hat>());
 
 template <>
-inline const auto description<Profile> = describe_file<Profile>("profile",
+inline constexpr auto description<Profile> = describe_file<Profile>("profile",
     "The use of one kind of stick, throttle, pad or space mouse.",
     needed("name", Text{}, "The device's name, for people.", &Profile::name),
     needed(

@@ -25,7 +25,7 @@ struct SampleCount {
 };
 
 template <>
-inline const auto description<Quality> = describe_file<Quality>("quality",
+inline constexpr auto description<Quality> = describe_file<Quality>("quality",
     "The trade-off of speed and accuracy. It never changes the physics.",
     field("texels_per_pixel", Number{{0.05, 16}},
         "Linear density of the cube map in the views: texels along an output pixel.", &Quality::texels_per_pixel),
@@ -72,7 +72,7 @@ inline const auto description<Quality> = describe_file<Quality>("quality",
 static_assert(is_complete<Quality>());
 
 template <>
-inline const auto description<PresetLevel> = describe<PresetLevel>("level",
+inline constexpr auto description<PresetLevel> = describe<PresetLevel>("level",
     "A quality with its time and its pictures' errors against the reference, as starbow measure found them.",
     needed("ms", Number{{0, 1e6, true}}, "The time of a frame, milliseconds; only the ratios between levels count.",
         &PresetLevel::ms),
@@ -85,7 +85,7 @@ struct Ladder {
     std::vector<PresetLevel> levels;
 };
 template <>
-inline const auto description<Ladder> = describe_file<Ladder>("ladder",
+inline constexpr auto description<Ladder> = describe_file<Ladder>("ladder",
     "Qualities from the fastest to the slowest, between which an exhibit with a frame_budget_ms moves.",
     needed(
         "levels", List{Object<PresetLevel>{}, 1, 100, "qualities"}, "The qualities, the fastest first.", &Ladder::levels));

@@ -28,7 +28,7 @@ struct GlowTemperature {
     Json schema(Json& definitions) const { return Number{{0, hottest_K}}.schema(definitions); }
 };
 template <>
-inline const auto description<Sky> = describe<Sky>("sky",
+inline constexpr auto description<Sky> = describe<Sky>("sky",
     "The sky behind everything: colours that are blended smoothly, and a black body's glow that is everywhere the same.",
     field("zenith", Numbers<3>{any_radiance}, "The colour above (+y), linear Rec. 709.", &Sky::zenith),
     field("horizon", Numbers<3>{any_radiance}, "The colour around, linear Rec. 709.", &Sky::horizon),
@@ -41,14 +41,14 @@ inline const auto description<Sky> = describe<Sky>("sky",
 static_assert(is_complete<Sky>());
 
 template <>
-inline const auto description<Ground> = describe<Ground>("ground", "A level square of tiles for a world without one.",
+inline constexpr auto description<Ground> = describe<Ground>("ground", "A level square of tiles for a world without one.",
     needed("middle", Numbers<3>{{-Ground::most, Ground::most}}, "Its middle, [x, y, z] in scene units.", &Ground::middle),
     needed("half_width", Number{{0, Ground::most, true}}, "From its middle to its sides, scene units.", &Ground::half_width),
     field("colour", Numbers<3>{{0, 1}}, "The reflectance of its lighter tiles, linear Rec. 709.", &Ground::colour));
 static_assert(is_complete<Ground>());
 
 template <>
-inline const auto description<MilkyWay> = describe<MilkyWay>("milky_way",
+inline constexpr auto description<MilkyWay> = describe<MilkyWay>("milky_way",
     "The light of the stars that are too many to be told apart: a picture of the whole sky.",
     needed("panorama", ScenePath{},
         "An equirectangular picture: right ascension (J2000) grows to the right from 0 at the left edge, north is up.",
@@ -70,7 +70,7 @@ struct StarCount {
     static constexpr int most = 4'000'000;
 };
 template <>
-inline const auto description<StarSky> = describe<StarSky>("stars", "The stars of a catalogue, behind everything.",
+inline constexpr auto description<StarSky> = describe<StarSky>("stars", "The stars of a catalogue, behind everything.",
     needed("catalogue", ScenePath{}, "The catalogue's path, from this file's folder.", &StarSky::catalogue),
     field("in_depth", StarCount{},
         "So many of the brightest are drawn one by one, each at its place in depth; the others are painted onto the Milky "
@@ -96,7 +96,7 @@ struct DateForm {
     Json schema(Json&) const;
 };
 template <>
-inline const auto description<GlobeSky> = describe<GlobeSky>("globes", "The Sun, planets and moons at a date.",
+inline constexpr auto description<GlobeSky> = describe<GlobeSky>("globes", "The Sun, planets and moons at a date.",
     needed("file", ScenePath{}, "The path of a file that describes them, from this file's folder.", &GlobeSky::file),
     needed(
         "date", DateForm{}, "The date at the scene's time 0, UTC, from 1800 to 2049: 2026-08-12T17:46Z.", &GlobeSky::days),
@@ -110,7 +110,7 @@ struct Degrees {
     Json schema(Json& definitions) const { return Number{range}.schema(definitions); }
 };
 template <>
-inline const auto description<LightCone> = describe<LightCone>("cone", "The directions into which a lamp shines.",
+inline constexpr auto description<LightCone> = describe<LightCone>("cone", "The directions into which a lamp shines.",
     needed("axis", UnitDirection{}, "Its middle, [x, y, z] of any length.", &LightCone::axis),
     needed("outer_deg", Degrees{{0, 90, true}}, "The angle from the axis beyond which it is dark, degrees.",
         &LightCone::outer_rad),
@@ -140,7 +140,7 @@ constexpr const char* one_spectrum = R"({ "not": { "anyOf": [{ "required": ["tem
     { "required": ["temperature_K", "spectrum"] }, { "required": ["line_nm", "spectrum"] }] } })";
 
 template <>
-inline const auto description<DirectionalLight> = with_rules(
+inline constexpr auto description<DirectionalLight> = with_rules(
     describe<DirectionalLight>("directional", "A light that is the same everywhere.",
         needed("towards", UnitDirection{}, "The direction from the world to the light, [x, y, z] of any length.",
             &DirectionalLight::towards),
@@ -153,7 +153,7 @@ static_assert(is_complete<DirectionalLight>());
 void check_members(const Place& place, const DirectionalLight*);
 
 template <>
-inline const auto description<PointLight> = with_rules(
+inline constexpr auto description<PointLight> = with_rules(
     describe<PointLight>("point", "A light that falls as 1 / r^2.",
         needed("position", Numbers<3>{{-farthest, farthest}},
             "Its place, [x, y, z] in scene units; in its body's own frame.", &PointLight::position),
@@ -170,7 +170,7 @@ static_assert(is_complete<PointLight>());
 void check_members(const Place& place, const PointLight*);
 
 template <>
-inline const auto description<Event> = describe<Event>("event", "An event of the body's origin.",
+inline constexpr auto description<Event> = describe<Event>("event", "An event of the body's origin.",
     field("time", Number{{-farthest, farthest}}, "The world's time, scene units / c.", &Event::time),
     field("position", Numbers<3>{{-farthest, farthest}}, "The place, [x, y, z] in scene units.", &Event::position));
 static_assert(is_complete<Event>());
@@ -181,7 +181,7 @@ struct WorldLine {
     Json schema(Json& definitions) const;
 };
 template <>
-inline const auto description<Body> = with_rules(
+inline constexpr auto description<Body> = with_rules(
     describe<Body>("body", "Nodes of the glTF file, with all nodes below them, that move as one.",
         needed("name", Text{}, "A unique name; lights refer to it.", &Body::name),
         needed("nodes", List{Text{}, 1, 256, "names of nodes"}, "Names of nodes in the glTF.", &Body::nodes),
@@ -196,7 +196,7 @@ static_assert(is_complete<Body>());
 void check_members(const Place& place, const Body*);
 
 template <>
-inline const auto description<Boundary> = describe<Boundary>("boundary",
+inline constexpr auto description<Boundary> = describe<Boundary>("boundary",
     "The ball in which the visitors fly, where an exhibit attends to them. Before its edge the ship slows down and turns to "
     "the "
     "start.",
@@ -205,14 +205,14 @@ inline const auto description<Boundary> = describe<Boundary>("boundary",
 static_assert(is_complete<Boundary>());
 
 template <>
-inline const auto description<PlannedFlight> = describe<PlannedFlight>("flight",
+inline constexpr auto description<PlannedFlight> = describe<PlannedFlight>("flight",
     "The flight that the world is made for, where an exhibit has a pace.",
     needed("distance", Number{{0, 1e9, true}}, "Straight ahead from the start, scene units.", &PlannedFlight::distance),
     needed("time_s", Number{{1, 3600}}, "The visitor's time with the throttle held open, seconds.", &PlannedFlight::time_s));
 static_assert(is_complete<PlannedFlight>());
 
 template <>
-inline const auto description<SceneFile> = describe_file<SceneFile>("scene",
+inline constexpr auto description<SceneFile> = describe_file<SceneFile>("scene",
     "A world with its size and its light. Lengths are in the glTF's own units, paths start at this file's folder.",
     needed("gltf", WorldPath{}, "The world's glTF file.", &SceneFile::gltf),
     field("unit_m", Number{any_size}, "The length of one unit of the glTF, metres.", &SceneFile::unit_m),

@@ -10,7 +10,7 @@ namespace starbow {
 inline const std::vector<std::pair<std::string_view, Comparison>> comparisons{{comparison_names[0], Comparison::none},
     {comparison_names[1], Comparison::galilean}, {comparison_names[2], Comparison::no_light_delay}};
 template <>
-inline const auto description<Effects> = describe<Effects>("effects", "The effects of relativity that are shown.",
+inline constexpr auto description<Effects> = describe<Effects>("effects", "The effects of relativity that are shown.",
     field("aberration", Flag{}, "true: directions are those that the observer sees; false: the world's.",
         &Effects::aberration),
     field("doppler", Flag{}, "true: colours are shifted; false: they are as at rest.", &Effects::doppler),
@@ -40,7 +40,7 @@ struct Velocity {
     Json schema(Json& definitions) const { return velocity_schema(definitions); }
 };
 template <>
-inline const auto description<Shot> = describe_file<Shot>("shot",
+inline constexpr auto description<Shot> = describe_file<Shot>("shot",
     "One frozen instant: a place, a time and a velocity in a scene. Lengths are in the scene's units, times in units / c.",
     needed("scene", Text{}, "The world: a scene's name, or the path of its file.", &Shot::scene),
     field("time", Number{{-farthest, farthest}}, "The world's time, scene units / c.", &Shot::time),
@@ -57,7 +57,7 @@ void check(const Place& place, Shot& shot, const Folder&);
 
 constexpr Range any_measured{-1e12, 1e12};
 template <>
-inline const auto description<Measure> = with_rules(
+inline constexpr auto description<Measure> = with_rules(
     describe<Measure>("measure", "A number that follows from the ship's state.",
         needed("quantity", Named{&measures},
             "The quantity. ship_s, world_s: clocks, seconds; younger_s: the time since the start by the world's clock, less "
@@ -86,7 +86,7 @@ struct GoalText {
     Json schema(Json&) const;
 };
 template <>
-inline const auto description<GoalCondition> = describe<GoalCondition>("condition",
+inline constexpr auto description<GoalCondition> = describe<GoalCondition>("condition",
     "A number of the ship's state that is at least `from` and below `below`.",
     needed("measure", Object<Measure>{}, "", &GoalCondition::measure),
     field("from", Number{any_measured}, "The least number, in the measure's unit.", &GoalCondition::from),
@@ -95,7 +95,7 @@ static_assert(is_complete<GoalCondition>());
 void check(const Place& place, const GoalCondition& condition, const Folder&);
 
 template <>
-inline const auto description<Goal> = describe<Goal>("goal", "Something for a visitor to find or to do in a world.",
+inline constexpr auto description<Goal> = describe<Goal>("goal", "Something for a visitor to find or to do in a world.",
     needed("ask", GoalText{},
         "What the visitor is asked to do: a key of the words that begins with goal., or a text by language.", &Goal::ask),
     needed("reward", GoalText{}, "What the visitor reads then: a key of the words, or a text by language.", &Goal::reward),

@@ -19,7 +19,7 @@ struct TourText {
     Json schema(Json&) const;
 };
 template <>
-inline const auto description<Choice> = describe<Choice>("choice",
+inline constexpr auto description<Choice> = describe<Choice>("choice",
     "A choice is right if the measured number is at least `from` and less than `below`.",
     needed("text", TourText{}, "Its text.", &Choice::text),
     field("from", Number{any_measured}, "The least right number, in the measure's unit.", &Choice::from),
@@ -28,7 +28,7 @@ static_assert(is_complete<Choice>());
 void check(const Place& place, const Choice& choice, const Folder&);
 
 template <>
-inline const auto description<NumberToSet> = describe<NumberToSet>("number",
+inline constexpr auto description<NumberToSet> = describe<NumberToSet>("number",
     "The visitor sets a number; it is right within the tolerance of the measured one.",
     needed("from", Number{any_measured}, "The least number, in the measure's unit.", &NumberToSet::from),
     needed("to", Number{any_measured}, "The greatest number, in the measure's unit.", &NumberToSet::to),
@@ -39,7 +39,7 @@ static_assert(is_complete<NumberToSet>());
 void check(const Place& place, const NumberToSet& number, const Folder&);
 
 template <>
-inline const auto description<PlaceToReach> = describe<PlaceToReach>("reach",
+inline constexpr auto description<PlaceToReach> = describe<PlaceToReach>("reach",
     "Beside a try: the visitor flies until the measured number is between these.",
     needed("from", Number{any_measured}, "The least number, in the measure's unit.", &PlaceToReach::from),
     needed("to", Number{any_measured}, "The greatest number, in the measure's unit.", &PlaceToReach::to));
@@ -47,7 +47,7 @@ static_assert(is_complete<PlaceToReach>());
 void check(const Place& place, const PlaceToReach& wanted, const Folder&);
 
 template <>
-inline const auto description<Question> = with_rules(
+inline constexpr auto description<Question> = with_rules(
     describe<Question>("question", "A question, and one way to answer it.",
         needed("ask", TourText{}, "The question.", &Question::ask),
         needed("explanation", TourText{}, "The explanation, shown after any answer; {measured} stands for the number.",
@@ -69,7 +69,7 @@ struct CutForm {
     Json schema(Json& definitions) const;
 };
 template <>
-inline const auto description<Glide> = describe<Glide>("glide",
+inline constexpr auto description<Glide> = describe<Glide>("glide",
     "A smooth motion from the last step's end; missing members stay.",
     field("time", Number{{-farthest, farthest}},
         "The world's time at the end, scene units / c; left out, it advances by gamma for each second of the ship's.",
@@ -89,7 +89,7 @@ struct GlideForm {
 };
 
 template <>
-inline const auto description<Thrust> = describe<Thrust>("thrust",
+inline constexpr auto description<Thrust> = describe<Thrust>("thrust",
     "Constant proper acceleration, along the nose or a direction among the ship's axes.",
     needed("rapidity_per_s", Number{{0, 1e6, true}}, "Rapidity per second of the ship's clock.", &Thrust::rapidity_per_s),
     field("towards", UnitDirection{}, "The direction among the ship's axes, [x, y, z] of any length; left out, the nose.",
@@ -97,7 +97,7 @@ inline const auto description<Thrust> = describe<Thrust>("thrust",
 static_assert(is_complete<Thrust>());
 
 template <>
-inline const auto description<Turning> = describe<Turning>("turn",
+inline constexpr auto description<Turning> = describe<Turning>("turn",
     "A straight flight while the nose turns smoothly to a view.",
     needed("look", SomeDirection{}, "The direction straight ahead, [x, y, z] of any length.", &Turning::ship_from_cockpit),
     again("up", SomeDirection{}, "The cockpit's up, [x, y, z] of any length.", &Turning::ship_from_cockpit));
@@ -105,7 +105,7 @@ static_assert(is_complete<Turning>());
 void check(const Place& place, Turning& turning, const Folder&);
 
 template <>
-inline const auto description<Try> = describe<Try>("try", "The visitor flies.",
+inline constexpr auto description<Try> = describe<Try>("try", "The visitor flies.",
     field("mode", Named{&flight_modes}, "The flight mode; left out, the exhibit's.", &Try::mode),
     field(
         "max_gamma", Number{{1.001, 1e6}}, "The Lorentz factor at full throttle, at most the exhibit's.", &Try::max_gamma));
@@ -118,7 +118,7 @@ constexpr const char* one_motion = R"({ "not": { "anyOf": [
     { "required": ["glide", "try"] }, { "required": ["thrust", "turn"] }, { "required": ["thrust", "try"] },
     { "required": ["turn", "try"] }] } })";
 template <>
-inline const auto description<Step> = with_rules(
+inline constexpr auto description<Step> = with_rules(
     describe<Step>("step", "A part of the tour, with one motion at most.",
         needed("seconds", Number{{0.1, 3600}},
             "The step's length in the visitor's time, seconds; for a question the time to answer.", &Step::seconds),
@@ -156,7 +156,7 @@ struct UsualRate {
     Json schema(Json& definitions) const;
 };
 template <>
-inline const auto description<Tour> = describe_file<Tour>("tour",
+inline constexpr auto description<Tour> = describe_file<Tour>("tour",
     "A timeline of shots, flights and questions with captions. Texts are keys of the words in config/words that begin with "
     "\"tour.\", or the texts themselves by language. Lengths are scene units, times seconds.",
     needed("scene", Text{}, "The world: a scene file, or the name of one in config/scenes.", &Tour::scene),

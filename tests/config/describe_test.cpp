@@ -26,12 +26,12 @@ struct Short {
 } // namespace describe_test
 
 template <>
-inline const auto description<describe_test::Inner> = describe<describe_test::Inner>("inner", "An object inside.",
+inline constexpr auto description<describe_test::Inner> = describe<describe_test::Inner>("inner", "An object inside.",
     field("angle_deg", Number{{-90, 90}, 0.5, "angle"}, "An angle, degrees.", &describe_test::Inner::angle_deg),
     field("count", Whole{1, 9}, "A count.", &describe_test::Inner::count));
 inline const std::vector<std::pair<std::string_view, bool>> off_and_on{{"off", false}, {"on", true}};
 template <>
-inline const auto description<describe_test::Toy> = describe_file<describe_test::Toy>("toy", "A toy.",
+inline constexpr auto description<describe_test::Toy> = describe_file<describe_test::Toy>("toy", "A toy.",
     needed("number", Number{{0, 5, true}}, "A number.", &describe_test::Toy::number),
     field("place", Numbers<3>{{-9, 9}}, "A place.", &describe_test::Toy::place),
     field("list", List{Number{{0, 1}}, 1, 3, "numbers"}, "A list.", &describe_test::Toy::list),
@@ -40,7 +40,7 @@ inline const auto description<describe_test::Toy> = describe_file<describe_test:
     field("low", Named{&off_and_on}, "A choice.", &describe_test::Toy::low),
     field("high", Flag{}, "A flag.", &describe_test::Toy::high), not_in_file(&describe_test::Toy::kept));
 template <>
-inline const auto description<describe_test::Short> = describe<describe_test::Short>(
+inline constexpr auto description<describe_test::Short> = describe<describe_test::Short>(
     "short", "", field("one", Number{{0, 1}}, "", &describe_test::Short::one));
 
 namespace describe_test {
