@@ -55,6 +55,7 @@ if(STARBOW_SANITIZE)
   # The tests' own code is checked for faults of the heap alone, and not optimized: undefined behaviour, local variables and -O1
   # took two thirds of its compilation.
   target_compile_options(starbow_test PRIVATE -O0 -fno-sanitize=undefined -fno-sanitize-address-use-after-scope)
+  target_compile_definitions(starbow_test PRIVATE STARBOW_SANITIZED) # each compiler has another name for it
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   if(STARBOW_SANITIZE)

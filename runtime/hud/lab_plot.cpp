@@ -158,6 +158,7 @@ PlotAxes plot_axes(Plot plot, const std::vector<PlotPoint>& points, const std::v
     for (const PlotPoint& point : points)
         if (point.y > 0)
             high = std::max({high, 1.1 * point.y, 1.1 / point.y});
+    high = std::min(high, 1e40); // a foreign log may hold the smallest number of all
     // As far below 1 as above: straight behind, D is 1 over what it is ahead.
     axes.y_high = high, axes.y_low = 1 / high, axes.y_ticks.clear();
     const double decades = 2 * std::log10(high);

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <map>
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(STARBOW_SANITIZED)
 // Not every compiler's package has the header with this function.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(
     void (*)(const volatile void*, std::size_t), void (*)(const volatile void*));
@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t mib = std::size_t(1) << 20;
 std::atomic<std::size_t> largest = 0; ///< largest block of memory allocated
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(STARBOW_SANITIZED)
 void note_block(const volatile void*, std::size_t size)
 {
     if (size > largest)
@@ -237,7 +237,7 @@ TEST(WarpFuzzTest, DamagedFilesLoadOrAreRefused)
         }
         std::cout << name << ": " << results[1] << " loaded, " << results[0] << " refused\n";
     }
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(STARBOW_SANITIZED)
     EXPECT_GT(largest, 0u);
     std::cout << "the largest block of memory: " << largest << " bytes\n";
 #endif

@@ -155,6 +155,10 @@ TEST(LabPlot, TheAxesHoldCurvesAndPoints)
     EXPECT_LT(long_seen.up(2.7), 1);
     EXPECT_LE(long_seen.y_ticks.size(), 11u);
     EXPECT_LE(plot_axes(Plot::length, {{0.8, 2.7e5, 0.6, 1.33, true}}, {}).y_ticks.size(), 11u);
+    for (const double y : {5e-324, 1.7e308}) {
+        const PlotAxes wide = plot_axes(Plot::doppler, {{90, y, 1, 1, true}}, {});
+        EXPECT_TRUE(std::isfinite(wide.y_high) && wide.y_low > 0 && wide.y_ticks.size() >= 5) << y;
+    }
     const std::vector<double> speeds = plot_speeds({{0, 1, 1, 0.5}, {0, 1, 1, 0.5001}, {0, 1, 1, 2}, {0, 1, 1, 3}}, 2);
     EXPECT_EQ(speeds, (std::vector<double>{3, 2}));
 }

@@ -8,7 +8,7 @@
 #include <random>
 #include <sys/resource.h>
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(STARBOW_SANITIZED)
 constexpr bool sanitized = true; // the sanitizer's shadow memory takes terabytes of address space
 #else
 constexpr bool sanitized = false;
