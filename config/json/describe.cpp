@@ -112,7 +112,7 @@ Json described::list_schema(std::size_t least, std::size_t most, Json item)
     return {{"type", "array"}, {"minItems", least}, {"maxItems", most}, {"items", std::move(item)}};
 }
 
-Json described::names_schema(const std::vector<std::string_view>& names) { return {{"enum", names}}; }
+Json described::enum_schema(const std::vector<std::string_view>& names) { return {{"enum", names}}; }
 
 void described::add_number(std::string& text, double number)
 {
@@ -160,7 +160,7 @@ glm::ivec2 WholePair::read(const Place& place, const Folder&) const
 
 Json WholePair::schema(Json& definitions) const
 {
-    return {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", Whole{low, high}.schema(definitions)}};
+    return described::list_schema(2, 2, Whole{low, high}.schema(definitions));
 }
 
 } // namespace starbow

@@ -9,15 +9,15 @@ namespace starbow {
 // A struct that a file can hold is described once: a name, a form, a meaning and its members for each value of the file. Its
 // reader, its writer and its JSON schema follow from that. A form is how one value stands in a file. It has
 //
-//     Value read(const Place&, const Folder&) const     throws InputError for a wrong value
-//     Json written(const Value&) const                  the value as the file has it; not needed for a kind that is only
-//     read Json schema(Json& definitions) const              what a JSON schema says of it, without its meaning and its
-//     usual value
+// - read(const Place&, const Folder&), which returns the value, or throws InputError for a wrong one. The form of a value
+// that
+//   sets several members has read_into(const Place&, Owner&, const Folder&) instead. The form of a value that `check` reads
+//   has neither.
+// - written(const Value&), the value as the file has it. A kind of file that is only read does not need it.
+// - schema(Json& definitions), the JSON schema of the value without its meaning and its default.
 //
-// and instead of `read` a form whose value makes several members has read_into(const Place&, Owner&, const Folder&); one
-// that `check` reads has neither. Rules between members are a function check(const Place&, const Owner&, const Folder&), and
-// `rules` for the schema. Rules of the members' presence alone may be check_members(const Place&, const Owner*), which is
-// called before values are read.
+// Rules between members are a function check(const Place&, Owner&, const Folder&), and `rules` in the schema. Rules of the
+// members' presence alone may be check_members(const Place&, const Owner*), which is called before values are read.
 
 using Json = nlohmann::ordered_json;
 /// The folder from which a file's paths start. A kind of file whose forms need more derives from it.
@@ -175,10 +175,10 @@ template <class T> consteval bool is_complete()
     return described::members<T>() == described::all_covered(static_cast<decltype(&description<T>)>(nullptr));
 }
 
-/// Of an object in some places: the member that says which alternative it is, and a member that it has not.
+/// How an object differs from its description in one place.
 struct Variation {
-    const char* tag = nullptr;
-    const char* without = nullptr;
+    const char* tag = nullptr; ///< the member that names the alternative
+    const char* without = nullptr; ///< the member that is left out
     bool lacks(const char* name) const;
 };
 
@@ -308,7 +308,7 @@ Json whole_schema(const char* name, const Json& object, const Json& definitions)
 /// A reference to a definition, which is made if it is not there yet.
 Json reference(Json& definitions, const char* name, Json (*made)(Json& definitions));
 Json list_schema(std::size_t least, std::size_t most, Json item);
-Json names_schema(const std::vector<std::string_view>& names);
+Json enum_schema(const std::vector<std::string_view>& names);
 
 } // namespace described
 
@@ -412,14 +412,15 @@ struct WholePair {
 template <class Value> struct Named {
     const std::vector<std::pair<std::string_view, Value>>* names;
     Value read(const Place& place, const Folder&) const { return chosen(place, *names); }
-    Json written(const Value& value) const
+    std::string_view name_of(const Value& value) const
     {
         for (const auto& [name, its] : *names)
             if (its == value)
                 return name;
-        return nullptr;
+        return {};
     }
-    Json schema(Json&) const { return described::names_schema(names_of(*names)); }
+    Json written(const Value& value) const { return name_of(value); }
+    Json schema(Json&) const { return described::enum_schema(names_of(*names)); }
 };
 template <class Value> Named(const std::vector<std::pair<std::string_view, Value>>*) -> Named<Value>;
 /// An object of its own.

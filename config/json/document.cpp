@@ -21,8 +21,9 @@ std::string contents(const std::filesystem::path& path, const std::string& file)
 {
     std::string ending = path.extension().string();
     std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    std::error_code error;
     for (const auto& [model, name] : models)
-        if (ending == model)
+        if (ending == model && std::filesystem::is_regular_file(path, error))
             throw InputError(file, "",
                 std::string("is ") + name + " model by its name; glTF 2.0 (.glb or .gltf) is right, and Blender exports it");
     std::string text = read_whole(path, most_bytes, "a JSON file");

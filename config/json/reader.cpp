@@ -99,6 +99,14 @@ std::size_t index_named(std::string_view name, const std::vector<std::string_vie
     return std::size_t(at - names.begin());
 }
 
+std::vector<Place> elements(const Place& array)
+{
+    std::vector<Place> places;
+    for (std::size_t i = 0; i < array.json->size(); ++i)
+        places.push_back({array.document, &(*array.json)[i], array.pointer + "/" + std::to_string(i)});
+    return places;
+}
+
 std::vector<Place> items(const Place& place, std::size_t least, std::size_t most, const std::string& what)
 {
     const std::string right = "a list of " + (least == most ? "" : std::to_string(least) + " to ") + std::to_string(most)
@@ -108,10 +116,7 @@ std::vector<Place> items(const Place& place, std::size_t least, std::size_t most
     const std::size_t count = place.json->size();
     if (count < least || count > most)
         complain(place, "has length " + std::to_string(count) + "; " + right);
-    std::vector<Place> places;
-    for (std::size_t i = 0; i < count; ++i)
-        places.push_back({place.document, &(*place.json)[i], place.pointer + "/" + std::to_string(i)});
-    return places;
+    return elements(place);
 }
 
 glm::dvec2 vec2(const Place& place, Range range)

@@ -86,7 +86,9 @@ template <class Value> Value chosen(const Place& place, const std::vector<std::p
     return choices[std::size_t(std::find(names.begin(), names.end(), name) - names.begin())].second;
 }
 
-/// The places in an array of `least` to `most` elements; `what` names them in the plural.
+/// The places of an array's elements.
+std::vector<Place> elements(const Place& array);
+/// The same of an array of `least` to `most` elements; `what` names them in the plural. Throws InputError.
 std::vector<Place> items(const Place& place, std::size_t least, std::size_t most, const std::string& what);
 
 /// Throws unless the place is an object whose members are all known.

@@ -30,7 +30,7 @@ std::vector<Event> WorldLine::read(const Place& place, const Folder&) const
 
 Json WorldLine::schema(Json& definitions) const
 {
-    return {{"type", "array"}, {"minItems", 2}, {"maxItems", most_events}, {"items", Object<Event>{}.schema(definitions)}};
+    return described::list_schema(2, most_events, Object<Event>{}.schema(definitions));
 }
 
 void check_members(const Place& place, const Body*)

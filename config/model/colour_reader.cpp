@@ -154,7 +154,7 @@ Json Table::schema(Json& definitions) const
 {
     const Json input = Number{{0, 1}}.schema(definitions);
     const Json entry{{"oneOf", {input, Numbers<3>{{0, 1}}.schema(definitions)}}};
-    const Json list{{"type", "array"}, {"minItems", 2}, {"maxItems", most_entries}, {"items", entry}};
+    const Json list = described::list_schema(2, most_entries, entry);
     return {{"oneOf", {Text{}.schema(definitions), list}}, {"examples", {"left-projector.cube", {0, 0.5, 0.73, 0.88, 1}}}};
 }
 
@@ -180,7 +180,7 @@ Json Matrix::written(const glm::dmat3& matrix) const
 
 Json Matrix::schema(Json& definitions) const
 {
-    return {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", Numbers<3>{{-100, 100}}.schema(definitions)}};
+    return described::list_schema(3, 3, Numbers<3>{{-100, 100}}.schema(definitions));
 }
 
 void check_members(const Place& place, const Colour*)

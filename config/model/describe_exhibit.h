@@ -8,24 +8,20 @@ namespace starbow {
 // Exhibit files, as config/json/describe.h says.
 
 /// The name of a shipped file, or a path from the file's folder, as paths are in all files.
-struct NameOrPath {
+struct NameOrPath : Text {
     std::string read(const Place& place, const Folder& folder) const;
-    Json written(const std::string& value) const { return value; }
-    Json schema(Json& definitions) const { return Text{}.schema(definitions); }
 };
 /// A path from the file's folder.
-struct PathFrom {
+struct PathFrom : Text {
     std::filesystem::path read(const Place& place, const Folder& folder) const
     {
         return (folder.path / text(place)).lexically_normal();
     }
-    Json schema(Json& definitions) const { return Text{}.schema(definitions); }
 };
 /// The name of a shipped file of a kind.
-struct ShippedName {
+struct ShippedName : Text {
     const char* kind;
     std::string read(const Place& place, const Folder&) const;
-    Json schema(Json& definitions) const { return Text{}.schema(definitions); }
 };
 
 template <>
@@ -118,8 +114,7 @@ inline constexpr auto description<Visiting> = describe<Visiting>("visit",
     "it "
     "everything is as at the start. Without it somebody else attends to them.",
     field("idle_s", Number{{5, 3600}},
-        "After this many seconds without a touch a visitor is asked whether somebody is there. A running tour does not "
-        "count as idle time.",
+        "Seconds without a touch until the exhibit asks for the visitor. A running tour does not count as idle time.",
         &Visiting::idle_s),
     field("ask_s", Number{{0, 300}},
         "Seconds that the question is shown, and the end of the longest visit announced; 0: neither.", &Visiting::ask_s),
@@ -161,10 +156,8 @@ inline constexpr auto description<Machines> = describe<Machines>("machines",
         &Machines::exhibit));
 static_assert(is_complete<Machines>());
 
-struct IpAddress {
+struct IpAddress : Text {
     std::string read(const Place& place, const Folder&) const;
-    Json written(const std::string& value) const { return value; }
-    Json schema(Json& definitions) const { return Text{}.schema(definitions); }
 };
 /// A name or an IP address, as a browser's address line shows it: without scheme and port, IPv6 in brackets.
 std::string read_host_name(const Place& place, const Folder&);
@@ -223,9 +216,9 @@ static_assert(is_complete<Presenting>());
 template <>
 inline constexpr auto description<Menu> = describe<Menu>("menu",
     "What visitors can choose in their menu, by the names of shipped files. Without a list, all of them.",
-    field("scenes", List{ShippedName{"scenes"}, 1, 20, "names of shipped files"}, "The worlds that visitors can choose.",
+    field("scenes", List{ShippedName{{}, "scenes"}, 1, 20, "names of shipped files"}, "The worlds that visitors can choose.",
         &Menu::scenes),
-    field("tours", List{ShippedName{"tours"}, 1, 20, "names of shipped files"}, "The tours that visitors can choose.",
+    field("tours", List{ShippedName{{}, "tours"}, 1, 20, "names of shipped files"}, "The tours that visitors can choose.",
         &Menu::tours));
 static_assert(is_complete<Menu>());
 

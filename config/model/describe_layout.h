@@ -18,9 +18,8 @@ constexpr int most_pixels_across = 16384;
 static_assert(most_pixels_across <= (1 << 28) / most_pixels_across, "an output's pixels are counted in an int");
 
 /// A path, from the layout's folder, of a file that is there.
-struct ExistingFile {
+struct ExistingFile : Text {
     std::filesystem::path read(const Place& place, const Folder& folder) const { return existing_file(place, folder.path); }
-    Json schema(Json& definitions) const { return Text{}.schema(definitions); }
 };
 
 template <>

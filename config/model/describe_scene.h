@@ -12,14 +12,12 @@ constexpr Range any_size{1e-30, 1e30};
 constexpr Range any_radiance{0, 1e6};
 
 /// A path from the scene's folder.
-struct ScenePath {
+struct ScenePath : Text {
     std::filesystem::path read(const Place& place, const Folder& folder) const { return folder.path / text(place); }
-    Json schema(Json& definitions) const { return Text{}.schema(definitions); }
 };
 /// The same of a world, whose name may be written in composed or decomposed letters.
-struct WorldPath {
+struct WorldPath : Text {
     std::filesystem::path read(const Place& place, const Folder& folder) const;
-    Json schema(Json& definitions) const { return Text{}.schema(definitions); }
 };
 /// 0, or a temperature that a black body may have here.
 struct GlowTemperature {
@@ -49,7 +47,7 @@ static_assert(is_complete<Ground>());
 
 template <>
 inline constexpr auto description<MilkyWay> = describe<MilkyWay>("milky_way",
-    "The light of the stars that are too many to be told apart: a picture of the whole sky.",
+    "The light of all unresolved stars: a picture of the whole sky.",
     needed("panorama", ScenePath{},
         "An equirectangular picture: right ascension (J2000) grows to the right from 0 at the left edge, north is up.",
         &MilkyWay::panorama),

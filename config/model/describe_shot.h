@@ -80,10 +80,12 @@ inline constexpr auto description<Measure> = with_rules(
 static_assert(is_complete<Measure>());
 void check(const Place& place, const Measure& measure, const Folder&);
 
+/// The schema of a text by language, or of a key of the words that begins with `prefix` and a dot.
+Json saying_schema(const std::string& prefix);
 /// A text of a goal: a key of the words, or the text in some languages.
 struct GoalText {
     Saying read(const Place& place, const Folder&) const;
-    Json schema(Json&) const;
+    Json schema(Json&) const { return saying_schema("goal"); }
 };
 template <>
 inline constexpr auto description<GoalCondition> = describe<GoalCondition>("condition",
@@ -96,9 +98,9 @@ void check(const Place& place, const GoalCondition& condition, const Folder&);
 
 template <>
 inline constexpr auto description<Goal> = describe<Goal>("goal", "Something for a visitor to find or to do in a world.",
-    needed("ask", GoalText{},
-        "What the visitor is asked to do: a key of the words that begins with goal., or a text by language.", &Goal::ask),
-    needed("reward", GoalText{}, "What the visitor reads then: a key of the words, or a text by language.", &Goal::reward),
+    needed("ask", GoalText{}, "The task: a key of the words that begins with goal., or a text by language.", &Goal::ask),
+    needed(
+        "reward", GoalText{}, "The text after the task is done: a key of the words, or a text by language.", &Goal::reward),
     needed("conditions", List{Object<GoalCondition>{}, 1, 5, "conditions"}, "All of them must hold for half a second.",
         &Goal::conditions));
 static_assert(is_complete<Goal>());

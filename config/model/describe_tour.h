@@ -6,7 +6,7 @@ namespace starbow {
 
 // Tours, as config/json/describe.h says.
 
-/// What a tour's forms need beside its folder.
+/// The source of a tour's texts and shots; `scene` is the scene of its named shots.
 struct TourSource : Folder {
     const Words& words;
     const FindShot& find_shot;
@@ -16,7 +16,7 @@ struct TourSource : Folder {
 /// A key of the words, or the text itself in some languages.
 struct TourText {
     std::string read(const Place& place, const Folder& source) const;
-    Json schema(Json&) const;
+    Json schema(Json&) const { return saying_schema("tour"); }
 };
 template <>
 inline constexpr auto description<Choice> = describe<Choice>("choice",
@@ -111,6 +111,8 @@ inline constexpr auto description<Try> = describe<Try>("try", "The visitor flies
         "max_gamma", Number{{1.001, 1e6}}, "The Lorentz factor at full throttle, at most the exhibit's.", &Try::max_gamma));
 static_assert(is_complete<Try>());
 
+/// Seconds of the ship's clock in each of the visitor's.
+constexpr Range ship_rate{0, 1e12};
 /// Two motions exclude each other.
 constexpr const char* one_motion = R"({ "not": { "anyOf": [
     { "required": ["cut", "glide"] }, { "required": ["cut", "thrust"] }, { "required": ["cut", "turn"] },
@@ -122,7 +124,7 @@ inline constexpr auto description<Step> = with_rules(
     describe<Step>("step", "A part of the tour, with one motion at most.",
         needed("seconds", Number{{0.1, 3600}},
             "The step's length in the visitor's time, seconds; for a question the time to answer.", &Step::seconds),
-        field("ship_s_per_s", Number{{0, 1e12}},
+        field("ship_s_per_s", Number{ship_rate},
             "Seconds of the ship's clock in each of the visitor's: slow and fast motion; 0: time stands still. "
             "Left out, the tour's.",
             &Step::ship_s_per_s),

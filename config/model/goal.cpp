@@ -1,9 +1,6 @@
 #include "describe_shot.h"
-#include "measure_reader.h"
 
 namespace starbow {
-
-Measure read_measure(const Place& place) { return read<Measure>(place); }
 
 void check(const Place& place, const Measure& measure, const Folder&)
 {
@@ -22,10 +19,12 @@ Saying GoalText::read(const Place& place, const Folder&) const
     return saying;
 }
 
-Json GoalText::schema(Json&) const
+Json saying_schema(const std::string& prefix)
 {
-    return Json::parse(R"({ "oneOf": [{ "type": "string", "pattern": "^goal\\." },
+    Json schema = Json::parse(R"({ "oneOf": [{ "type": "string" },
         { "type": "object", "minProperties": 1, "additionalProperties": { "type": "string", "minLength": 1 } }] })");
+    schema["oneOf"][0]["pattern"] = "^" + prefix + "\\.";
+    return schema;
 }
 
 void check(const Place& place, const GoalCondition& condition, const Folder&)

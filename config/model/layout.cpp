@@ -129,7 +129,7 @@ void check(const Place& place, const Output& output, const Folder&)
     if (output.preview)
         return;
     check_halves(place, output);
-    const std::vector<Place> places = items(member(place, "viewports"), 1, 64, "viewports");
+    const std::vector<Place> places = elements(member(place, "viewports"));
     for (std::size_t i = 0; i < places.size(); ++i) {
         const Viewport& viewport = output.viewports[i];
         if (const auto rect = find_member(places[i], "rect"))
@@ -185,13 +185,13 @@ void check(const Place& place, const MonitorName& monitor, const Folder&)
 
 void check(const Place& place, const Layout& layout, const Folder&)
 {
-    const std::vector<Place> outputs = items(member(place, "outputs"), 1, 64, "outputs");
+    const std::vector<Place> outputs = elements(member(place, "outputs"));
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const Output& output = layout.outputs[i];
         for (std::size_t k = 0; k < output.viewports.size(); ++k)
             if (const Viewport& viewport = output.viewports[k]; viewport.projection_given)
-                check_eye(member(items(member(outputs[i], "viewports"), 1, 64, "viewports")[k], "projection"),
-                    viewport.projection, viewport.eye_m,
+                check_eye(member(elements(member(outputs[i], "viewports"))[k], "projection"), viewport.projection,
+                    viewport.eye_m,
                     output.packing != Packing::mono || viewport.eye != Eye::middle ? layout.stereo.separation_m : 0);
         for (std::size_t k = 0; k < i; ++k)
             check_beside(outputs[i], output, layout.outputs[k], k);

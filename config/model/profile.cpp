@@ -52,9 +52,9 @@ std::string hex4(int number)
     return text.data();
 }
 
-std::string name_of(AxisRole role) { return Named{&axis_roles}.written(role).get<std::string>(); }
+std::string name_of(AxisRole role) { return std::string(Named{&axis_roles}.name_of(role)); }
 
-std::string name_of(ButtonRole role) { return Named{&button_roles}.written(role).get<std::string>(); }
+std::string name_of(ButtonRole role) { return std::string(Named{&button_roles}.name_of(role)); }
 
 Profile load_profile(const std::filesystem::path& file)
 {

@@ -1,9 +1,10 @@
 #include "describe_quality.h"
 
 namespace starbow {
+
 void check(const Place& place, const Ladder& ladder, const Folder&)
 {
-    const std::vector<Place> places = items(member(place, "levels"), 1, 100, "qualities");
+    const std::vector<Place> places = elements(member(place, "levels"));
     const Quality& first = ladder.levels[0].quality;
     for (std::size_t i = 1; i < ladder.levels.size(); ++i) {
         const PresetLevel &level = ladder.levels[i], &before = ladder.levels[i - 1];
@@ -33,13 +34,7 @@ std::vector<PresetLevel> load_ladder(const std::filesystem::path& file)
     return read<Ladder>(root(document)).levels;
 }
 
-std::string ladder_text(const std::vector<PresetLevel>& ladder)
-{
-    Json levels = Json::array();
-    for (const PresetLevel& level : ladder)
-        levels.push_back(written(level));
-    return Json{{"levels", levels}}.dump(4) + "\n";
-}
+std::string ladder_text(const std::vector<PresetLevel>& ladder) { return written(Ladder{ladder}).dump(4) + "\n"; }
 
 Layout with_stereo(Layout layout, const Quality& quality)
 {
@@ -73,8 +68,8 @@ std::string differences(const Quality& quality, const Quality& other)
     differs(q.half_floats, o.half_floats, q.half_floats ? "16 bits a number" : "32 bits a number");
     differs(q.matrices, o.matrices, q.matrices ? "flat views by matrix" : "flat views by map");
     differs(q.frames_per_cube, o.frames_per_cube, "a cube map for " + count(q.frames_per_cube, "frame", "frames"));
-    differs(q.spectra, o.spectra, "light: " + std::string(Named{&spectral_levels}.written(q.spectra)));
-    differs(q.stereo, o.stereo, "stereo: " + std::string(Named{&quality_methods}.written(q.stereo)));
+    differs(q.spectra, o.spectra, "light: " + std::string(Named{&spectral_levels}.name_of(q.spectra)));
+    differs(q.stereo, o.stereo, "stereo: " + std::string(Named{&quality_methods}.name_of(q.stereo)));
     return all;
 }
 

@@ -40,8 +40,7 @@ glm::dvec2 SkyDirection::read(const Place& place, const Folder&) const
 
 Json SkyDirection::schema(Json& definitions) const
 {
-    return {{"type", "array"}, {"minItems", 2}, {"maxItems", 2},
-        {"items", {Number{{0, 360}}.schema(definitions), Number{{-90, 90}}.schema(definitions)}}};
+    return described::list_schema(2, 2, {Number{{0, 360}}.schema(definitions), Number{{-90, 90}}.schema(definitions)});
 }
 
 void check(const Place& place, const StarSky& stars, const Folder&)
@@ -96,9 +95,9 @@ Emission SpectralTableForm::read(const Place& place, const Folder&) const
 
 Json SpectralTableForm::schema(Json& definitions) const
 {
-    const Json pair{{"type", "array"}, {"minItems", 2}, {"maxItems", 2},
-        {"items", {Number{{shortest_nm, longest_nm}}.schema(definitions), Number{{0, 1e30}}.schema(definitions)}}};
-    return {{"type", "array"}, {"minItems", least_points}, {"maxItems", most_points}, {"items", pair}};
+    return described::list_schema(least_points, most_points,
+        described::list_schema(
+            2, 2, {Number{{shortest_nm, longest_nm}}.schema(definitions), Number{{0, 1e30}}.schema(definitions)}));
 }
 
 void check_members(const Place& place, const DirectionalLight*) { check_spectra(place); }
@@ -107,14 +106,14 @@ void check_members(const Place& place, const PointLight*) { check_spectra(place)
 void check(const Place& place, const SceneFile& scene, const Folder&)
 {
     if (const auto bodies = find_member(place, "bodies")) {
-        const std::vector<Place> each = items(*bodies, 0, scene.bodies.size(), "bodies");
+        const std::vector<Place> each = elements(*bodies);
         for (std::size_t i = 0; i < each.size(); ++i)
             for (std::size_t k = 0; k < i; ++k)
                 if (scene.bodies[k].name == scene.bodies[i].name)
                     complain(member(each[i], "name"), "is the name of another body as well; one of its own is right");
     }
     if (const auto lights = find_member(place, "lights"))
-        for (const Place& light : items(*lights, 0, scene.lights.size(), "lights"))
+        for (const Place& light : elements(*lights))
             if (const auto body = find_member(light, "body"))
                 if (std::none_of(
                         scene.bodies.begin(), scene.bodies.end(), [&](const Body& one) { return one.name == text(*body); }))

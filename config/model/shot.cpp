@@ -78,10 +78,7 @@ glm::dquat read_orientation(const Place& place)
 
 Effects read_effects(const Place& place) { return read<Effects>(place); }
 
-Json UnitDirection::schema(Json&) const
-{
-    return {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", {{"type", "number"}}}};
-}
+Json UnitDirection::schema(Json&) const { return described::list_schema(3, 3, {{"type", "number"}}); }
 
 glm::dvec3 read_velocity(const Place& place)
 {

@@ -1,10 +1,8 @@
 #include "describe_tour.h"
-#include "measure_reader.h"
 
 namespace starbow {
 namespace {
 
-constexpr Range any_rate{0, 1e12};
 constexpr const char* motions[]{"cut", "glide", "thrust", "turn", "try"};
 
 const TourSource& of_tour(const Folder& source) { return static_cast<const TourSource&>(source); }
@@ -33,12 +31,6 @@ std::string TourText::read(const Place& place, const Folder& source) const
             "is not a text in " + words.file.filename().string()
                 + "; a key there that begins with \"tour.\", or { \"en\": \"...\" } is right");
     return said(saying, words);
-}
-
-Json TourText::schema(Json&) const
-{
-    return Json::parse(R"({ "oneOf": [{ "type": "string", "pattern": "^tour\\." },
-        { "type": "object", "minProperties": 1, "additionalProperties": { "type": "string", "minLength": 1 } }] })");
 }
 
 void check(const Place& place, const Choice& choice, const Folder&)
@@ -138,7 +130,7 @@ void check(const Place& place, const Step& step, const Folder&)
 
 Json UsualRate::schema(Json& definitions) const
 {
-    Json schema = Number{any_rate}.schema(definitions);
+    Json schema = Number{ship_rate}.schema(definitions);
     schema["default"] = 1;
     return schema;
 }
@@ -146,8 +138,8 @@ Json UsualRate::schema(Json& definitions) const
 void check(const Place& place, Tour& tour, const Folder&)
 {
     double rate = 1;
-    take(place, "ship_s_per_s", rate, any_rate);
-    const std::vector<Place> steps = items(member(place, "steps"), 1, 1000, "steps");
+    take(place, "ship_s_per_s", rate, ship_rate);
+    const std::vector<Place> steps = elements(member(place, "steps"));
     for (std::size_t i = 0; i < steps.size(); ++i)
         if (!find_member(steps[i], "ship_s_per_s"))
             tour.steps[i].ship_s_per_s = rate;

@@ -26,7 +26,7 @@ public:
     /// The first triangle along a ray; nullopt within `far`: none. Places are the world frame's, `way` is a unit vector.
     std::optional<Hit> first(const glm::dvec3& from, const glm::dvec3& way, double far) const;
     static constexpr int bundle = 8;
-    /// As many places or unit vectors as a bundle has rays, by coordinates.
+    /// The places or the unit vectors of a bundle's rays, by coordinates.
     struct Vectors {
         std::array<float, bundle> x, y, z;
         void set(std::size_t ray, const glm::dvec3& value)

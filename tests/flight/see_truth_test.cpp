@@ -848,7 +848,7 @@ TEST(SeeTruth, EveryStatementIsThatOfTheStep)
 TEST(SeeTruth, NoStillThingHidesWhatADescriptionNames)
 {
     const nlohmann::json english = words_file("en");
-    std::size_t worlds = 0, asked = 0;
+    std::size_t worlds = 0, looks = 0;
     for (const std::filesystem::path& file : shipped("config/tours")) {
         const Tour tour = load_tour(
             file, words(), [](const std::string& name) { return source_dir() / "config/shots" / (name + ".json"); });
@@ -869,7 +869,7 @@ TEST(SeeTruth, NoStillThingHidesWhatADescriptionNames)
                 = hit && f.away(place) < 1e6 && hit->distance < f.away(place) - std::max(0.25 * f.away(place), 0.7);
             auto& [misses, all]
                 = places[std::to_string(place.x) + " " + std::to_string(place.y) + " " + std::to_string(place.z)];
-            ++all, ++asked, misses += hidden;
+            ++all, ++looks, misses += hidden;
         };
         for (const auto& [key, spoken] : spoken_of(file, english))
             for (const Statement& statement : descriptions().at(key).statements) {
@@ -885,8 +885,8 @@ TEST(SeeTruth, NoStillThingHidesWhatADescriptionNames)
         Frame::when_seen = {};
     }
     EXPECT_GE(worlds, 5u);
-    EXPECT_GT(asked, 1000u);
-    std::printf("  %zu looks in %zu worlds\n", asked, worlds);
+    EXPECT_GT(looks, 1000u);
+    std::printf("  %zu looks in %zu worlds\n", looks, worlds);
 }
 
 } // namespace see_truth_test
