@@ -11,6 +11,9 @@ int sign(double x) { return (x > 0) - (x < 0); }
 /// Sums of frames' times that should be whole seconds may lack a bit.
 constexpr double rounding_s = 1e-9;
 
+constexpr Switches toggles = switches_where([](const SwitchEntry& one) { return one.leap == Leap::toggle; });
+constexpr Switches leaps = switches_where([](const SwitchEntry& one) { return one.leap != Leap::none; });
+
 } // namespace
 
 SlowTurns followed(SlowTurns now, double wanted, double dt_s, double per_s, double band)
@@ -53,21 +56,15 @@ void CalmHands::hold_leaps(Controls& controls, bool by_steps)
     constexpr double nearly_at_rest = 0.5; // a ship that turns by steps rests there
     const bool steps = by_steps && glm::length(controls.turn) > nearly_at_rest;
     bool any = steps;
-    for (const auto& [name, pressed, leap] : all_switches) {
-        if (leap == Leap::none)
-            continue;
-        bool& waits = waiting_.*pressed;
-        waits = leap == Leap::toggle ? waits != controls.*pressed : waits || controls.*pressed;
-        any |= waits;
-    }
+    Switches& waiting = waiting_;
+    waiting = ((waiting ^ controls) & toggles) | ((waiting | controls) & (leaps - toggles));
+    any |= waiting.any();
     for (const auto step : all_steps) {
         waiting_.*step += controls.*step;
         any |= waiting_.*step != 0;
     }
     const bool lets = any && since_leap_s_ >= calm_every_s - rounding_s;
-    for (const auto& [name, pressed, leap] : all_switches)
-        if (leap != Leap::none)
-            controls.*pressed = lets && std::exchange(waiting_.*pressed, false);
+    static_cast<Switches&>(controls) = (controls - leaps) | (lets ? std::exchange(waiting, {}) : Switches());
     for (const auto step : all_steps)
         controls.*step = lets ? std::exchange(waiting_.*step, 0) : 0;
     if (steps && !lets)

@@ -1,6 +1,6 @@
 #pragma once
+#include "channels.h"
 #include "config/model/flying.h"
-#include "switches.h"
 #include <optional>
 
 namespace starbow {

@@ -11,17 +11,14 @@ namespace {
 using enum CommandKind;
 using Value = CommandValue;
 
-constexpr std::array rules{CommandRule{fade, "fade", Role::docent, Value::on},
+constexpr std::array kinds{CommandRule{fade, "fade", Role::docent, Value::on},
     CommandRule{stop, "stop", Role::docent, Value::none}, CommandRule{reset, "reset", Role::docent, Value::none},
     CommandRule{tour, "tour", Role::docent, Value::name}, CommandRule{next, "next", Role::docent, Value::none},
     CommandRule{back, "back", Role::docent, Value::none}, CommandRule{pause, "pause", Role::docent, Value::on},
     CommandRule{scene, "scene", Role::docent, Value::name}, CommandRule{shot, "shot", Role::docent, Value::name},
     CommandRule{speed_limit, "speed-limit", Role::docent, Value::number, {1, 1e6, true}},
     CommandRule{exposure, "exposure", Role::docent, Value::number, {-most_exposure_ev, most_exposure_ev}},
-    CommandRule{range, "range", Role::docent, Value::on}, CommandRule{aberration, "aberration", Role::docent, Value::on},
-    CommandRule{doppler, "doppler", Role::docent, Value::on}, CommandRule{headlight, "headlight", Role::docent, Value::on},
-    CommandRule{false_colours, "false-colours", Role::docent, Value::on},
-    CommandRule{slow_motion, "slow-motion", Role::docent, Value::on},
+    CommandRule{range, "range", Role::docent, Value::on}, CommandRule{slow_motion, "slow-motion", Role::docent, Value::on},
     CommandRule{one_button, "one-button", Role::docent, Value::on},
     CommandRule{left_handed, "left-handed", Role::docent, Value::on},
     CommandRule{comparison, "comparison", Role::docent, Value::name},
@@ -35,10 +32,10 @@ constexpr std::array rules{CommandRule{fade, "fade", Role::docent, Value::on},
 
 constexpr bool in_order()
 {
-    for (std::size_t i = 0; i < rules.size(); ++i)
-        if (std::size_t(rules[i].kind) != i)
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+        if (std::size_t(kinds[i].kind) != i)
             return false;
-    return rules.size() == std::size_t(restart) + 1;
+    return kinds.size() == std::size_t(effect);
 }
 static_assert(in_order());
 
@@ -96,13 +93,30 @@ bool is_name(std::string_view text)
 
 } // namespace
 
-std::span<const CommandRule> command_rules() { return rules; }
-const CommandRule& rule_of(CommandKind kind) { return rules[std::size_t(kind)]; }
+std::span<const CommandRule> command_rules()
+{
+    static const std::vector<CommandRule> all = [] {
+        static std::array<std::string, all_effects.size()> names;
+        std::vector<CommandRule> rules(kinds.begin(), kinds.end());
+        for (const EffectEntry& one : all_effects) {
+            std::string& name = names[std::size_t(one.which)] = dashed(one.name);
+            rules.push_back({.kind = effect, .name = name, .role = Role::docent, .value = Value::on, .effect = one.which});
+        }
+        return rules;
+    }();
+    return all;
+}
+
+const CommandRule& rule_of(const Command& command)
+{
+    return command_rules()[std::size_t(command.kind) + (command.kind == effect ? std::size_t(command.effect) : 0)];
+}
 
 Command command_of(std::span<const std::string> words)
 {
     if (words.empty())
         throw InputError("a command has no name; a name such as stop is right");
+    const std::span<const CommandRule> rules = command_rules();
     const auto rule = std::ranges::find(rules, words[0], &CommandRule::name);
     if (rule == rules.end()) {
         std::string all;
@@ -112,7 +126,7 @@ Command command_of(std::span<const std::string> words)
     }
     if (words.size() != (rule->value == Value::none ? 1 : 2))
         refuse(*rule, "has " + std::to_string(words.size() - 1) + " values");
-    Command command{.kind = rule->kind};
+    Command command{.kind = rule->kind, .effect = rule->effect};
     const std::string value = words.size() > 1 ? words[1] : "";
     switch (rule->value) {
     case Value::none:
@@ -146,7 +160,7 @@ Command command_of(std::span<const std::string> words)
 
 std::vector<std::string> words_of(const Command& command)
 {
-    const CommandRule& rule = rule_of(command.kind);
+    const CommandRule& rule = rule_of(command);
     std::vector<std::string> words{std::string(rule.name)};
     switch (rule.value) {
     case Value::none:

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/model/effects.h"
 #include <cstdint>
 #include <span>
 #include <string>
@@ -23,10 +24,6 @@ enum class CommandKind : std::uint8_t {
     speed_limit, ///< number: greatest gamma
     exposure, ///< number: EV, added to whatever is shown
     range, ///< on: everything visible at once; off: one exposure
-    aberration,
-    doppler,
-    headlight,
-    false_colours,
     slow_motion, ///< on: the time on board at a quarter
     one_button, ///< on: the visitor flies with one button
     left_handed, ///< on: keyboard and sticks for a left-handed visitor
@@ -41,6 +38,7 @@ enum class CommandKind : std::uint8_t {
     quality,
     unlock, ///< a builder's keys, for ten minutes
     restart, ///< ends the exhibit, so that the service manager starts it anew
+    effect, ///< on: it is shown; one command for each effect, with its name
 };
 
 /// The one value that a command has, or none.
@@ -52,18 +50,18 @@ struct CommandRange {
     bool above = false; ///< the least one itself is none of them
 };
 
-/// A kind's name on the wire, on the command line and in records, the least role that may give it, and its value.
+/// A command's name on the wire, on the command line and in records, the least role that may give it, and its value.
 struct CommandRule {
     CommandKind kind;
     std::string_view name;
     Role role;
     CommandValue value;
     CommandRange range{0, 0}; ///< of a number
+    Effect effect{}; ///< of the kind `effect`
 };
 
-/// All kinds, in the order of CommandKind.
+/// All commands: one of each kind in the order of CommandKind, and as the last ones one for each effect.
 std::span<const CommandRule> command_rules();
-const CommandRule& rule_of(CommandKind kind);
 
 /// A command to the running exhibit, from a remote, OSC, `starbow tell`, the visitors' menu or the guide's window.
 struct Command {
@@ -71,9 +69,12 @@ struct Command {
     bool on = false;
     double number = 0;
     std::string text{}; ///< a name, or a caption
+    Effect effect{}; ///< of the kind `effect`
 
     bool operator==(const Command&) const = default;
 };
+
+const CommandRule& rule_of(const Command& command);
 
 /// Greatest change of the exposure by a command, EV: a thousand times the light, or a thousandth.
 constexpr double most_exposure_ev = 10;

@@ -4,25 +4,13 @@ namespace starbow {
 
 bool apply(Effects& effects, const Command& command)
 {
-    switch (command.kind) {
-    case CommandKind::aberration:
-        effects.aberration = command.on;
-        return true;
-    case CommandKind::doppler:
-        effects.doppler = command.on;
-        return true;
-    case CommandKind::headlight:
-        effects.headlight = command.on;
-        return true;
-    case CommandKind::false_colours:
-        effects.false_colours = command.on;
-        return true;
-    case CommandKind::comparison:
+    if (command.kind == CommandKind::effect)
+        effects.on.set(command.effect, command.on);
+    else if (command.kind == CommandKind::comparison)
         effects.comparison = comparison_named(command.text);
-        return true;
-    default:
+    else
         return false;
-    }
+    return true;
 }
 
 ExhibitState after(ExhibitState state, const Command& command)

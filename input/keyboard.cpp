@@ -11,6 +11,15 @@ namespace {
 
 constexpr double look_rad_per_pixel = 0.003;
 
+static_assert(keys::space == GLFW_KEY_SPACE && keys::escape == GLFW_KEY_ESCAPE && keys::enter == GLFW_KEY_ENTER
+    && keys::tab == GLFW_KEY_TAB && keys::backspace == GLFW_KEY_BACKSPACE && keys::f1 == GLFW_KEY_F1
+    && keys::f2 == GLFW_KEY_F2 && keys::f5 == GLFW_KEY_F5 && keys::f11 == GLFW_KEY_F11 && 'A' == GLFW_KEY_A
+    && '0' == GLFW_KEY_0);
+
+constexpr std::array pad_names{
+    "A", "B", "X", "Y", "left bumper", "right bumper", "back", "start", "guide", "left stick", "right stick"};
+static_assert(pad_names.size() == std::size_t(PadButton::right_stick) + 1);
+
 bool is_read_elsewhere(int joystick, const std::vector<UsbId>& read_elsewhere)
 {
     const char* guid = glfwGetJoystickGUID(joystick);
@@ -20,36 +29,38 @@ bool is_read_elsewhere(int joystick, const std::vector<UsbId>& read_elsewhere)
 
 } // namespace
 
-const char* keyboard_help()
+std::string key_text(int key)
 {
-    return "W, S            faster, slower: equal steps of rapidity (Shift: four times as fast)\n"
-           "arrows, A, D    turn the ship; Q, E roll it\n"
-           "mouse drag      look around; C looks ahead again\n"
-           "Space           stop at once, relative to the world\n"
-           "R               fly back to the start; Backspace ten seconds back\n"
-           "P               freeze the world, to look around in it; P again: go on\n"
-           "left-handed     W, S, A, D turn the ship; up, down: faster, slower; pads: their two sides change places\n"
-           "one button      any key chooses what the display shows, which acts while the key is held\n"
-           "M               the next mode of flight: guided, free, newtonian\n"
-           "1, 2, 3         aberration, Doppler effect, headlight effect on and off\n"
-           "4               for guides: infrared and ultraviolet in false colours, on and off\n"
-           "5               to compare: velocities that simply add, no light delay, and back to what is seen\n"
-           "+, -            brighter, darker; L locks the automatic exposure, or releases it\n"
-           "V               everything visible at once, with brightness compressed, on and off\n"
-           "O               instruments: crosshair, grid, ring of D = 1, distance, time of emission, off\n"
-           "X, K            mark what is at the crosshair (the first thing, the second); write a line of the log\n"
-           "G               plots of the log against theory: D, length, clock, off\n"
-           "F1              why? the next page, with the formula and its numbers\n"
-           "H, I            head-up display on and off; the next one: for visitors, guides, the laboratory\n"
-           "N               beside the picture: the same instant at rest, or with one effect alone, or none\n"
-           "F11, Esc        full screen; leave\n"
-           "F2              for builders: the next test pattern\n"
-           "F3, Page Up/Dn  choose a tilt, rotation, turn or blend of the layout; turn it (Shift: ten times as far)\n"
-           "F5              save those changes in the layout's file\n"
-           "gamepad         triggers: slower, faster; left stick: turn; right stick: look; A stop; B fly back to the "
-           "start;\n"
-           "                X, Y, right bumper: the effects; left bumper: look ahead;\n"
-           "                start: instruments; right stick pressed: mark";
+    constexpr std::pair<int, const char*> names[]{{keys::space, "Space"}, {keys::escape, "Esc"}, {keys::enter, "Enter"},
+        {keys::tab, "Tab"}, {keys::backspace, "Backspace"}};
+    for (const auto& [number, name] : names)
+        if (number == key)
+            return name;
+    return key >= keys::f1 ? "F" + std::to_string(key - keys::f1 + 1) : std::string(1, char(key));
+}
+
+std::string keyboard_help()
+{
+    const auto line = [](std::string key, std::string_view does) {
+        key.resize(std::max<std::size_t>(key.size() + 1, 16), ' ');
+        return key.append(does).append("\n");
+    };
+    std::string help = line("W, S", "faster, slower: equal steps of rapidity (Shift: four times as fast)")
+        + line("arrows, A, D", "turn the ship; Q, E roll it") + line("mouse drag", "look around")
+        + line("+, -", "brighter, darker")
+        + line("left-handed", "W, S, A, D turn the ship; up, down: faster, slower; pads: their two sides change places")
+        + line("one button", "any key chooses what the display shows, which acts while the key is held");
+    for (const SwitchEntry& one : all_switches)
+        if (one.keys[0] != keys::none)
+            help += line(key_text(one.keys[0]) + (one.keys[1] != keys::none ? ", " + key_text(one.keys[1]) : ""), one.help);
+    help += line("F3, Page Up/Dn",
+                "for builders: choose a tilt, rotation, turn or blend of the layout; turn it (Shift: ten times as far)")
+        + line("gamepad", "triggers: slower, faster; left stick: turn; right stick: look; cross up, down: brighter, darker");
+    for (const SwitchEntry& one : all_switches)
+        if (one.pad != PadButton::none)
+            help += line(std::string("  ") + pad_names[std::size_t(one.pad)], one.help);
+    help.pop_back();
+    return help;
 }
 
 bool Keyboard::typed(std::string_view code)
@@ -135,36 +146,12 @@ void Keyboard::finish(Controls& controls, bool left_handed)
     controls.look_rad = look_rad_per_pixel * drag_; // the pointer drags the world: dragging right looks left
     controls.exposure = std::max(double(down(GLFW_KEY_EQUAL)), double(down(GLFW_KEY_KP_ADD)))
         - std::max(double(down(GLFW_KEY_MINUS)), double(down(GLFW_KEY_KP_SUBTRACT)));
-    controls.look_ahead = pressed(GLFW_KEY_C);
-    controls.stop = pressed(GLFW_KEY_SPACE);
-    controls.home = pressed(GLFW_KEY_R);
-    controls.undo = pressed(GLFW_KEY_BACKSPACE);
-    controls.next_mode = pressed(GLFW_KEY_M);
-    controls.freeze = pressed(GLFW_KEY_P);
-    controls.menu = pressed(GLFW_KEY_TAB) || pressed(GLFW_KEY_ENTER);
-    controls.slow_motion = pressed(GLFW_KEY_T);
-    controls.aberration = pressed(GLFW_KEY_1);
-    controls.doppler = pressed(GLFW_KEY_2);
-    controls.headlight = pressed(GLFW_KEY_3);
-    controls.lock_exposure = pressed(GLFW_KEY_L);
-    controls.range = pressed(GLFW_KEY_V);
-    controls.false_colours = pressed(GLFW_KEY_4);
-    controls.comparison = pressed(GLFW_KEY_5);
-    controls.overlay = pressed(GLFW_KEY_O);
-    controls.mark = pressed(GLFW_KEY_X);
-    controls.log = pressed(GLFW_KEY_K);
-    controls.why = pressed(GLFW_KEY_F1);
-    controls.plot = pressed(GLFW_KEY_G);
-    controls.hud = pressed(GLFW_KEY_H);
-    controls.information = pressed(GLFW_KEY_I);
-    controls.beside = pressed(GLFW_KEY_N);
-    controls.full_screen = pressed(GLFW_KEY_F11);
-    controls.quit = pressed(GLFW_KEY_ESCAPE);
+    for (const SwitchEntry& one : all_switches)
+        for (const int key : one.keys)
+            controls.set(one.which, controls[one.which] || (key != keys::none && pressed(key)));
     const bool shift = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
-    controls.pattern = pressed(GLFW_KEY_F2);
     controls.choose = pressed(GLFW_KEY_F3) ? (shift ? -1 : 1) : 0;
     controls.turn_by = (shift ? 10 : 1) * (pressed(GLFW_KEY_PAGE_UP) - pressed(GLFW_KEY_PAGE_DOWN));
-    controls.save = pressed(GLFW_KEY_F5);
     for (std::uint8_t& presses : presses_) {
         controls.pressed |= presses > 0;
         presses -= presses > 0;

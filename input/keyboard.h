@@ -66,7 +66,9 @@ private:
     bool held_ = false, was_held_ = false; ///< the mouse button, now and at the reading before
 };
 
-/// A line for people on each key and button.
-const char* keyboard_help();
+/// A key as people read it: C, F1, Tab.
+std::string key_text(int key);
+/// A line for people on each key and each button of a gamepad.
+std::string keyboard_help();
 
 } // namespace starbow

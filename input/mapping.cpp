@@ -55,39 +55,30 @@ void add_role(AxisRole role, double value, double dt_s, Controls& controls)
 
 constexpr std::size_t most_waiting = 255; ///< presses of one button or hat
 
-/// The switches of buttons. A frame's switch holds one press, so that a second one waits for the next frame.
-constexpr std::pair<ButtonRole, bool Controls::*> switches[] = {{ButtonRole::stop, &Controls::stop},
-    {ButtonRole::home, &Controls::home}, {ButtonRole::undo, &Controls::undo}, {ButtonRole::next_mode, &Controls::next_mode},
-    {ButtonRole::freeze, &Controls::freeze}, {ButtonRole::menu, &Controls::menu},
-    {ButtonRole::slow_motion, &Controls::slow_motion}, {ButtonRole::look_ahead, &Controls::look_ahead},
-    {ButtonRole::aberration, &Controls::aberration}, {ButtonRole::doppler, &Controls::doppler},
-    {ButtonRole::headlight, &Controls::headlight}, {ButtonRole::false_colours, &Controls::false_colours},
-    {ButtonRole::comparison, &Controls::comparison}, {ButtonRole::range, &Controls::range},
-    {ButtonRole::hud, &Controls::hud}, {ButtonRole::overlay, &Controls::overlay}, {ButtonRole::mark, &Controls::mark},
-    {ButtonRole::log, &Controls::log}, {ButtonRole::why, &Controls::why}, {ButtonRole::information, &Controls::information},
-    {ButtonRole::beside, &Controls::beside}, {ButtonRole::plot, &Controls::plot}};
-/// The rate of a button while it is held.
+/// The rate of a button while it is held, in the order of HeldRole.
 struct Held {
-    ButtonRole role;
     double Controls::*value;
     double by;
 };
 constexpr Held held[]
-    = {{ButtonRole::faster, &Controls::throttle_rate, 1}, {ButtonRole::slower, &Controls::throttle_rate, -1},
-        {ButtonRole::brighter, &Controls::exposure, 1}, {ButtonRole::darker, &Controls::exposure, -1}};
+    = {{&Controls::throttle_rate, 1}, {&Controls::throttle_rate, -1}, {&Controls::exposure, 1}, {&Controls::exposure, -1}};
+static_assert(std::size(held) == std::size_t(HeldRole::darker) + 1);
 
-/// waiting: the button's presses; it loses the one that the controls take.
-void press(ButtonRole role, std::size_t& waiting, bool down, Controls& controls)
+/// waiting: the button's presses; it loses the one that the controls take. A frame's switch holds one press, so that a
+/// second one waits for the next frame.
+void press(const ButtonRole& role, std::size_t& waiting, bool down, Controls& controls)
 {
     const bool pressed = waiting > 0;
-    for (const auto& [which, flag] : switches)
-        if (which == role && pressed && !(controls.*flag))
-            controls.*flag = true, --waiting;
-    for (const Held& one : held)
-        if (one.role == role && (down || pressed)) {
+    if (const auto* which = std::get_if<Switch>(&role)) {
+        if (pressed && !controls[*which])
+            controls.set(*which), --waiting;
+    } else if (const auto* which_held = std::get_if<HeldRole>(&role)) {
+        const Held& one = held[std::size_t(*which_held)];
+        if (down || pressed) {
             controls.*one.value += one.by;
             waiting -= pressed;
         }
+    }
 }
 
 bool is_hat(const Field& field) { return field.usage == Usage{desktop, hat_switch}; }
@@ -228,7 +219,7 @@ Profile usual_profile(const Descriptor& descriptor)
         use(desktop, axis_rx, AxisRole::nose_up);
         use(desktop, axis_rz, AxisRole::nose_right);
         use(desktop, axis_ry, AxisRole::roll_right, true);
-        profile.buttons = {{1, ButtonRole::stop}, {2, ButtonRole::home}};
+        profile.buttons = {{1, Switch::stop}, {2, Switch::home}};
         return profile;
     }
     // HID counts an axis' values from the left and from the far end, so forward is less.
@@ -245,9 +236,8 @@ Profile usual_profile(const Descriptor& descriptor)
             use(desktop, axis_ry, AxisRole::faster);
             use(desktop, axis_rx, AxisRole::slower);
         }
-        profile.buttons
-            = {{1, ButtonRole::stop}, {2, ButtonRole::home}, {3, ButtonRole::doppler}, {4, ButtonRole::headlight},
-                {5, ButtonRole::look_ahead}, {6, ButtonRole::aberration}, {9, ButtonRole::hud}, {10, ButtonRole::next_mode}};
+        profile.buttons = {{1, Switch::stop}, {2, Switch::home}, {3, Switch::doppler}, {4, Switch::headlight},
+            {5, Switch::look_ahead}, {6, Switch::aberration}, {9, Switch::hud}, {10, Switch::next_mode}};
         profile.mirrored_buttons = {{5, 6}};
         profile.hat.y = AxisRole::faster;
         return profile;
@@ -265,9 +255,8 @@ Profile usual_profile(const Descriptor& descriptor)
         use(desktop, axis_z, AxisRole::throttle, true);
     else
         use(desktop, dial, AxisRole::throttle, true);
-    profile.buttons = {{1, ButtonRole::stop}, {2, ButtonRole::home}, {3, ButtonRole::undo}, {4, ButtonRole::doppler},
-        {5, ButtonRole::headlight}, {6, ButtonRole::aberration}, {7, ButtonRole::hud}, {8, ButtonRole::next_mode},
-        {9, ButtonRole::menu}};
+    profile.buttons = {{1, Switch::stop}, {2, Switch::home}, {3, Switch::undo}, {4, Switch::doppler}, {5, Switch::headlight},
+        {6, Switch::aberration}, {7, Switch::hud}, {8, Switch::next_mode}, {9, Switch::menu}};
     profile.hat.x = AxisRole::look_right, profile.hat.y = AxisRole::look_up;
     return profile;
 }
@@ -327,9 +316,9 @@ InputCapabilities Mapping::capabilities() const
         capabilities.trigger |= axis.use.role == AxisRole::faster;
     }
     for (const Button& button : buttons_)
-        for (const auto& [role, number] : {std::pair(ButtonRole::stop, &capabilities.stop_button),
-                 {ButtonRole::home, &capabilities.home_button}, {ButtonRole::undo, &capabilities.undo_button}})
-            if (button.role == role && *number == 0)
+        for (const auto& [role, number] : {std::pair(Switch::stop, &capabilities.stop_button),
+                 {Switch::home, &capabilities.home_button}, {Switch::undo, &capabilities.undo_button}})
+            if (button.role == ButtonRole(role) && *number == 0)
                 *number = descriptor_.fields[button.field].usage.id;
     return capabilities;
 }

@@ -10,6 +10,12 @@
 namespace starbow {
 
 static_assert(sizeof GLFWgamepadstate::buttons == 15 && sizeof GLFWgamepadstate::axes == 6 * sizeof(float));
+static_assert(int(PadButton::a) == GLFW_GAMEPAD_BUTTON_A && int(PadButton::b) == GLFW_GAMEPAD_BUTTON_B
+    && int(PadButton::x) == GLFW_GAMEPAD_BUTTON_X && int(PadButton::y) == GLFW_GAMEPAD_BUTTON_Y
+    && int(PadButton::left_bumper) == GLFW_GAMEPAD_BUTTON_LEFT_BUMPER
+    && int(PadButton::right_bumper) == GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER && int(PadButton::back) == GLFW_GAMEPAD_BUTTON_BACK
+    && int(PadButton::start) == GLFW_GAMEPAD_BUTTON_START && int(PadButton::left_stick) == GLFW_GAMEPAD_BUTTON_LEFT_THUMB
+    && int(PadButton::right_stick) == GLFW_GAMEPAD_BUTTON_RIGHT_THUMB);
 static_assert(GLFW_JOYSTICK_LAST == 15 && GLFW_GAMEPAD_BUTTON_LAST == 14);
 
 namespace {
@@ -99,18 +105,16 @@ void PadButtons::take(std::size_t joystick, const GLFWgamepadstate* state)
 
 void PadButtons::add(Controls& controls)
 {
-    constexpr std::pair<std::size_t, bool Controls::*> switches[]
-        = {{GLFW_GAMEPAD_BUTTON_A, &Controls::stop}, {GLFW_GAMEPAD_BUTTON_B, &Controls::home},
-            {GLFW_GAMEPAD_BUTTON_LEFT_THUMB, &Controls::undo}, {GLFW_GAMEPAD_BUTTON_X, &Controls::aberration},
-            {GLFW_GAMEPAD_BUTTON_Y, &Controls::doppler}, {GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER, &Controls::headlight},
-            {GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, &Controls::look_ahead}, {GLFW_GAMEPAD_BUTTON_RIGHT_THUMB, &Controls::mark},
-            {GLFW_GAMEPAD_BUTTON_START, &Controls::overlay}, {GLFW_GAMEPAD_BUTTON_BACK, &Controls::hud}};
     controls.pressed |= std::exchange(pressed_, false);
     for (const auto& pad : down_)
         controls.held |= std::ranges::find(pad, true) != pad.end();
-    for (const auto& [button, flag] : switches)
-        if (waiting_[button] > 0 && !(controls.*flag))
-            controls.*flag = true, --waiting_[button];
+    for (const SwitchEntry& one : all_switches) {
+        if (one.pad == PadButton::none || controls[one.which])
+            continue;
+        auto& waiting = waiting_[std::size_t(one.pad)];
+        controls.set(one.which, waiting > 0);
+        waiting -= waiting > 0;
+    }
 }
 
 } // namespace starbow

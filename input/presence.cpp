@@ -1,6 +1,5 @@
 #include "presence.h"
 #include "rates.h"
-#include "switches.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,12 +7,7 @@
 namespace starbow {
 namespace {
 
-bool any_switch(const Controls& c)
-{
-    // A docent takes the stick, and not a visitor.
-    const auto on = [&](const SwitchEntry& one) { return c.*one.pressed && one.pressed != &Controls::taken; };
-    return c.pressed || c.choose != 0 || c.turn_by != 0 || std::ranges::any_of(all_switches, on);
-}
+bool any_switch(const Controls& c) { return c.pressed || c.choose != 0 || c.turn_by != 0 || c.any(); }
 
 bool moved(const Head& head, const Head& from)
 {

@@ -40,7 +40,7 @@ Steering rates_of(ScanChoice choice)
 
 } // namespace
 
-Steering advance(Scan& scan, const OneButton& rules, AnyButton button, std::int64_t dt_ns)
+ScannedHands advance(Scan& scan, const OneButton& rules, AnyButton button, std::int64_t dt_ns)
 {
     if (scan.page > 0) // the menu is closed: from the first choice on
         scan = {};
@@ -57,31 +57,31 @@ Steering advance(Scan& scan, const OneButton& rules, AnyButton button, std::int6
         scan.shown_ns -= nanoseconds(rules.scan_s);
         scan.choice = (scan.choice + 1) % scan_choices;
     }
-    Steering steering = scan.acts ? rates_of(choice) : Steering();
-    steering.stop = takes && choice == ScanChoice::stop;
-    steering.home = takes && choice == ScanChoice::home;
-    steering.menu = takes && choice == ScanChoice::menu;
-    return steering;
+    ScannedHands hands{scan.acts ? rates_of(choice) : Steering(), {}};
+    hands.set(Switch::stop, takes && choice == ScanChoice::stop);
+    hands.set(Switch::home, takes && choice == ScanChoice::home);
+    hands.set(Switch::menu, takes && choice == ScanChoice::menu);
+    return hands;
 }
 
-Steering advance_in_menu(
+ScannedHands advance_in_menu(
     Scan& scan, const OneButton& rules, AnyButton button, std::size_t page, std::size_t items, std::int64_t dt_ns)
 {
     if (std::exchange(scan.page, page + 1) != page + 1)
         scan.shown_ns = 0, scan.passed = 0;
     scan.acts = false;
-    Steering steering;
+    ScannedHands hands;
     if (button.pressed) {
-        steering.stop = true;
+        hands.set(Switch::stop);
         scan.shown_ns = 0, scan.passed = 0;
     } else if ((scan.shown_ns += dt_ns) >= nanoseconds(rules.scan_s)) {
         scan.shown_ns -= nanoseconds(rules.scan_s);
         if (++scan.passed < items)
-            steering.turn.y = -1;
+            hands.turn.y = -1;
         else
-            steering.home = true, scan.passed = 0;
+            hands.set(Switch::home), scan.passed = 0;
     }
-    return steering;
+    return hands;
 }
 
 double passed_part(const Scan& scan, const OneButton& rules)

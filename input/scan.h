@@ -25,16 +25,19 @@ struct Scan {
     std::size_t page = 0, passed = 0; ///< in a menu: its page, counted from 1, and the items that went by; 0: in no menu
 };
 
+/// The hands that a one button stands for.
+struct ScannedHands : Steering, Switches { };
+
 /// A button that is held longer than that, ns, acts no more: it is stuck.
 constexpr std::int64_t longest_hold_ns = 20'000'000'000;
 
 /// Advances by a frame. A press takes the shown choice: it acts while the button is held, and after a short press for act_s,
-/// or until the next press. Then the same choice is shown for its whole time again. Returns what the ship shall do.
-Steering advance(Scan& scan, const OneButton& rules, AnyButton button, std::int64_t dt_ns);
+/// or until the next press. Then the same choice is shown for its whole time again. Returns the hands that act on the ship.
+ScannedHands advance(Scan& scan, const OneButton& rules, AnyButton button, std::int64_t dt_ns);
 
 /// The same in a menu, which shows its items in turn by the returned steering: a press takes one, and after the last item
 /// the menu leads a page back. page: counted from 0. items: of the page.
-Steering advance_in_menu(
+ScannedHands advance_in_menu(
     Scan& scan, const OneButton& rules, AnyButton button, std::size_t page, std::size_t items, std::int64_t dt_ns);
 
 /// The part of the shown choice's time that has passed, 0 to 1; while it acts, the part of act_s.

@@ -1,4 +1,5 @@
 // The pages for readers: docs/README.md leads to every page, and every link leads to a file and a heading that are there.
+#include "input/keyboard.h"
 #include "tests/support/files.h"
 #include <algorithm>
 #include <optional>
@@ -7,6 +8,7 @@
 
 namespace docs_test {
 
+using namespace starbow;
 using namespace starbow::testing;
 namespace fs = std::filesystem;
 
@@ -58,7 +60,8 @@ std::set<std::string> fragments_of(const std::string& page)
 std::vector<std::string> links_of(const std::string& page)
 {
     // [text](target), and [name]: target at a line's beginning
-    static const std::regex markdown(R"(\]\(([^)\s]+)\))"), definition(R"((?:^|\n)\[[^\]\n]+\]: (\S+))"), html("(href|src)=\"([^\"]+)\""), inline_code("`[^`\n]*`|\\$[^$\n]*\\$");
+    static const std::regex markdown(R"(\]\(([^)\s]+)\))"), definition(R"((?:^|\n)\[[^\]\n]+\]: (\S+))"),
+        html("(href|src)=\"([^\"]+)\""), inline_code("`[^`\n]*`|\\$[^$\n]*\\$");
     const std::string plain = std::regex_replace(without_code(page), inline_code, "");
     std::vector<std::string> all;
     for (std::sregex_iterator at(plain.begin(), plain.end(), markdown), end; at != end; ++at)
@@ -147,6 +150,28 @@ TEST(Docs, EveryLinkLeadsToAFileAndAHeading)
 }
 
 /// Planted faults: the two tests above must find them.
+/// The table of flying.md has every key of a switch in its third column, and sticks.md every role of a button.
+TEST(Docs, EverySwitchStandsOnThePages)
+{
+    std::istringstream flying(read_text(source_dir() / "docs/flying.md"));
+    std::set<std::string> documented;
+    const std::regex row("\\|[^|]*\\|[^|]*\\|([^|]*)\\|[^|]*\\|"), key("[A-Za-z0-9]+");
+    std::smatch cells;
+    for (std::string line; std::getline(flying, line);)
+        if (std::regex_match(line, cells, row)) {
+            const std::string cell = cells[1];
+            for (std::sregex_iterator at(cell.begin(), cell.end(), key), end; at != end; ++at)
+                documented.insert(at->str());
+        }
+    const std::string sticks = read_text(source_dir() / "docs/sticks.md");
+    for (const SwitchEntry& one : all_switches) {
+        EXPECT_EQ(sticks.find("`" + dashed(one.name) + "`") != sticks.npos, button_switches[one.which]) << one.name;
+        for (const int number : one.keys)
+            EXPECT_TRUE(number == keys::none || one.by == Presser::builder || documented.contains(key_text(number)))
+                << key_text(number) << ": " << one.help;
+    }
+}
+
 TEST(Docs, PlantedFaultsAreFound)
 {
     const auto read = [](const std::string& file) -> std::optional<std::string> {

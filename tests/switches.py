@@ -9,14 +9,19 @@ pressed. A frame's time in the trace is from its reading of the controls to the 
 """
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 
 starbow, seconds = sys.argv[1], float(sys.argv[2]) if len(sys.argv) > 2 and sys.argv[2] != "--" else 60.0
 options = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
-switches = ["aberration", "doppler", "headlight", "false_colours", "comparison", "overlay", "hud", "why", "plot", "next_mode"]
-presses = {"comparison": 3, "overlay": 6, "why": 7, "plot": 4, "next_mode": 3}  # presses until the first state is back; the others need two
+# Every switch that changes the picture, but for those that change the flight's place, the window or the exhibit.
+table = (pathlib.Path(__file__).parent.parent / "config/model/switches.h").read_text()
+left_out = ["stop", "home", "undo", "reset", "full_screen", "menu"]
+switches = [name for name in re.findall(r'SwitchEntry\{\s*Switch::\w+, "(\w+)", Leap::(?:press|toggle)', table) if name not in left_out]
+presses = {"comparison": 3, "overlay": 6, "why": 7, "plot": 4, "next_mode": 3, "slow_motion": 3, "information": 3, "beside": 6,
+           "pattern": 6}  # presses until the first state is back; the others need two
 sequence = [name for name in switches for _ in range(presses.get(name, 2))]
 
 

@@ -32,9 +32,11 @@ inline Shot beside(Shot shot, Beside beside, double start_ev)
         shot.ship_from_cockpit = towards_flight(shot);
         return shot;
     }
-    shot.effects = {.aberration = beside == Beside::aberration,
-        .doppler = beside == Beside::doppler,
-        .headlight = beside == Beside::headlight};
+    shot.effects = {.on = {}};
+    if (beside == Beside::aberration || beside == Beside::doppler || beside == Beside::headlight)
+        shot.effects.on.set(beside == Beside::aberration ? Effect::aberration
+                : beside == Beside::doppler              ? Effect::doppler
+                                                         : Effect::headlight);
     if (beside == Beside::at_rest) {
         shot.effects = {};
         shot.u = glm::dvec3(0);

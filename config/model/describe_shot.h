@@ -9,18 +9,29 @@ namespace starbow {
 
 inline const std::vector<std::pair<std::string_view, Comparison>> comparisons{{comparison_names[0], Comparison::none},
     {comparison_names[1], Comparison::galilean}, {comparison_names[2], Comparison::no_light_delay}};
-template <>
-inline constexpr auto description<Effects> = describe<Effects>("effects", "The effects of relativity that are shown.",
-    field("aberration", Flag{}, "true: directions are those that the observer sees; false: the world's.",
-        &Effects::aberration),
-    field("doppler", Flag{}, "true: colours are shifted; false: they are as at rest.", &Effects::doppler),
-    field("headlight", Flag{}, "true: the light ahead is concentrated, by the cube of the Doppler factor.",
-        &Effects::headlight),
-    field("comparison", Named{&comparisons},
-        "Another world to compare with: galilean, where velocities simply add; no-light-delay, where light comes at once.",
-        &Effects::comparison),
-    field("false_colours", Flag{}, "true: infrared is shown as red, the visible as green, ultraviolet as blue.",
-        &Effects::false_colours));
+/// An effect that is shown or not.
+template <Effect which> struct Shows {
+    void read_into(const Place& place, Effects& effects, const Folder&) const { effects.on.set(which, boolean(place)); }
+    Json written(const EffectSet& on) const { return on[which]; }
+    Json schema(Json& definitions) const { return Flag{}.schema(definitions); }
+};
+template <Effect which> constexpr auto effect_field()
+{
+    const EffectEntry& one = entry_of(which);
+    if constexpr (which == Effect{})
+        return field(one.name.data(), Shows<which>{}, one.says, &Effects::on);
+    else
+        return again(one.name.data(), Shows<which>{}, one.says, &Effects::on);
+}
+template <> inline constexpr auto description<Effects> = []<std::size_t... i>(std::index_sequence<i...>)
+{
+    return describe<Effects>("effects", "The effects of relativity that are shown.", effect_field<Effect(i)>()...,
+        field("comparison", Named{&comparisons},
+            "Another world to compare with: galilean, where velocities simply add; no-light-delay, where light comes at "
+            "once.",
+            &Effects::comparison));
+}
+(std::make_index_sequence<all_effects.size()>());
 static_assert(is_complete<Effects>());
 
 /// A direction of any length above 0, as a unit vector.

@@ -10,16 +10,17 @@ extern const std::vector<std::pair<std::string_view, AxisRole>> axis_roles{{"non
     {"nose-up", AxisRole::nose_up}, {"nose-right", AxisRole::nose_right}, {"roll-right", AxisRole::roll_right},
     {"look-right", AxisRole::look_right}, {"look-up", AxisRole::look_up}, {"push-right", AxisRole::push_right},
     {"push-up", AxisRole::push_up}, {"push-back", AxisRole::push_back}};
-extern const std::vector<std::pair<std::string_view, ButtonRole>> button_roles{{"none", ButtonRole::none},
-    {"stop", ButtonRole::stop}, {"home", ButtonRole::home}, {"undo", ButtonRole::undo}, {"next-mode", ButtonRole::next_mode},
-    {"freeze", ButtonRole::freeze}, {"menu", ButtonRole::menu}, {"slow-motion", ButtonRole::slow_motion},
-    {"look-ahead", ButtonRole::look_ahead}, {"aberration", ButtonRole::aberration}, {"doppler", ButtonRole::doppler},
-    {"headlight", ButtonRole::headlight}, {"false-colours", ButtonRole::false_colours},
-    {"comparison", ButtonRole::comparison}, {"range", ButtonRole::range}, {"hud", ButtonRole::hud},
-    {"information", ButtonRole::information}, {"beside", ButtonRole::beside}, {"plot", ButtonRole::plot},
-    {"overlay", ButtonRole::overlay}, {"mark", ButtonRole::mark}, {"log", ButtonRole::log}, {"why", ButtonRole::why},
-    {"faster", ButtonRole::faster}, {"slower", ButtonRole::slower}, {"brighter", ButtonRole::brighter},
-    {"darker", ButtonRole::darker}};
+extern const std::vector<std::pair<std::string_view, ButtonRole>> button_roles = [] {
+    static std::array<std::string, all_switches.size()> names;
+    std::vector<std::pair<std::string_view, ButtonRole>> roles{{"none", {}}};
+    for (const SwitchEntry& one : all_switches)
+        if (button_switches[one.which])
+            roles.emplace_back(names[std::size_t(one.which)] = dashed(one.name), one.which);
+    roles.insert(roles.end(),
+        {{"faster", HeldRole::faster}, {"slower", HeldRole::slower}, {"brighter", HeldRole::brighter},
+            {"darker", HeldRole::darker}});
+    return roles;
+}();
 
 int HexId::read(const Place& place, const Folder&) const
 {

@@ -1,9 +1,11 @@
 #pragma once
+#include "switches.h"
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace starbow {
@@ -23,36 +25,10 @@ enum class AxisRole {
     push_up,
     push_back
 };
-/// The role of a button.
-enum class ButtonRole {
-    none,
-    stop,
-    home,
-    undo,
-    next_mode,
-    freeze,
-    menu,
-    slow_motion,
-    look_ahead,
-    aberration,
-    doppler,
-    headlight,
-    false_colours,
-    comparison,
-    range,
-    hud,
-    information,
-    beside,
-    overlay,
-    mark,
-    log,
-    why,
-    plot,
-    faster,
-    slower,
-    brighter,
-    darker
-};
+/// What a button does while it is held.
+enum class HeldRole : std::uint8_t { faster, slower, brighter, darker };
+/// The role of a button: none, a switch that it presses, or a rate while it is held.
+using ButtonRole = std::variant<std::monostate, Switch, HeldRole>;
 
 /// An axis of a device by its HID usage, and the treatment of its values.
 struct AxisUse {
@@ -69,7 +45,7 @@ struct AxisUse {
 
 struct ButtonUse {
     int button = 1; ///< as the device counts, from 1
-    ButtonRole role = ButtonRole::none;
+    ButtonRole role;
     bool operator==(const ButtonUse&) const = default;
 };
 

@@ -76,8 +76,6 @@ glm::dquat read_orientation(const Place& place)
     return orientation(look, up);
 }
 
-Effects read_effects(const Place& place) { return read<Effects>(place); }
-
 Json UnitDirection::schema(Json&) const { return described::list_schema(3, 3, {{"type", "number"}}); }
 
 glm::dvec3 read_velocity(const Place& place)
@@ -112,11 +110,6 @@ void check(const Place& place, Shot& shot, const Folder&) { shot.ship_from_cockp
 Shot read_shot(const Place& place, bool with_scene)
 {
     return read<Shot>(place, {}, {.without = with_scene ? nullptr : "scene"});
-}
-
-Comparison comparison_named(std::string_view name)
-{
-    return Comparison(index_named(name, {comparison_names.begin(), comparison_names.end()}, "comparison"));
 }
 
 Shot load_shot(const std::filesystem::path& file)

@@ -1,32 +1,11 @@
 #pragma once
-#include <array>
+#include "effects.h"
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <string>
-#include <string_view>
 
 namespace starbow {
-
-/// The comparisons: velocities that simply add, or everything at the ship's present, as if light came at once.
-enum class Comparison { none, galilean, no_light_delay };
-constexpr std::array<const char*, 3> comparison_names = {"none", "galilean", "no-light-delay"};
-inline Comparison after(Comparison comparison)
-{
-    return Comparison((std::size_t(comparison) + 1) % comparison_names.size());
-}
-/// Throws InputError for an unknown name.
-Comparison comparison_named(std::string_view name);
-
-/// The effects' switches, as in the paper "Real Time Relativity". Without aberration directions are the world's, without
-/// Doppler colours are as at rest, without headlight there is no D^3.
-struct Effects {
-    bool aberration = true;
-    bool doppler = true;
-    bool headlight = true;
-    Comparison comparison = Comparison::none;
-    bool false_colours = false; ///< infrared as red, the visible as green, ultraviolet as blue
-};
 
 /// One frozen instant, in the scene's units (lengths in units, times in unit / c).
 struct Shot {

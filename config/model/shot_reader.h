@@ -20,6 +20,4 @@ Shot read_shot(const Place& place, bool with_scene);
 /// The rotation of an object's members "look" and "up"; without them, straight ahead along -z.
 glm::dquat read_orientation(const Place& place);
 
-Effects read_effects(const Place& place);
-
 } // namespace starbow

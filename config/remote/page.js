@@ -288,6 +288,7 @@ async function connect() {
             return;
         }
         lists = await answer.json();
+        addEffects();
     } catch {
         later();
         return;
@@ -364,14 +365,30 @@ async function logOut() {
 
 // ----- the page's own elements
 
+function listenToSwitch(button) {
+    button.addEventListener("click", () =>
+        command(button, button.dataset.switch, button.getAttribute("aria-pressed") === "true" ? "off" : "on"));
+}
+
+// A button for each effect, before the others.
+function addEffects() {
+    find("effects").prepend(...lists.effects.filter((name) => !all(`[data-switch="${name}"]`).length).map((name) => {
+        const button = document.createElement("button");
+        button.type = "button";
+        button.dataset.switch = name;
+        button.dataset.word = `remote.${name.replaceAll("-", "_")}`;
+        listenToSwitch(button);
+        return button;
+    }));
+}
+
 function listen() {
     find("login-form").addEventListener("submit", logIn);
     find("log-out").addEventListener("click", logOut);
     for (const button of all("[data-do]"))
         button.addEventListener("click", () => command(button, button.dataset.do));
     for (const button of all("[data-switch]"))
-        button.addEventListener("click", () =>
-            command(button, button.dataset.switch, button.getAttribute("aria-pressed") === "true" ? "off" : "on"));
+        listenToSwitch(button);
     for (const button of all("[data-choose]"))
         button.addEventListener("click", () => command(button, button.dataset.choose, find(button.dataset.choose).value));
     for (const select of all("[data-live]")) {

@@ -361,9 +361,9 @@ void ask_buttons(Person& person, const Watched& device, const Profile& present, 
 {
     std::printf("\nButtons. For each line press the button to use, let go, then Enter. Enter alone leaves it as it is;\n"
                 "'none' and Enter: no button does it.\n");
-    for (const auto& [role, what] : std::vector<std::pair<ButtonRole, std::string>>{{ButtonRole::stop, "Full stop"},
-             {ButtonRole::home, "Back to the start"}, {ButtonRole::undo, "Ten seconds back"},
-             {ButtonRole::next_mode, "Next way of flying"}})
+    for (const auto& [role, what] :
+        std::vector<std::pair<ButtonRole, std::string>>{{Switch::stop, "Full stop"}, {Switch::home, "Back to the start"},
+            {Switch::undo, "Ten seconds back"}, {Switch::next_mode, "Next way of flying"}})
         for (bool done = false; !done;) {
             std::vector<int> before = down(device, device.now());
             std::optional<int> pressed;

@@ -31,27 +31,26 @@ void AlignmentMode::save(const Layout& layout)
 
 bool AlignmentMode::apply(const Controls& controls, Layout& layout)
 {
-    const AlignmentKeys& keys = controls;
-    if (controls.home || controls.reset)
+    if (controls[Switch::home] || controls[Switch::reset])
         show_first();
-    if (keys.pattern) {
+    if (controls[Switch::pattern]) {
         pattern_ = Pattern((int(pattern_) + 1) % int(pattern_names.size()));
         write_log(LogKind::pattern_shown, std::string("test pattern: ") + pattern_names[std::size_t(pattern_)]);
     }
-    if (keys.save)
+    if (controls[Switch::save])
         save(layout);
     const std::vector<Adjustable> all = adjustables(layout);
     const std::size_t count = all.size();
     chosen_ = std::min(chosen_, count - 1);
     // The first press shows the chosen number; further presses move on.
-    if (keys.choose != 0 && std::exchange(choosing_, true))
-        chosen_ = (chosen_ + count + std::size_t(keys.choose + int(count))) % count;
-    const bool turned = keys.turn_by != 0;
+    if (controls.choose != 0 && std::exchange(choosing_, true))
+        chosen_ = (chosen_ + count + std::size_t(controls.choose + int(count))) % count;
+    const bool turned = controls.turn_by != 0;
     if (turned) {
-        layout = adjusted(std::move(layout), all[chosen_], keys.turn_by);
+        layout = adjusted(std::move(layout), all[chosen_], controls.turn_by);
         choosing_ = true;
     }
-    if (turned || keys.choose != 0)
+    if (turned || controls.choose != 0)
         say(all[chosen_].name + ": " + shown(value_of(layout, all[chosen_]))
             + (turned ? "   (F5 saves it)" : "   (Page Up, Page Down)"));
     return turned;

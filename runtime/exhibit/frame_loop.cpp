@@ -95,7 +95,7 @@ bool FrameLoop::fly_frame()
         return false;
     remote_.read(entry.controls);
     presenter_.read(entry.controls);
-    if (entry.controls.full_screen)
+    if (entry.controls[Switch::full_screen])
         screens_.switch_full_screen();
     if (session_.record_replay.replays() && !visible)
         return true; // a replay waits for a visible window
@@ -117,7 +117,7 @@ bool FrameLoop::fly_frame()
     session_.lab.read(*frame_, controls, context_.world, 1e-9 * double(entry.dt_ns),
         [&](std::string line) { session_.alignment.say(std::move(line)); });
     apply_alignment(controls);
-    if (controls.pattern && master_ && session_.alignment.pattern() != Pattern::none)
+    if (controls[Switch::pattern] && master_ && session_.alignment.pattern() != Pattern::none)
         session_.alignment.say(screens_of(session_));
     if (turn_diary(session_, screens_.shown(), context_.pipelines.count())) {
         remote_.publish_condition(session_.diary);

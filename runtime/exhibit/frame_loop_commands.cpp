@@ -19,9 +19,9 @@ void FrameLoop::choose_in_menu(RecordEntry& entry)
         session_.menu = {};
         return;
     }
-    if (entry.controls.menu && !session_.menu.open) // a site's own words may be wrong; the remote's page says so
+    if (entry.controls[Switch::menu] && !session_.menu.open) // a site's own words may be wrong; the remote's page says so
         session_.languages = languages_here([](const std::string&) {});
-    if (session_.menu.open || entry.controls.menu)
+    if (session_.menu.open || entry.controls[Switch::menu])
         if (std::optional<Command> chosen = advance(session_.menu, menu_of(session_), entry.controls, entry.dt_ns))
             entry.controls.commands.push_back(std::move(*chosen));
 }
@@ -104,7 +104,7 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
             frame_->adopt(quality_of(session_, device_));
             show_programme(session_.options.programme);
             session_.lab.reset();
-            controls.reset = true; // the switches' own states, too
+            controls.set(Switch::reset); // the switches' own states, too
             if (session_.visit.touched_ns > 0)
                 count_visit(session_, 1e-9 * double(session_.visit.touched_ns));
             session_.visit = begun(session_.visit);

@@ -23,7 +23,8 @@ VisitSigns signs_of(const Session& session)
 void wait_for_throttle(const Session& session, Controls& controls)
 {
     const bool rests = !session.guide && session.programme.start.u == glm::dvec3(0);
-    controls.stop |= rests && controls.lever.value_or(0) > lever_touched;
+    if (rests && controls.lever.value_or(0) > lever_touched)
+        controls.set(Switch::stop);
 }
 
 /// The longest way home that is flown, s; a longer one leads through black.
@@ -33,7 +34,7 @@ constexpr double longest_way_home_s = 5;
 bool flies_home(const Session& session, double seconds_per_time_unit)
 {
     Controls home;
-    home.home = true;
+    home.set(Switch::home);
     const Flight later = step(session.flight, home, std::int64_t(1e9 * longest_way_home_s), session.rules,
         seconds_per_time_unit, session.programme.start);
     return !later.homing;
@@ -42,8 +43,8 @@ bool flies_home(const Session& session, double seconds_per_time_unit)
 /// Brings a visitor home who asks for it, wherever the ship is.
 void lead_home(Session& session, Controls& controls, double dt_s, double seconds_per_time_unit)
 {
-    if (controls.home && !session.guide && !session.flight.homing && !flies_home(session, seconds_per_time_unit)) {
-        controls.home = false;
+    if (controls[Switch::home] && !session.guide && !session.flight.homing && !flies_home(session, seconds_per_time_unit)) {
+        controls.set(Switch::home, false);
         session.goes_home = true;
     }
     // From the world's end the way leads backwards, and nothing is seen: it is left out, once the ship has slowed down.
@@ -51,12 +52,13 @@ void lead_home(Session& session, Controls& controls, double dt_s, double seconds
     session.goes_home |= homing && homing->from_boundary && homing->leg == HomingLeg::way;
     if (!session.goes_home && session.home_black == 1) {
         wait_for_throttle(session, controls);
-        controls.stop |= controls.throttle_rate > 0; // a key that is still held, too
+        if (controls.throttle_rate > 0) // a key that is still held, too
+            controls.set(Switch::stop);
     }
     const double half_s = std::max(session.visiting.fade_s / 2, 1e-3);
     session.home_black = std::clamp(session.home_black + (session.goes_home ? dt_s : -dt_s) / half_s, 0.0, 1.0);
     if (session.goes_home && session.home_black == 1) {
-        controls.reset = true;
+        controls.set(Switch::reset);
         session.goes_home = false;
     }
 }
@@ -126,7 +128,7 @@ void FrameLoop::change_visitors(const VisitEvents& events, Controls& controls)
         session_.goes_home = false;
         session_.lab.reset();
         session_.alignment.show_first();
-        controls.reset = true; // the switches' own states, too
+        controls.set(Switch::reset); // the switches' own states, too
     }
     if (events.shows_attraction)
         show_attraction(session_.visit.attraction);

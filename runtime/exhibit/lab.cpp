@@ -39,19 +39,19 @@ void Lab::add_to_plots(std::string_view text, long number)
     last_line_ = std::move(line);
 }
 
-void Lab::read(const FrameRenderer& frame, const LabSwitches& pressed, const GpuWorld& world, double dt_s,
+void Lab::read(const FrameRenderer& frame, Switches pressed, const GpuWorld& world, double dt_s,
     const std::function<void(std::string)>& say)
 {
-    if (pressed.overlay)
+    if (pressed[Switch::overlay])
         overlay_ = Overlay((int(overlay_) + 1) % int(overlay_names.size()));
-    if (pressed.why)
+    if (pressed[Switch::why])
         why_ = Why((int(why_) + 1) % int(why_names.size()));
-    if (pressed.plot)
+    if (pressed[Switch::plot])
         plot_ = Plot((int(plot_) + 1) % int(plot_names.size()));
-    if ((pressed.mark || pressed.log || every_s_ > 0) && overlay_ == Overlay::off)
+    if ((pressed[Switch::mark] || pressed[Switch::log] || every_s_ > 0) && overlay_ == Overlay::off)
         overlay_ = Overlay::aim; // marking and logging show the crosshair
-    marks_due_ += pressed.mark;
-    lines_due_ += pressed.log;
+    marks_due_ += pressed[Switch::mark];
+    lines_due_ += pressed[Switch::log];
     if (!on() || effects_.comparison != Comparison::none) { // the instruments measure the physical picture only
         measured_.reset();
         marks_due_ = lines_due_ = 0;

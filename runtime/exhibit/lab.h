@@ -18,7 +18,7 @@ public:
 
     /// Reads the last frame's probe, which the device must have finished, then applies the keys. say: receives messages
     /// for the display.
-    void read(const FrameRenderer& frame, const LabSwitches& pressed, const GpuWorld& world, double dt_s,
+    void read(const FrameRenderer& frame, Switches pressed, const GpuWorld& world, double dt_s,
         const std::function<void(std::string)>& say);
     /// The next frame's overlay, panel and probes; none: no instrument is on. The panel lasts until the next call.
     std::optional<Instruments> request(

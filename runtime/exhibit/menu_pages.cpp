@@ -28,9 +28,10 @@ MenuPage languages_of(const Session& session)
 }
 
 /// An item that switches something on or off.
-MenuItem switch_of(const Words& words, const char* key, CommandKind kind, bool is_on)
+MenuItem switch_of(const Words& words, std::string_view key, Command command, bool is_on)
 {
-    return {(is_on ? "☑ " : "☐ ") + words(key), Command{.kind = kind, .on = !is_on}};
+    command.on = !is_on;
+    return {(is_on ? "☑ " : "☐ ") + words(key), std::move(command)};
 }
 
 /// An item with its present value, which leads to the next one.
@@ -44,17 +45,21 @@ MenuPage switches_of(const Session& session)
     const Words& words = session.words;
     const Effects& on = session.flight.effects;
     MenuPage page{.title = words("menu.show"),
-        .items = {switch_of(words, "menu.aberration", CommandKind::aberration, on.aberration),
-            switch_of(words, "menu.doppler", CommandKind::doppler, on.doppler),
-            switch_of(words, "menu.headlight", CommandKind::headlight, on.headlight),
-            switch_of(words, "menu.range", CommandKind::range, session.range),
+        .items = {switch_of(words, "menu.range", {.kind = CommandKind::range}, session.range),
             next_of(words, "menu.beside", std::string("beside.") + name_of(session.beside), CommandKind::beside,
                 name_of(after(session.beside))),
             next_of(words, "menu.information", "remote.display." + std::string(name_of(session.information)),
                 CommandKind::information, name_of(after(session.information)))},
         .stays = true};
+    std::vector<MenuItem> effects;
+    for (const EffectEntry& one : all_effects)
+        if (one.usual)
+            effects.push_back(switch_of(
+                words, "menu." + std::string(one.name), {.kind = CommandKind::effect, .effect = one.which}, on[one.which]));
+    page.items.insert(page.items.begin(), effects.begin(), effects.end());
     if (session.options.log.empty())
-        page.items.push_back(switch_of(words, "menu.slow_motion", CommandKind::slow_motion, session.flight.slowness > 0));
+        page.items.push_back(
+            switch_of(words, "menu.slow_motion", {.kind = CommandKind::slow_motion}, session.flight.slowness > 0));
     return page;
 }
 
@@ -62,8 +67,8 @@ MenuPage hands_of(const Session& session)
 {
     const Words& words = session.words;
     return {.title = words("menu.hands"),
-        .items = {switch_of(words, "menu.one_button", CommandKind::one_button, session.one_button),
-            switch_of(words, "menu.left_handed", CommandKind::left_handed, session.left_handed)},
+        .items = {switch_of(words, "menu.one_button", {.kind = CommandKind::one_button}, session.one_button),
+            switch_of(words, "menu.left_handed", {.kind = CommandKind::left_handed}, session.left_handed)},
         .stays = true};
 }
 

@@ -25,11 +25,11 @@ void set_words(Session& session, Words words)
     session.words = std::move(words);
 }
 
-void step_tour(Session& session, bool& control)
+void step_tour(const Session& session, Controls& controls, Switch by)
 {
     if (!session.guide || session.guide->over())
         throw InputError("no tour with steps is shown; the command tour is right");
-    control = true;
+    controls.set(by);
 }
 
 void limit_speed(Session& session, double max_gamma)
@@ -51,19 +51,19 @@ void obey(Session& session, const Command& command, Controls& controls)
         if (!visitor_flies(session))
             session.guide->pause(true);
         else
-            controls.stop = true;
+            controls.set(Switch::stop);
         break;
     case CommandKind::next:
-        step_tour(session, controls.home);
+        step_tour(session, controls, Switch::home);
         break;
     case CommandKind::back:
-        step_tour(session, controls.undo);
+        step_tour(session, controls, Switch::undo);
         break;
     case CommandKind::pause:
         if (!visitor_flies(session))
             session.guide->pause(command.on);
         else
-            controls.freeze = session.flight.frozen != command.on;
+            controls.set(Switch::freeze, session.flight.frozen != command.on);
         break;
     case CommandKind::speed_limit:
         limit_speed(session, command.number);
@@ -74,10 +74,7 @@ void obey(Session& session, const Command& command, Controls& controls)
     case CommandKind::range:
         session.range = command.on;
         break;
-    case CommandKind::aberration:
-    case CommandKind::doppler:
-    case CommandKind::headlight:
-    case CommandKind::false_colours:
+    case CommandKind::effect:
     case CommandKind::comparison:
         apply(flight_of(session).effects, command);
         break;

@@ -56,7 +56,7 @@ public:
     /// Notes a command's end, whoever gave it. refusal: the reason; empty: it is carried out.
     void note(const Command& command, const std::string& refusal, const Words& words);
 
-    /// A key of the window, by presenter_keys, or a click at a place of it.
+    /// A key of the window, by keys, or a click at a place of it.
     void press(int key);
     void click(glm::ivec2 at);
     void type(char32_t character);

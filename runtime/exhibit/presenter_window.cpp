@@ -11,12 +11,11 @@
 namespace starbow {
 namespace {
 
-static_assert(presenter_keys::space == GLFW_KEY_SPACE && presenter_keys::escape == GLFW_KEY_ESCAPE
-    && presenter_keys::enter == GLFW_KEY_ENTER && presenter_keys::backspace == GLFW_KEY_BACKSPACE
-    && presenter_keys::right == GLFW_KEY_RIGHT && presenter_keys::left == GLFW_KEY_LEFT
-    && presenter_keys::down == GLFW_KEY_DOWN && presenter_keys::up == GLFW_KEY_UP
-    && presenter_keys::page_up == GLFW_KEY_PAGE_UP && presenter_keys::page_down == GLFW_KEY_PAGE_DOWN
-    && presenter_keys::keypad_enter == GLFW_KEY_KP_ENTER && 'A' == GLFW_KEY_A && '0' == GLFW_KEY_0);
+static_assert(keys::space == GLFW_KEY_SPACE && keys::escape == GLFW_KEY_ESCAPE && keys::enter == GLFW_KEY_ENTER
+    && keys::backspace == GLFW_KEY_BACKSPACE && keys::right == GLFW_KEY_RIGHT && keys::left == GLFW_KEY_LEFT
+    && keys::down == GLFW_KEY_DOWN && keys::up == GLFW_KEY_UP && keys::page_up == GLFW_KEY_PAGE_UP
+    && keys::page_down == GLFW_KEY_PAGE_DOWN && keys::keypad_enter == GLFW_KEY_KP_ENTER && 'A' == GLFW_KEY_A
+    && '0' == GLFW_KEY_0);
 
 /// The key by the letter that is printed on it, which GLFW alone knows by its place.
 int printed_key(int key, int scancode)

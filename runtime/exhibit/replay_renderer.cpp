@@ -30,7 +30,7 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
     Controls controls = entry.controls;
     if (std::exchange(begun_, flight.leaps.begun) != flight.leaps.begun)
         exposure_ = {}, calm_ev_ = {}, range_mode_.follows_at_once = true;
-    exposure_.locked ^= controls.lock_exposure;
+    exposure_.locked ^= controls[Switch::lock_exposure];
     exposure_ = adapted_to(exposure_, entry.exposure_ev, exposing_, start_ev_);
     const bool had_curve = range_mode_.follower.shown.has_value();
     range_mode_ = entry.ranged
@@ -40,7 +40,7 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
         calm_ev_ = {};
     if (exposing_.calm && (exposure_.ev || !exposing_.automatic))
         calm_ev_ = calmed_ev(calm_ev_, wanted_ev(flight.exposure_ev), 1e-9 * double(entry.dt_ns));
-    controls.save = false;
+    controls.set(Switch::save, false);
     Layout layout = layout_;
     if (alignment_.apply(controls, layout)) {
         try {
@@ -50,7 +50,7 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
             alignment_.say(one_line(error.what()));
         }
     }
-    if (controls.beside)
+    if (controls[Switch::beside])
         beside_ = after(beside_);
     now_.head = controls.head;
     now_.black = 1 - entry.light;

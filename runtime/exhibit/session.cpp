@@ -36,34 +36,34 @@ void hold(Controls& controls, bool taken)
     const Head head = controls.head;
     static_cast<Looking&>(controls) = {};
     controls.head = head;
-    static_cast<EffectSwitches&>(controls) = {};
-    static_cast<LabSwitches&>(controls) = {};
+    static_cast<Switches&>(controls)
+        = controls - switches_of(Presser::pilot) - switches_of(Presser::visitor) - switches_of(Presser::student);
 }
 
 /// The steering of a visitor with one button, which is any but those of the window and of builders.
 void scan(Session& session, Controls& controls, std::int64_t dt_ns)
 {
-    const bool other = controls.quit || controls.full_screen || controls.pattern || controls.save || controls.choose != 0
-        || controls.turn_by != 0;
+    const bool other = (controls & switches_of(Presser::builder)).any() || controls.choose != 0 || controls.turn_by != 0;
     const AnyButton button{.pressed = controls.pressed && !other, .held = controls.held};
     hold(controls, false);
     controls.lever.reset();
-    controls.hud = controls.information = controls.beside = false;
-    Steering& steering = controls;
+    ScannedHands hands;
     const OneButton rules = session.options.one_button.value_or(OneButton());
     if (session.menu.open) {
         const std::vector<MenuPage> pages = menu_of(session);
         const std::size_t page = session.menu.page;
-        steering = advance_in_menu(session.scan, rules, button, page, pages[page].items.size(), dt_ns);
+        hands = advance_in_menu(session.scan, rules, button, page, pages[page].items.size(), dt_ns);
     } else if (session.guide && session.guide->asks()) {
         constexpr std::size_t question = 0, no_end = std::size_t(-1); // after the last answer comes the first one
-        steering = advance_in_menu(session.scan, rules, button, question, no_end, dt_ns);
+        hands = advance_in_menu(session.scan, rules, button, question, no_end, dt_ns);
     } else if (!visitor_flies(session)) {
         session.scan = {};
-        steering.home = button.pressed; // the tour's next step
+        hands.set(Switch::home, button.pressed); // the tour's next step
     } else {
-        steering = advance(session.scan, rules, button, dt_ns);
+        hands = advance(session.scan, rules, button, dt_ns);
     }
+    static_cast<Steering&>(controls) = hands;
+    static_cast<Switches&>(controls) = (controls & switches_of(Presser::builder)) | hands;
 }
 
 /// In an exhibit that nobody attends to, visitors press every key there is.
@@ -73,8 +73,8 @@ void lock_builders_keys(Session& session, Controls& controls)
         unlock_builders_keys(session);
     if (session.last < session.locked_from)
         return;
-    static_cast<AlignmentKeys&>(controls) = {};
-    controls.full_screen = controls.quit = controls.log = false;
+    static_cast<AlignmentSteps&>(controls) = {};
+    static_cast<Switches&>(controls) = controls - switches_of(Presser::builder) - switches_of(Presser::student);
 }
 
 } // namespace
@@ -360,7 +360,7 @@ double ev_of(const Session& session)
 /// Steps the curve that shows everything at once. The record's entry holds what it follows.
 static void follow_range(Session& session, RecordEntry& entry, const Metered& metered, double dt_s)
 {
-    session.range ^= entry.controls.range;
+    session.range ^= entry.controls[Switch::range];
     if (session.record_replay.replays())
         session.range = entry.ranged;
     entry.ranged = session.range;
@@ -408,8 +408,9 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     session.somebody = session.presence.take(controls, dt_s);
     if (session.options.visiting)
         lock_builders_keys(session, controls);
-    controls.slow_motion &= session.options.log.empty(); // a laboratory's seconds are the ship's
-    const bool quits = controls.quit;
+    if (!session.options.log.empty())
+        controls.set(Switch::slow_motion, false); // a laboratory's seconds are the ship's
+    const bool quits = controls[Switch::quit];
     if (session.directions.holds || (session.options.visiting && !in_hand(session.visit)))
         hold(controls, session.directions.holds);
     else if (by_one_button(session))
@@ -525,10 +526,10 @@ void step(Session& session, RecordEntry& entry, const Metered& before, double se
         : flown(session.flight, session.history, controls, entry.dt_ns, session.rules, seconds_per_time_unit, start);
     session.leapt = follow_leap(session);
     const Metered metered = session.leapt ? Metered() : before;
-    session.exposure.locked ^= controls.lock_exposure;
-    if (controls.information)
+    session.exposure.locked ^= controls[Switch::lock_exposure];
+    if (controls[Switch::information])
         session.information = after(session.information);
-    if (controls.beside)
+    if (controls[Switch::beside])
         session.beside = after(session.beside);
     if (session.record_replay.replays())
         session.exposure = adapted_to(session.exposure, entry.exposure_ev, exposing, session.begun_ev);

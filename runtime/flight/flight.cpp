@@ -44,7 +44,7 @@ void drop_thrust(Flight& flight, const Controls& controls, bool inhibits)
 /// Applies presses, which count once however long the step is.
 void press(Flight& flight, const Controls& controls, const Flying& rules, double seconds_per_time_unit, const Shot& start)
 {
-    if (controls.reset) {
+    if (controls[Switch::reset]) {
         const Flight before = flight;
         flight = flight_at(start, rules);
         flight.hud = before.hud, flight.mode = before.mode;
@@ -52,36 +52,35 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, double
         count_beginning(flight, before);
         return;
     }
-    flight.effects.aberration ^= controls.aberration;
-    flight.effects.doppler ^= controls.doppler;
-    flight.effects.headlight ^= controls.headlight;
-    flight.effects.false_colours ^= controls.false_colours;
-    if (controls.comparison)
+    for (const EffectEntry& one : all_effects)
+        if (controls[one.pressed])
+            flight.effects.on.flip(one.which);
+    if (controls[Switch::comparison])
         flight.effects.comparison = after(flight.effects.comparison);
-    flight.hud ^= controls.hud;
-    flight.look_rad = controls.look_ahead ? glm::dvec2(0) : flight.look_rad + controls.look_rad;
+    flight.hud ^= controls[Switch::hud];
+    flight.look_rad = controls[Switch::look_ahead] ? glm::dvec2(0) : flight.look_rad + controls.look_rad;
     flight.look_rad.y = std::clamp(flight.look_rad.y, -half_pi, half_pi);
-    flight.frozen ^= controls.freeze;
-    if (controls.slow_motion)
+    flight.frozen ^= controls[Switch::freeze];
+    if (controls[Switch::slow_motion])
         flight.slowness = (flight.slowness + 1) % time_rates.size();
-    if (controls.next_mode)
+    if (controls[Switch::next_mode])
         flight.mode = FlightMode((int(flight.mode) + 1) % 3);
-    if (controls.stop) {
+    if (controls[Switch::stop]) {
         flight.leaps.within += rapidity_of(flight.ship) > 0;
         flight.ship = stopped(flight.ship);
         flight.homing.reset();
     }
-    if (controls.home && !flight.homing) { // one press is enough: the way goes on
+    if (controls[Switch::home] && !flight.homing) { // one press is enough: the way goes on
         FeltMotion motion = felt_motion(flight, controls, rules, limits_of(flight, rules, seconds_per_time_unit));
-        if (controls.stop)
+        if (controls[Switch::stop])
             motion.thrust = glm::dvec3(0);
         flight.homing = homing_from(flight.ship, motion, rules);
         flight.frozen = flight.homeward = false;
     }
-    if (controls.stop || controls.home)
+    if (controls[Switch::stop] || controls[Switch::home])
         flight.coasting = flight.lever_waits = false;
-    if (controls.stop || controls.home || controls.next_mode)
-        drop_thrust(flight, controls, !controls.next_mode);
+    if (controls[Switch::stop] || controls[Switch::home] || controls[Switch::next_mode])
+        drop_thrust(flight, controls, !controls[Switch::next_mode]);
 }
 
 /// Keeps a flight's velocity until a hand touches the controls.

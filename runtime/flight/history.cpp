@@ -41,7 +41,7 @@ Flight flown(const Flight& flight, History& history, const Controls& controls, s
     double seconds_per_time_unit, const Shot& start)
 {
     const Flight now
-        = step(controls.undo ? history.back(flight) : flight, controls, dt_ns, rules, seconds_per_time_unit, start);
+        = step(controls[Switch::undo] ? history.back(flight) : flight, controls, dt_ns, rules, seconds_per_time_unit, start);
     history.keep(now);
     return now;
 }

@@ -57,15 +57,18 @@ std::optional<Command> take(MenuState& menu, const MenuPage& page)
 std::optional<Command> advance(MenuState& menu, std::span<const MenuPage> pages, Controls& controls, std::int64_t dt_ns)
 {
     if (!menu.open) {
-        menu.open = controls.menu;
+        menu.open = controls[Switch::menu];
         if (!menu.open)
             return {};
-        controls.menu = false;
+        controls.set(Switch::menu, false);
     }
     const Steering hands
         = std::exchange(static_cast<Steering&>(controls), Steering{.lever = controls.lever, .taken = controls.taken});
+    const Switches pressed = controls & switches_of(Presser::pilot);
+    static_cast<Switches&>(controls) = controls - pressed;
     const int by = nudge(menu, hands, 1e-9 * double(dt_ns));
-    const bool touched = by != 0 || hands.stop || hands.home || hands.undo || hands.menu || controls.pressed;
+    constexpr Switches used{Switch::stop, Switch::home, Switch::undo, Switch::menu};
+    const bool touched = by != 0 || (pressed & used).any() || controls.pressed;
     menu.idle_ns = touched ? 0 : menu.idle_ns + dt_ns;
     const MenuPage& page = pages[menu.page];
     if (page.items.empty()) { // its last choice has gone meanwhile
@@ -74,11 +77,11 @@ std::optional<Command> advance(MenuState& menu, std::span<const MenuPage> pages,
     }
     const auto count = int(page.items.size());
     menu.item = std::size_t((std::min(int(menu.item), count - 1) + by + count) % count);
-    if (hands.menu || menu.idle_ns > closes_after_ns)
+    if (pressed[Switch::menu] || menu.idle_ns > closes_after_ns)
         menu = {};
-    else if (hands.home || hands.undo)
+    else if (pressed[Switch::home] || pressed[Switch::undo])
         back(menu);
-    else if (hands.stop)
+    else if (pressed[Switch::stop])
         return take(menu, page);
     return {};
 }

@@ -1,7 +1,6 @@
 #include "record.h"
+#include "config/model/describe_shot.h"
 #include "config/model/rules_reader.h"
-#include "config/model/shot_reader.h"
-#include "input/switches.h"
 #include "shaders/shared_structs.h"
 #include <algorithm>
 #include <bit>
@@ -18,25 +17,17 @@ template <class... Parts> constexpr bool controls_have(Parts...)
     return requires { Controls{Parts{}...}; }
     &&!requires { Controls{Parts{}..., {}}; };
 }
-static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitches{}, LabSwitches{}, WindowSwitches{},
-    AlignmentKeys{}, Touches{}, RemoteCommands{}));
+static_assert(
+    controls_have(ControlTimes{}, Steering{}, Looking{}, Switches{}, AlignmentSteps{}, Touches{}, RemoteCommands{}));
 
 /// Compiles only while these structs have exactly the members named here, whatever their sizes. A new member belongs in
 /// the record, or in the digest, as well.
 [[maybe_unused]] void name_every_member(const Controls& c, const Flying& f, const Exposing& e, const Flight& s)
 {
     [[maybe_unused]] const auto& [time_ns, report_ns] = static_cast<const ControlTimes&>(c);
-    [[maybe_unused]] const auto& [lever, throttle_rate, push, turn, stop, home, undo, reset, next_mode, freeze, menu, taken,
-        slow_motion]
-        = static_cast<const Steering&>(c);
-    [[maybe_unused]] const auto& [look_rad, look_ahead, head, exposure, lock_exposure, range]
-        = static_cast<const Looking&>(c);
-    [[maybe_unused]] const auto& [aberration, doppler, headlight, false_colours, comparison]
-        = static_cast<const EffectSwitches&>(c);
-    [[maybe_unused]] const auto& [overlay, mark, log, why, plot] = static_cast<const LabSwitches&>(c);
-    [[maybe_unused]] const auto& [hud, full_screen, quit, information, beside] = static_cast<const WindowSwitches&>(c);
-    [[maybe_unused]] const auto& [aberration_on, doppler_on, headlight_on, comparison_shown, false_colours_on] = s.effects;
-    [[maybe_unused]] const auto& [pattern, save, choose, turn_by] = static_cast<const AlignmentKeys&>(c);
+    [[maybe_unused]] const auto& [lever, throttle_rate, push, turn, taken] = static_cast<const Steering&>(c);
+    [[maybe_unused]] const auto& [look_rad, head, exposure] = static_cast<const Looking&>(c);
+    [[maybe_unused]] const auto& [choose, turn_by] = static_cast<const AlignmentSteps&>(c);
     [[maybe_unused]] const auto& [key_pressed, key_held] = static_cast<const Touches&>(c); // not kept: a record is one visit
     [[maybe_unused]] const auto& [commands] = static_cast<const RemoteCommands&>(c);
     [[maybe_unused]] const auto& [mode, max_gamma, turn_deg_per_s, roll_deg_per_s, turn_jerk_deg_per_s3, rapidity_per_s,
@@ -104,12 +95,6 @@ std::uint64_t read_digest(const Place& place)
     return std::stoull(digits, nullptr, 16);
 }
 
-Json json_of(const Effects& effects)
-{
-    return {{"aberration", effects.aberration}, {"doppler", effects.doppler}, {"headlight", effects.headlight},
-        {"comparison", comparison_names[std::size_t(effects.comparison)]}, {"false_colours", effects.false_colours}};
-}
-
 /// Reads the start. It is not in the form of a shot's file, where a speed and directions would be rounded.
 Shot read_start(const Place& place)
 {
@@ -120,7 +105,7 @@ Shot read_start(const Place& place)
     take(place, "u", start.u, any_place);
     take_turn(place, "ship_from_cockpit", start.ship_from_cockpit);
     if (auto p = find_member(place, "effects"))
-        start.effects = read_effects(*p);
+        start.effects = read<Effects>(*p);
     take(place, "exposure_ev", start.exposure_ev, {-60, 60});
     return start;
 }
@@ -217,10 +202,10 @@ std::vector<double> read_range_goal(const Place& place)
 RecordEntry read_entry(const Place& top)
 {
     std::vector<std::string_view> known{"dt_ns", "skipped_ns", "unseen", "lever", "faster", "push", "turn", "look_rad",
-        "head_m", "head_turned", "exposure", "exposure_ev", "light", "ranged", "range_goal", "choose", "turn_by",
+        "head_m", "head_turned", "exposure", "exposure_ev", "light", "ranged", "range_goal", "choose", "turn_by", "taken",
         "commands"};
-    for (const auto& [name, flag, leap] : all_switches)
-        known.emplace_back(name);
+    for (const SwitchEntry& one : all_switches)
+        known.emplace_back(one.name);
     reject_unknown_members(top, known);
     RecordEntry entry;
     entry.dt_ns = whole(member(top, "dt_ns"), 1e9);
@@ -250,8 +235,12 @@ RecordEntry read_entry(const Place& top)
         controls.choose = integer(*p, -1000, 1000);
     if (auto p = find_member(top, "turn_by"))
         controls.turn_by = integer(*p, -1000, 1000);
-    for (const auto& [name, flag, leap] : all_switches)
-        take(top, name, controls.*flag);
+    for (const SwitchEntry& one : all_switches) {
+        bool pressed = false;
+        take(top, std::string(one.name), pressed);
+        controls.set(one.which, pressed);
+    }
+    take(top, "taken", controls.taken);
     if (auto p = find_member(top, "commands"))
         for (const Place& command : items(*p, 1, 1000, "commands"))
             controls.commands.push_back(read_command(command));
@@ -302,7 +291,7 @@ std::string text_of(const RecordHeader& header)
     json["pattern"] = header.pattern;
     json["seconds_per_time_unit"] = header.seconds_per_time_unit;
     json["start"] = {{"time", start.time}, {"position", components(start.position)}, {"u", components(start.u)},
-        {"ship_from_cockpit", components(start.ship_from_cockpit)}, {"effects", json_of(start.effects)},
+        {"ship_from_cockpit", components(start.ship_from_cockpit)}, {"effects", written(start.effects)},
         {"exposure_ev", start.exposure_ev}};
     json["flying"]
         = {{"mode", name_of(rules.mode)}, {"max_gamma", rules.max_gamma}, {"turn_deg_per_s", rules.turn_deg_per_s},
@@ -365,9 +354,11 @@ std::string text_of(const RecordEntry& entry)
         json["choose"] = controls.choose;
     if (controls.turn_by != 0)
         json["turn_by"] = controls.turn_by;
-    for (const auto& [name, flag, leap] : all_switches)
-        if (controls.*flag)
-            json[name] = true;
+    for (const SwitchEntry& one : all_switches)
+        if (controls[one.which])
+            json[std::string(one.name)] = true;
+    if (controls.taken)
+        json["taken"] = true;
     for (const Command& command : controls.commands)
         json["commands"].push_back(words_of(command));
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -443,8 +434,9 @@ std::uint64_t digest(const Flight& flight)
         all.add(homing.from_boundary);
     }
     all.add(flight.look_rad);
-    all.add(flight.effects.aberration), all.add(flight.effects.doppler), all.add(flight.effects.headlight);
-    all.add(flight.effects.false_colours), all.add(double(flight.effects.comparison));
+    for (const EffectEntry& one : all_effects)
+        all.add(flight.effects[one.which]);
+    all.add(double(flight.effects.comparison));
     all.add(flight.exposure_ev), all.add(flight.hud), all.add(flight.ticks), all.add(flight.left_ns);
     return all.sum;
 }

@@ -12,7 +12,7 @@ bool RecordReplay::play(RecordEntry& entry)
     if (played_)
         return false;
     entry = *recorded;
-    entry.controls.save = false; // a replay writes no layout
+    entry.controls.set(Switch::save, false); // a replay writes no layout
     const auto length = std::chrono::nanoseconds(entry.dt_ns);
     time_.sleep_until(due_ += length);
     due_ = std::max(due_, time_.now() - length); // a late replay does not hurry, because each frame must be seen

@@ -184,23 +184,23 @@ void run_question(Touring& now, const Show& show, const Controls& controls, doub
         nudge(now, show, by), now.nudged = true, now.nudged_s = 0;
     else if ((now.nudged_s += dt_s) > first_repeat_s && std::holds_alternative<NumberToSet>(question.answer))
         nudge(now, show, by), now.nudged_s -= repeat_s;
-    const bool keys[] = {controls.aberration, controls.doppler, controls.headlight};
+    constexpr Switch keys[]{Switch::aberration, Switch::doppler, Switch::headlight}; // 1, 2, 3
     if (const auto* choices = std::get_if<std::vector<Choice>>(&question.answer))
         for (int i = 0; i < int(choices->size()); ++i)
-            if (keys[i]) {
+            if (controls[keys[i]]) {
                 now.chosen = i;
                 answer(now, show);
                 return;
             }
-    if (controls.stop)
+    if (controls[Switch::stop])
         answer(now, show);
 }
 
 /// The visitor flies; the tour's own controls do not reach the ship.
 void fly_by_hand(Touring& now, const Show& show, Controls controls, std::int64_t dt_ns, const Flying& rules)
 {
-    controls.home = controls.home && now.over;
-    controls.undo = controls.reset = false;
+    controls.set(Switch::home, controls[Switch::home] && now.over);
+    controls.set(Switch::undo, false), controls.set(Switch::reset, false);
     controls.exposure = 0; // the tour itself applies it
     now.flight = step(
         now.flight, controls, dt_ns, rules, show.seconds_per_time_unit, std::get<Cut>(show.tour.steps[0].motion).shot);
@@ -210,20 +210,20 @@ void fly_by_hand(Touring& now, const Show& show, Controls controls, std::int64_t
 bool press(Touring& now, const Show& show, const Controls& controls)
 {
     const bool by_hand = flies(now, show);
-    now.flight.hud ^= controls.hud && !by_hand;
+    now.flight.hud ^= controls[Switch::hud] && !by_hand;
     if (!by_hand) {
         constexpr double half_pi = 1.57079632679489662;
         glm::dvec2& look = now.flight.look_rad;
-        look = controls.look_ahead ? glm::dvec2(0) : look + controls.look_rad;
+        look = controls[Switch::look_ahead] ? glm::dvec2(0) : look + controls.look_rad;
         look.y = std::clamp(look.y, -half_pi, half_pi);
     }
-    if (controls.reset) {
+    if (controls[Switch::reset]) {
         const Flight before = now.flight;
         now = touring_at(show);
         count_beginning(now.flight, before);
         return true;
     }
-    if (controls.undo && !now.over) {
+    if (controls[Switch::undo] && !now.over) {
         // Soon after a step's beginning, undo leads to the step before.
         if (now.into_ns < ns(2) && now.starts.size() > 1)
             now.starts.pop_back();
@@ -231,14 +231,15 @@ bool press(Touring& now, const Show& show, const Controls& controls)
         now.paused = false;
         return true;
     }
-    if (controls.home && !now.over) {
+    if (controls[Switch::home] && !now.over) {
         now.paused = false;
         // Skips to the step's end and its final state.
         now.into_ns = std::max(now.into_ns, ns(step_of(now, show).seconds));
         next(now, show, true);
         return true;
     }
-    if ((controls.stop || controls.freeze) && !by_hand && !(step_of(now, show).question && !now.measured_answer))
+    if ((controls[Switch::stop] || controls[Switch::freeze]) && !by_hand
+        && !(step_of(now, show).question && !now.measured_answer))
         now.paused = !now.paused;
     return false;
 }

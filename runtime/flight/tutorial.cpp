@@ -11,7 +11,7 @@ Tutorial advance(Tutorial tutorial, const Controls& controls, const Flight& flig
     tutorial.turned_rad += std::hypot(flight.turn_rad_s.x, flight.turn_rad_s.y) * dt_s;
     const double speed = rapidity_of(flight.ship);
     const bool done[] = {std::abs(speed - tutorial.begun_at) > lesson_rapidity, tutorial.turned_rad > lesson_turn_rad,
-        controls.stop || controls.home};
+        controls[Switch::stop] || controls[Switch::home]};
     if (tutorial.lesson < lessons && done[tutorial.lesson])
         tutorial = {.lesson = tutorial.lesson + 1, .begun_at = speed};
     return tutorial;

@@ -142,17 +142,16 @@ std::string light_name(const Effects& on, const Words& words)
 {
     if (on.comparison != Comparison::none)
         return words(on.comparison == Comparison::galilean ? "light.galilean" : "light.no_light_delay");
-    if (on.false_colours)
-        return words(on.doppler ? "light.false_colours" : "light.false_colours_unshifted");
-    return words(on.doppler ? on.headlight ? "light.seen" : "light.without_headlight"
-            : on.headlight  ? "light.without_doppler"
-                            : "light.at_rest");
+    if (on[Effect::false_colours])
+        return words(on[Effect::doppler] ? "light.false_colours" : "light.false_colours_unshifted");
+    return words(on[Effect::doppler] ? on[Effect::headlight] ? "light.seen" : "light.without_headlight"
+            : on[Effect::headlight]  ? "light.without_doppler"
+                                     : "light.at_rest");
 }
 
 std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r, const Words& words)
 {
     bool close = r.beta_deficit < 1e-3;
-    auto on = [&](bool is) { return words(is ? "hud.on" : "hud.off"); };
     std::vector<std::pair<std::string, std::string>> fields = {
         {words(close ? "hud.speed_deficit" : "hud.speed"),
             close ? shown_number(r.beta_deficit, words) : shown_number(1 - r.beta_deficit, 4, words)},
@@ -161,10 +160,10 @@ std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r, c
         {words("hud.ship"), shown_duration(r.ship_s, words)},
         {words("hud.world"), shown_duration(r.world_s, words)},
         {words("hud.flown"), shown_length(r.distance_m, r.light_speed_m_s, words)},
-        {words("hud.aberration"), on(r.effects.aberration)},
-        {words("hud.doppler"), on(r.effects.doppler)},
-        {words("hud.headlight"), on(r.effects.headlight)},
     };
+    for (const EffectEntry& one : all_effects)
+        if (one.usual)
+            fields.emplace_back(words("hud." + std::string(one.name)), words(r.effects[one.which] ? "hud.on" : "hud.off"));
     fields.push_back({words("hud.flight"), words("flight." + std::string(r.frozen ? "frozen" : name_of(r.mode)))});
     const double ev = std::round(10 * r.exposure_ev) / 10;
     const std::string sign = ev < 0 ? "−" : ev > 0 ? "+" : "";

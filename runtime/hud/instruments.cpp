@@ -138,7 +138,7 @@ glm::dvec3 left_from(const SpotReading& reading) { return *reading.ship_distance
 MeasuringObserver measuring_observer_of(const Shot& shot, const glm::dvec3& offset)
 {
     return {shot.position + physics::eye_place(shot.u, offset), shot.time + physics::eye_time(shot.u, offset), shot.u,
-        shot.ship_from_cockpit, shot.effects.aberration || shot.effects.comparison == Comparison::no_light_delay,
+        shot.ship_from_cockpit, shot.effects[Effect::aberration] || shot.effects.comparison == Comparison::no_light_delay,
         shot.effects.comparison};
 }
 

@@ -66,10 +66,11 @@ Columns columns_of(const Measured& m, const std::string& overlay, const std::str
         all.emplace_back(velocities[std::size_t(i)], csv_number(o.u[i]));
     all.insert(all.end(),
         {{"gamma", csv_number(gamma)}, {"beta", csv_number(speed / gamma)},
-            {"one_minus_beta", csv_number(1 / (gamma * (gamma + speed)))},
-            {"aberration_on", m.effects.aberration ? "1" : "0"}, {"doppler_on", m.effects.doppler ? "1" : "0"},
-            {"headlight_on", m.effects.headlight ? "1" : "0"}, {"overlay", overlay},
-            {"doppler_1_from_motion_deg", csv_number(unshifted_angle(o), degree)}});
+            {"one_minus_beta", csv_number(1 / (gamma * (gamma + speed)))}});
+    for (const EffectEntry& one : all_effects)
+        if (one.usual)
+            all.emplace_back(std::string(one.name) + "_on", m.effects[one.which] ? "1" : "0");
+    all.insert(all.end(), {{"overlay", overlay}, {"doppler_1_from_motion_deg", csv_number(unshifted_angle(o), degree)}});
     add_spot(all, "aim", m.aim);
     all.emplace_back("aim_light", csv_number(m.aim.light));
     for (std::size_t i = 0; i < 2; ++i) {

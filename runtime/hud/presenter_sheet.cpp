@@ -99,14 +99,15 @@ void add_choices(PresenterSheet& sheet, const PresenterState& state, const Prese
 
 void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& words)
 {
-    using namespace presenter_keys;
+    using namespace keys;
     std::vector<PresenterKey>& keys = sheet.keys;
     const auto deed = [&](int key, const char* name, const char* label, PresenterDeed deed) -> PresenterKey& {
         return keys.emplace_back(PresenterKey{.key = key, .name = name, .label = words(label), .deed = std::move(deed)});
     };
-    const auto toggle = [&](int key, const char* label, Order kind, bool on) -> PresenterKey& {
+    const auto toggle = [&](int key, const std::string& label, Command command, bool on) -> PresenterKey& {
         const char name[]{char(key), 0};
-        PresenterKey& added = deed(key, name, label, Command{.kind = kind, .on = !on});
+        command.on = !on;
+        PresenterKey& added = deed(key, name, label.c_str(), std::move(command));
         added.on = on;
         added.state = words(on ? "hud.on" : "hud.off");
         return added;
@@ -131,9 +132,9 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
     back.also = page_up, back.usable = toured;
     PresenterKey& next = deed(right, "→", "remote.next", Command{.kind = Order::next});
     next.also = page_down, next.usable = toured;
-    toggle('P', toured ? "remote.pause" : "presenter.freeze", Order::pause, state.paused);
-    toggle('H', "remote.hold", Order::hold, state.hold);
-    toggle('B', "remote.fade", Order::fade, state.fade);
+    toggle('P', toured ? "remote.pause" : "presenter.freeze", {.kind = Order::pause}, state.paused);
+    toggle('H', "remote.hold", {.kind = Order::hold}, state.hold);
+    toggle('B', "remote.fade", {.kind = Order::fade}, state.fade);
 
     deed(space, words("presenter.space").c_str(), "remote.stop", Command{.kind = Order::stop});
     deed('R', "R", "remote.reset", Command{.kind = Order::reset});
@@ -141,13 +142,12 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
     list('T', "presenter.tours", PresenterList::tours);
     list('V', "presenter.views", PresenterList::views);
 
-    for (const auto& [key, label, kind, on] :
-        {std::tuple{'A', "remote.aberration", Order::aberration, state.effects.aberration},
-            {'D', "remote.doppler", Order::doppler, state.effects.doppler},
-            {'E', "remote.headlight", Order::headlight, state.effects.headlight},
-            {'F', "remote.false_colours", Order::false_colours, state.effects.false_colours},
-            {'S', "remote.slow_motion", Order::slow_motion, state.slow_motion}})
-        toggle(key, label, kind, on).usable = state.own_effects;
+    for (const EffectEntry& one : all_effects)
+        toggle(one.letter, "remote." + std::string(one.name), {.kind = Order::effect, .effect = one.which},
+            state.effects[one.which])
+            .usable
+            = state.own_effects;
+    toggle('S', "remote.slow_motion", {.kind = Order::slow_motion}, state.slow_motion).usable = state.own_effects;
 
     constexpr const char* comparisons[]{"remote.none", "remote.galilean", "remote.no_light_delay"};
     const Comparison compared = state.effects.comparison;
@@ -162,7 +162,7 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
     deed(down, "↓", "presenter.darker", brighter(-exposure_step_ev)).state = exposure_text(state.exposure_ev, words);
     deed(up, "↑", "presenter.brighter", brighter(exposure_step_ev)).state = exposure_text(state.exposure_ev, words);
 
-    toggle('U', "remote.range", Order::range, state.range);
+    toggle('U', "remote.range", {.kind = Order::range}, state.range);
     list('G', "remote.speed_limit", PresenterList::limits).state = limit_text(state.max_gamma, words);
     PresenterKey& language = list('L', "remote.language", PresenterList::languages);
     for (const auto& [name, text] : state.languages)
@@ -171,8 +171,8 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
     PresenterKey& caption = deed('K', "K", "remote.caption", TypeCaption{});
     caption.on = !state.caption.empty();
     caption.state = words(caption.on ? "hud.on" : "hud.off");
-    toggle('O', "remote.one_button", Order::one_button, state.one_button);
-    toggle('N', "remote.left_handed", Order::left_handed, state.left_handed);
+    toggle('O', "remote.one_button", {.kind = Order::one_button}, state.one_button);
+    toggle('N', "remote.left_handed", {.kind = Order::left_handed}, state.left_handed);
 }
 
 const PresenterKey* key_found(const std::vector<PresenterKey>& keys, int key)
@@ -185,7 +185,7 @@ const PresenterKey* key_found(const std::vector<PresenterKey>& keys, int key)
 /// Keys while a caption is typed.
 std::optional<Command> press_typing(PresenterHands& hands, int key)
 {
-    using namespace presenter_keys;
+    using namespace keys;
     std::string& text = *hands.typed;
     if (key == escape) {
         hands.typed.reset();
@@ -232,7 +232,7 @@ std::optional<Command> press(const PresenterSheet& sheet, PresenterHands& hands,
 {
     if (hands.typed)
         return press_typing(hands, key);
-    if (key == presenter_keys::escape)
+    if (key == keys::escape)
         hands = {};
     const PresenterKey* pressed = key_found(sheet.choices, key);
     if (!pressed)

@@ -39,12 +39,6 @@ struct PresenterHands {
     std::optional<std::string> typed{}; ///< a caption that is being typed; none: keys are commands
 };
 
-/// Keys by GLFW's numbers; letters and digits have those of their characters.
-namespace presenter_keys {
-constexpr int space = 32, escape = 256, enter = 257, backspace = 259, right = 262, left = 263, down = 264, up = 265,
-              page_up = 266, page_down = 267, keypad_enter = 335;
-}
-
 struct OpenList {
     PresenterList list;
 };

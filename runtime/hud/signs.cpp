@@ -81,7 +81,7 @@ Apparent apparent(const Shot& shot, const Thing& thing, double seconds_per_time_
     seen.sign.eyes_apart_s = ray.D * std::abs(seen.sign.towards.x) * eyes_apart * seconds_per_time_unit;
     seen.radius = thing.radius / (distance * ray.D); // aberration makes small things smaller by 1 / D
     const double speed = glm::length(shot.u), beta = speed / std::sqrt(1 + speed * speed);
-    const bool coloured = shot.effects.doppler || shot.effects.headlight;
+    const bool coloured = shot.effects[Effect::doppler] || shot.effects[Effect::headlight];
     const bool is_lit = !coloured || ray.D > least_D_part * physics::exp_rapidity(speed);
     const bool says_so = thing.kind == Sign::Kind::clock
         ? seen.sign.light_s > old_light_s
@@ -106,7 +106,7 @@ std::optional<Thing> clock_at(const World& world, std::size_t instance)
 std::optional<Sign> sign_for(const Shot& shot, std::span<const AlignedBox> things, const World& world,
     double seconds_per_time_unit, double eyes_apart, const std::optional<Sign>& before)
 {
-    if (!shot.effects.aberration || shot.effects.comparison != Comparison::none)
+    if (!shot.effects[Effect::aberration] || shot.effects.comparison != Comparison::none)
         return {};
     std::vector<Thing> all;
     for (std::size_t i = 0; i < things.size(); ++i)

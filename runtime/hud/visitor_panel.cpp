@@ -118,10 +118,9 @@ std::string guides_numbers(const Typesetter& typesetter, const Readings& r, cons
 std::string switched_off(const Effects& on, const Words& words)
 {
     std::string list;
-    for (const auto& [is_on, key] :
-        {std::pair{on.aberration, "hud.aberration"}, {on.doppler, "hud.doppler"}, {on.headlight, "hud.headlight"}})
-        if (!is_on)
-            list += (list.empty() ? "" : ", ") + words(key);
+    for (const EffectEntry& one : all_effects)
+        if (one.usual && !on[one.which])
+            list += (list.empty() ? "" : ", ") + words("hud." + std::string(one.name));
     return list.empty() ? "" : words("hud.off") + ": " + list;
 }
 
@@ -146,7 +145,7 @@ std::string plain_sentence(const Readings& r, const Words& words)
     const Effects& on = r.effects;
     if (on.comparison != Comparison::none)
         return words(on.comparison == Comparison::galilean ? "say.galilean" : "say.no_light_delay");
-    if (on.false_colours)
+    if (on[Effect::false_colours])
         return words("say.false_colours");
     if (r.frozen)
         return words("say.frozen");
@@ -154,12 +153,12 @@ std::string plain_sentence(const Readings& r, const Words& words)
         return words("say.rest");
     if (beta < 0.25)
         return words("say.slow");
-    if (!on.aberration)
-        return words(on.doppler && on.headlight ? "say.no_aberration"
-                : on.doppler                    ? "say.colours_alone"
-                : on.headlight                  ? "say.brightness_alone"
-                                                : "say.no_effects");
-    const bool colours = on.doppler && on.headlight; // what is said of them names both
+    if (!on[Effect::aberration])
+        return words(on[Effect::doppler] && on[Effect::headlight] ? "say.no_aberration"
+                : on[Effect::doppler]                             ? "say.colours_alone"
+                : on[Effect::headlight]                           ? "say.brightness_alone"
+                                                                  : "say.no_effects");
+    const bool colours = on[Effect::doppler] && on[Effect::headlight]; // what is said of them names both
     if (r.looked_cosine < -ahead_cosine)
         return words(colours ? "say.back_colours" : "say.back");
     if (r.looked_cosine < ahead_cosine)

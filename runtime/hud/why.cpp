@@ -95,7 +95,7 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
     case Why::none:
         break;
     case Why::aberration:
-        if (!m.effects.aberration) {
+        if (!m.effects[Effect::aberration]) {
             add("why.aberration_off");
             break;
         }
@@ -109,13 +109,13 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
         const double spot_gamma = std::sqrt(1 + aim.relative_u * aim.relative_u), spot_beta = aim.relative_u / spot_gamma;
         // Without aberration a moving spot is not seen in this formula's direction.
         const double by_formula = 1 / (spot_gamma * (1 - spot_beta * std::cos(aim.from_relative_motion_rad.value_or(0))));
-        if (m.effects.aberration || std::abs(by_formula / aim.ray.D - 1) < 1e-3)
+        if (m.effects[Effect::aberration] || std::abs(by_formula / aim.ray.D - 1) < 1e-3)
             add("why.doppler_numbers",
                 {{"gamma", shown_number(spot_gamma, words)}, {"beta", shown_number(spot_beta, 4, words)},
                     {"cos", format.cosine(aim.from_relative_motion_rad)}, {"D", D}});
         else
             add("why.aberration_off");
-        if (m.effects.doppler)
+        if (m.effects[Effect::doppler])
             add("why.doppler_seen", {{"nm", format.wavelength(aim.seen_nm)}});
         else
             add("why.doppler_off");
@@ -123,7 +123,7 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
     }
     case Why::headlight:
         add("why.headlight_numbers", {{"D", D}, {"cube", shown_number(std::pow(aim.ray.D, 3), words)}});
-        if (!m.effects.headlight)
+        if (!m.effects[Effect::headlight])
             add("why.headlight_off");
         break;
     case Why::delay:

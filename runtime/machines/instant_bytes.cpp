@@ -14,7 +14,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 /// Another order or kind of the fields below is another version.
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 
 /// Counts and lengths above these belong to no instant.
 constexpr std::uint32_t most_letters = 3000, most_things = 256;
@@ -121,9 +121,12 @@ template <class Part, class Thing> void take(Part& part, std::optional<Thing>& t
 
 template <class Part> void take(Part& part, Effects& effects)
 {
-    take(part, effects.aberration), take(part, effects.doppler), take(part, effects.headlight);
+    for (const EffectEntry& one : all_effects) {
+        bool on = effects[one.which];
+        take(part, on);
+        effects.on.set(one.which, on);
+    }
     take_choice(part, effects.comparison, comparison_names.size());
-    take(part, effects.false_colours);
 }
 
 template <class Part> void take(Part& part, Shot& shot)

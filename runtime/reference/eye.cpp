@@ -61,7 +61,7 @@ TracingEye::Nearest TracingEye::nearest(
     const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world, double after) const
 {
     // Without aberration, directions are the world's, and moving things are seen as from there; the ship's D comes on top.
-    const bool aberration = observer_.shot.effects.aberration;
+    const bool aberration = observer_.shot.effects[Effect::aberration];
     const double D_beside = aberration ? 1 : world.D;
     Nearest found;
     for (const EyeInRestFrame& view : views_) {
@@ -110,8 +110,8 @@ TracingEye::Along TracingEye::along(
         }
         const double alpha = std::clamp(base_of(world_, pictures_, found.met).a, 0.0, 1.0);
         if (lights && alpha > 0)
-            out.light += out.left * alpha * (effects.headlight ? found.D * found.D * found.D : 1)
-                * found.view->lighting.seen(found.met, effects.doppler ? found.D : 1);
+            out.light += out.left * alpha * (effects[Effect::headlight] ? found.D * found.D * found.D : 1)
+                * found.view->lighting.seen(found.met, effects[Effect::doppler] ? found.D : 1);
         out.left *= 1 - alpha;
         after = found.way;
     }
@@ -137,7 +137,7 @@ physics::AberratedRay TracingEye::world_ray(const glm::dvec3& way) const
 {
     const glm::dvec3 n = glm::normalize(observer_.rest_frames.front().motion_from_cockpit * way);
     physics::AberratedRay world = sight(n, observer_.E);
-    if (!observer_.shot.effects.aberration)
+    if (!observer_.shot.effects[Effect::aberration])
         world.n = n;
     return world;
 }
@@ -173,7 +173,7 @@ LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside, std::
     const Nearest& found = ray.solid;
     if (found.view) {
         out.D = found.D;
-        out.distance = found.way / (effects.aberration ? world.D : 1);
+        out.distance = found.way / (effects[Effect::aberration] ? world.D : 1);
     }
     GlobeSight::Ray globes;
     bool before = false; // a globe stands before the nearest triangle
@@ -185,20 +185,20 @@ LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside, std::
         if (before && std::isfinite(distance))
             out.D = world.D, out.distance = distance / stretch;
     }
-    const double shift = effects.doppler ? out.D : 1;
+    const double shift = effects[Effect::doppler] ? out.D : 1;
     if (before) {
         out.light = globe_colours_->seen(globes.terms, shift);
         out.sun = globe_colours_->seen(globes.sun, shift);
         if (globes.through > 0)
             out.light += globes.through
-                * (found.view ? found.view->lighting.seen(found.met, effects.doppler ? found.D : 1)
+                * (found.view ? found.view->lighting.seen(found.met, effects[Effect::doppler] ? found.D : 1)
                               : colours_.sky(sky(out.world), shift));
     } else if (found.view) {
         out.light = found.view->lighting.seen(found.met, shift);
     } else {
         out.light = colours_.sky(sky(out.world), shift);
     }
-    if (effects.headlight) {
+    if (effects[Effect::headlight]) {
         out.light *= out.D * out.D * out.D;
         out.sun *= out.D * out.D * out.D;
     }
@@ -224,8 +224,8 @@ glm::dvec3 TracingEye::globe_light(std::size_t body, const glm::dvec3& way, cons
     if (along_ray.solid.view)
         return glm::dvec3(0);
     const GlobeSight::Ray ray = among_globes(world, beside, {}, int(body));
-    const glm::dvec3 light = along_ray.left * globe_colours_->seen(ray.terms, effects.doppler ? world.D : 1);
-    return effects.headlight ? light * (world.D * world.D * world.D) : light;
+    const glm::dvec3 light = along_ray.left * globe_colours_->seen(ray.terms, effects[Effect::doppler] ? world.D : 1);
+    return effects[Effect::headlight] ? light * (world.D * world.D * world.D) : light;
 }
 
 glm::dvec3 TracingEye::towards(const glm::dvec3& from_eye) const
@@ -243,7 +243,7 @@ physics::AberratedRay TracingEye::from_world(const glm::dvec3& towards) const
     const glm::dvec3 n = rest_frame.motion_from_frame * towards;
     const double E = observer_.E;
     physics::AberratedRay seen{n, 1};
-    if (!effects.aberration)
+    if (!effects[Effect::aberration])
         seen.D = sight(n, E).D;
     else if (effects.comparison == Comparison::galilean)
         seen = physics::galilean_camera_from_world(n, E, 1 / E);
@@ -256,7 +256,7 @@ physics::AberratedRay TracingEye::from_world(const glm::dvec3& towards) const
 double TracingEye::solid_angle(const physics::AberratedRay& seen) const
 {
     const Effects& effects = observer_.shot.effects;
-    if (!effects.aberration)
+    if (!effects[Effect::aberration])
         return 1;
     if (effects.comparison != Comparison::galilean)
         return 1 / (seen.D * seen.D);

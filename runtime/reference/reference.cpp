@@ -62,10 +62,10 @@ public:
         , plain_(plain)
         , samples_(sample_places(samples))
         , pictures_(input.world)
-        , colours_(input.world, input.scene, shot.effects.false_colours ? false_colours() : eye())
-        , globe_colours_(input.world.globes && input.scene.globes
-                  ? std::make_unique<GlobeColours>(*input.world.globes, shot.effects.false_colours ? false_colours() : eye())
-                  : nullptr)
+        , colours_(input.world, input.scene, shot.effects[Effect::false_colours] ? false_colours() : eye())
+        , globe_colours_(input.world.globes && input.scene.globes ? std::make_unique<GlobeColours>(
+                             *input.world.globes, shot.effects[Effect::false_colours] ? false_colours() : eye())
+                                                                  : nullptr)
         , exposure_(std::exp2(shot.exposure_ev))
     {
         const double scale = layout.stereo.units_per_m(input.scene.unit_m, input.scene.light_speed_m_s);
@@ -311,9 +311,10 @@ std::string describe(const Shot& shot)
     out.precision(17);
     out << shot.time << ' ' << shot.position.x << ' ' << shot.position.y << ' ' << shot.position.z << ' ' << shot.u.x << ' '
         << shot.u.y << ' ' << shot.u.z << ' ' << shot.ship_from_cockpit.w << ' ' << shot.ship_from_cockpit.x << ' '
-        << shot.ship_from_cockpit.y << ' ' << shot.ship_from_cockpit.z << ' ' << shot.effects.aberration
-        << shot.effects.doppler << shot.effects.headlight << int(shot.effects.comparison) << shot.effects.false_colours
-        << ' ' << shot.exposure_ev;
+        << shot.ship_from_cockpit.y << ' ' << shot.ship_from_cockpit.z << ' ';
+    for (const EffectEntry& one : all_effects)
+        out << shot.effects[one.which];
+    out << int(shot.effects.comparison) << ' ' << shot.exposure_ev;
     return out.str();
 }
 

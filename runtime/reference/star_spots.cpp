@@ -40,9 +40,9 @@ StarSpots::StarSpots(const std::vector<Star>& stars, const StarSky& sky, double 
             const double shown = eye.sky_part(seen.n, beside(seen.n), parts);
             if (shown == 0)
                 continue;
-            glm::dvec3 light = colours.star(star.temperature_K, effects.doppler ? seen.D : 1)
+            glm::dvec3 light = colours.star(star.temperature_K, effects[Effect::doppler] ? seen.D : 1)
                 * (magnitude_0 * std::pow(10, -0.4 * star.magnitude) * nearer * nearer * shown);
-            if (effects.headlight)
+            if (effects[Effect::headlight])
                 light *= seen.D * seen.D * seen.D;
             light *= eye.solid_angle(seen); // a star is a surface too small to have a visible extent
             all[std::size_t(i)] = {seen.n, light, glare_radius(light, exposure, farthest_glare_deg)};

@@ -360,7 +360,7 @@ void Server::hand_out_replies()
 
 std::string Server::put(const Command& command, Role role, const std::string& who, Client* client, int id)
 {
-    const CommandRule& rule = rule_of(command.kind);
+    const CommandRule& rule = rule_of(command);
     if (role < rule.role)
         return "the command " + std::string(rule.name) + " is not for the role " + role_names[std::size_t(role)]
             + "; the role " + role_names[std::size_t(rule.role)] + " is right";

@@ -69,12 +69,12 @@ Disparity disparity(
                 const glm::dvec3 apart = physics::eye_place(shot.u, shot.ship_from_cockpit * ((eye - drawn_from) * scale));
                 const glm::dvec3 point = seen.depth * seen.world - apart;
                 glm::dvec3 wanted = seen.camera;
-                if (shot.effects.aberration)
+                if (shot.effects[Effect::aberration])
                     wanted = glm::transpose(to_motion) * physics::world_from_camera(to_motion * seen.camera, E, 1 / E).n;
                 const double off = std::atan2(glm::length(glm::cross(point, wanted)), glm::dot(point, wanted));
                 const double pixel
                     = compiled.map ? compiled.map->at(x, y).w : pixel_angle(view.picture, glm::dvec2(x, y) + 0.5);
-                errors.push_back(off / (pixel * (shot.effects.aberration ? seen.D : 1)));
+                errors.push_back(off / (pixel * (shot.effects[Effect::aberration] ? seen.D : 1)));
                 if (exact)
                     hidden += std::abs(glm::length(point) / RetardedPosition(truth, i).depth - 1) > 0.02;
             }

@@ -145,7 +145,8 @@ bool EyeCubes::shares_cube(const Observer& inset, const Observer& first) const
 StoredLight EyeCubes::inset_light(const Observer& inset) const
 {
     Effects on = inset.shot.effects;
-    on.doppler = on.doppler && (inset.E != 1 || world_.several_rest_frames());
+    if (inset.E == 1 && !world_.several_rest_frames())
+        on = on.without(Effect::doppler);
     return world_.stored_light(on);
 }
 
@@ -263,7 +264,7 @@ double EyeCubes::dark_D(const ViewState& view, double pre_exposure) const
     const Shot& shot = observer_of(view).shot;
     const Effects& on = shot.effects;
     // A body that stands out against the dark needs its exact edge.
-    if (state_.all_light || !on.aberration || on.comparison == Comparison::galilean || world_.several_rest_frames()
+    if (state_.all_light || !on[Effect::aberration] || on.comparison == Comparison::galilean || world_.several_rest_frames()
         || world_.globes) // the Sun's light is in no table of the cube map's
         return 0;
     // A fiftieth of the first of 255 steps, which dither never rounds up: by sRGB's curve, which is linear there, and by
@@ -272,8 +273,8 @@ double EyeCubes::dark_D(const ViewState& view, double pre_exposure) const
     // The greatest number that a cube map holds.
     constexpr double most_stored = 65504;
     const double exposure = std::exp2(shot.exposure_ev);
-    return dark_below(world_.response(on).greatest, on.doppler, on.headlight, most_stored * exposure / pre_exposure,
-        views_.finish_of(view) ? least_gamma : least_srgb);
+    return dark_below(world_.response(on).greatest, on[Effect::doppler], on[Effect::headlight],
+        most_stored * exposure / pre_exposure, views_.finish_of(view) ? least_gamma : least_srgb);
 }
 
 /// True if an eye's cube map may be shown once more. It was drawn elsewhere and at another speed, but it must have the same

@@ -142,10 +142,10 @@ double FrameRenderer::pre_exposure(double most_E) const
 double FrameRenderer::pre_exposure(const Shot& shot, double most_E, StoredLight light) const
 {
     const Effects& effects = shot.effects;
-    const bool gains = effects.headlight || effects.doppler;
+    const bool gains = effects[Effect::headlight] || effects[Effect::doppler];
     // Red-shifted sunlight also leaves the visible range: by Wien's law its share at 360 nm falls as exp(-6.92 (1/D -
     // 1)).
-    const double leaves = effects.doppler ? std::exp(6.92 * (most_E - 1)) : 1;
+    const double leaves = effects[Effect::doppler] ? std::exp(6.92 * (most_E - 1)) : 1;
     const bool unshifted = light == StoredLight::unshifted;
     const double brightest
         = unshifted ? std::max(world_.brightest * world_.unshifted->gain, world_.unshifted->most) : world_.brightest;

@@ -289,7 +289,7 @@ void GpuGlobes::add_glare(shared::GlobeConstants& constants, const Seen& all, co
     const bool galilean = on.comparison == Comparison::galilean;
     physics::AberratedRay sight{n, 1};
     double growth = 1;
-    if (on.aberration) {
+    if (on[Effect::aberration]) {
         sight = galilean ? physics::galilean_camera_from_world(n, E, 1 / E) : physics::camera_from_world(n, E, 1 / E);
         growth = sight.D;
         if (galilean) {
@@ -298,10 +298,11 @@ void GpuGlobes::add_glare(shared::GlobeConstants& constants, const Seen& all, co
         }
     } else
         sight.D = galilean ? physics::galilean_world_from_camera(n, E, 1 / E).D : physics::world_from_camera(n, E, 1 / E).D;
-    const glm::dvec3 mean
-        = globe_colour(on.false_colours ? false_texels_ : light_texels_, rows_.means[sun.globe], on.doppler ? sight.D : 1);
+    const glm::dvec3 mean = globe_colour(on[Effect::false_colours] ? false_texels_ : light_texels_, rows_.means[sun.globe],
+        on[Effect::doppler] ? sight.D : 1);
     const double part = std::min(globes[sun.globe].radius_m / unit_m_ / sun.distance, 1.0);
-    const double factor = (on.headlight ? physics::headlight(sight.D) : 1) * pi * part * part / (growth * growth) * left;
+    const double factor
+        = (on[Effect::headlight] ? physics::headlight(sight.D) : 1) * pi * part * part / (growth * growth) * left;
     constants.sun = glm::vec4(sight.n, std::asin(part) / growth / degree);
     constants.sunlight = glm::vec4(mean * (factor * constants.first.x), 0);
 }

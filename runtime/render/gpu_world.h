@@ -56,12 +56,13 @@ struct GpuWorld {
     Buffer columns, unshifted_columns; ///< the matrix columns of both
     ResponseBuffers eye, false_colours;
 
-    const ResponseBuffers& response(const Effects& on) const { return on.false_colours ? false_colours : eye; }
+    const ResponseBuffers& response(const Effects& on) const { return on[Effect::false_colours] ? false_colours : eye; }
     bool several_rest_frames() const { return world.frames.size() > 1; } ///< something may move
     /// The least numbers that are exact under the effects.
     StoredLight stored_light(const Effects& on) const
     {
-        return unshifted && !on.doppler && !on.false_colours ? StoredLight::unshifted : StoredLight::coefficients;
+        return unshifted && !on[Effect::doppler] && !on[Effect::false_colours] ? StoredLight::unshifted
+                                                                               : StoredLight::coefficients;
     }
     /// The sky's picture and its sampler; white where it has none.
     const Image& milky_way() const { return world.milky_way < 0 ? white : textures[std::size_t(world.milky_way)]; }

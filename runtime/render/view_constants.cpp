@@ -10,6 +10,19 @@ namespace {
 /// three in 0.75 to 0.85 of the time, and one of five in 1.1 of it. More share an array, and a pipeline.
 constexpr int few_rest_frames = 4;
 
+/// The effects' constants in the shaders, in the order of `Effect`; null: it is none. False colours are another observer.
+constexpr bool WarpVariant::*effect_constants[]{
+    &WarpVariant::aberration, &WarpVariant::doppler, &WarpVariant::headlight, nullptr};
+static_assert(std::size(effect_constants) == all_effects.size(), "a new effect is a constant of the shaders, or null");
+
+/// moves: false where D is 1 everywhere, so that no effect is seen.
+void set_effects(WarpVariant& variant, const Effects& on, bool moves)
+{
+    for (const EffectEntry& one : all_effects)
+        if (const auto constant = effect_constants[std::size_t(one.which)])
+            variant.*constant = on[one.which] && moves;
+}
+
 /// The square root of the determinant of a flat view's matrix M: a pixel's solid angle is det M / length^3.
 double unit_of(const CompiledView& view) { return view.matrix ? std::sqrt(std::abs(glm::determinant(*view.matrix))) : 0; }
 
@@ -30,8 +43,7 @@ WarpVariant ViewConstants::variant(const ViewState& view) const
     const Effects& on = eyes_.observer_of(view).shot.effects;
     WarpVariant variant;
     variant.map = view.compiled.map != nullptr, variant.channels = view.compiled.channels() == 3;
-    variant.aberration = on.aberration && moves, variant.doppler = on.doppler && moves;
-    variant.headlight = on.headlight && moves;
+    set_effects(variant, on, moves);
     variant.mips = eyes_.plans[view.eye].levels > 1;
     variant.reproject = beside, variant.turning = beside && state_.layout.stereo.turning;
     variant.stars = !world_.stars.stars.empty() || world_.globes;
@@ -57,15 +69,15 @@ bool ViewConstants::needs_table(const Effects& on, StoredLight light) const
 {
     // A base colour at rest is the shown one.
     return light == StoredLight::coefficients
-        && (on.false_colours || world_.coefficients(light) != CoefficientCounts{} || world_.spectra.matrices);
+        && (on[Effect::false_colours] || world_.coefficients(light) != CoefficientCounts{} || world_.spectra.matrices);
 }
 
 WarpVariant ViewConstants::in_flight(WarpVariant variant, const Effects& on) const
 {
-    variant.aberration = on.aberration, variant.doppler = on.doppler, variant.headlight = on.headlight;
+    set_effects(variant, on, true);
     const StoredLight light = world_.stored_light(on);
     variant.coefficients = world_.coefficients(light);
-    variant.by_table = on.doppler || needs_table(on, light);
+    variant.by_table = on[Effect::doppler] || needs_table(on, light);
     return variant;
 }
 

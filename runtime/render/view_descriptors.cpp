@@ -109,7 +109,7 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
     buffer(set, 12, view.rest_frames);
     image(set, 14, world_.milky_way(), world_.milky_way_sampler());
     const GpuGlobes* globes = world_.globes.get();
-    const bool false_colours = eyes_.observer_of(view).shot.effects.false_colours;
+    const bool false_colours = eyes_.observer_of(view).shot.effects[Effect::false_colours];
     buffer(set, 15, globes ? view.globes : no_globes_);
     image(set, 16, globes ? globes->maps : no_maps_, globes ? globes->map_sampler : nearest_);
     image(set, 17, globes ? globes->fine_maps : no_maps_, globes ? globes->map_sampler : nearest_);

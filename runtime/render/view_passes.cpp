@@ -101,7 +101,7 @@ void ViewPasses::prepare_stars()
     stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)}, state_.range.has_value());
     star_observers_.clear();
     for (const Observer& one : eyes_.observers)
-        star_observers_.push_back({one.rest_frames[0].motion_from_frame, one.shot.effects.false_colours});
+        star_observers_.push_back({one.rest_frames[0].motion_from_frame, one.shot.effects[Effect::false_colours]});
     stars_.prepare(star_observers_);
 }
 

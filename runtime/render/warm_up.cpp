@@ -17,13 +17,20 @@ std::vector<WarmUp::State> states_of(bool combined)
     const State fast{.u = {0, 0, -4}, .cut = true, .mips = false}, faster{.u = {0, 0, -4}, .cut = true};
     const State few{.u = {0, 0, -4}, .mips = false}, fewer{.u = {0, 0, -100}}, fastest{.u = {0, 0, -1e5}};
     const State brisk{.u = {0, 0, -0.66}, .mips = false};
-    std::vector<Effects> effects = {{.aberration = false}, {.doppler = false}, {.headlight = false}, {false, false, false},
-        {.comparison = Comparison::galilean}, {.comparison = Comparison::no_light_delay}, {.false_colours = true},
-        {false, false, true}, {false, true, false}, {true, false, false}};
-    for (int off = 0; combined && off < 8; ++off)
-        for (Comparison comparison : {Comparison::none, Comparison::galilean, Comparison::no_light_delay})
-            for (bool false_colours : {false, true})
-                effects.push_back({!(off & 1), !(off & 2), !(off & 4), comparison, false_colours});
+    constexpr Effects usual, none{.on = {}};
+    std::vector<Effects> effects;
+    for (const EffectEntry& one : all_effects)
+        if (one.usual)
+            effects.push_back(usual.without(one.which));
+    effects.insert(effects.end(), {none, {.comparison = Comparison::galilean}, {.comparison = Comparison::no_light_delay}});
+    for (const EffectEntry& one : all_effects)
+        effects.push_back(one.usual ? none.with(one.which) : usual.with(one.which));
+    for (unsigned set = 0; combined && set < 1u << all_effects.size(); ++set)
+        for (Comparison comparison : {Comparison::none, Comparison::galilean, Comparison::no_light_delay}) {
+            Effects& all = effects.emplace_back(Effects{.on = {}, .comparison = comparison});
+            for (const EffectEntry& one : all_effects)
+                all.on.set(one.which, set >> unsigned(one.which) & 1);
+        }
     std::vector<State> states = {rest, slow, aside, brisk, few, fast};
     const auto with_effects = [&](State state) {
         for (const Effects& on : effects) {

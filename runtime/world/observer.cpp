@@ -41,7 +41,7 @@ Observer observer_of(
     Observer out{observer, shot_of(ship, observer), 1, std::move(before)};
     out.E = physics::exp_rapidity(glm::length(out.shot.u));
     const bool now = ship.effects.comparison == Comparison::no_light_delay;
-    const bool aberration = ship.effects.aberration || now;
+    const bool aberration = ship.effects[Effect::aberration] || now;
     Shot still = out.shot;
     still.u = glm::dvec3(0);
     const bool any_before = out.rest_frames.size() == world.frames.size();

@@ -33,7 +33,8 @@ TEST(ShotTest, MembersHaveTheirDefaults)
     EXPECT_EQ(s.u, glm::dvec3(0));
     expect_near(s.ship_from_cockpit * glm::dvec3(0, 0, -1), {0, 0, -1}, 1e-15);
     expect_near(s.ship_from_cockpit * glm::dvec3(0, 1, 0), {0, 1, 0}, 1e-15);
-    EXPECT_TRUE(s.effects.aberration && s.effects.doppler && s.effects.headlight && !s.effects.false_colours);
+    EXPECT_TRUE(s.effects[Effect::aberration] && s.effects[Effect::doppler] && s.effects[Effect::headlight]
+        && !s.effects[Effect::false_colours]);
     EXPECT_EQ(s.exposure_ev, 0);
 }
 
@@ -46,8 +47,8 @@ TEST(ShotTest, EveryMemberIsRead)
     expect_near(s.ship_from_cockpit * glm::dvec3(0, 0, -1), {1, 0, 0}, 1e-15);
     expect_near(s.ship_from_cockpit * glm::dvec3(0, 1, 0), {0, 1, 0}, 1e-15);
     expect_near(s.ship_from_cockpit * glm::dvec3(1, 0, 0), {0, 0, 1}, 1e-15);
-    EXPECT_FALSE(s.effects.aberration || s.effects.doppler || s.effects.headlight);
-    EXPECT_TRUE(s.effects.false_colours);
+    EXPECT_FALSE(s.effects[Effect::aberration] || s.effects[Effect::doppler] || s.effects[Effect::headlight]);
+    EXPECT_TRUE(s.effects[Effect::false_colours]);
     EXPECT_EQ(s.exposure_ev, -3.5);
 }
 
@@ -96,7 +97,7 @@ TEST(ShotTest, ShippedShotsLoad)
     const auto folder = source_dir() / "config/shots";
     const Shot fast = load_shot(folder / "avenue-gamma4.json");
     EXPECT_NEAR(std::sqrt(1 + glm::dot(fast.u, fast.u)), 4, 1e-14);
-    EXPECT_FALSE(fast.effects.doppler || fast.effects.headlight);
+    EXPECT_FALSE(fast.effects[Effect::doppler] || fast.effects[Effect::headlight]);
     const Shot rainbow = load_shot(folder / "rainbow.json");
     EXPECT_NEAR(glm::dot(rainbow.u, rainbow.ship_from_cockpit * glm::dvec3(0, 0, -1)), 0, 1e-15); // across the motion
     EXPECT_NEAR(glm::length(rainbow.u), 1 / std::sqrt(3), 1e-15);

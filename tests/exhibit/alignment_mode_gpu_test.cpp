@@ -14,11 +14,11 @@ TEST(AlignmentMode, TheWayHomeEndsAVisitorsTestPattern)
     for (const Pattern first : {Pattern::none, Pattern::grid}) {
         AlignmentMode alignment(first);
         Layout layout = load_layout(shipped_file("layouts", "desk"));
-        EXPECT_FALSE(alignment.apply(controls_with(AlignmentKeys{.pattern = true}), layout));
+        EXPECT_FALSE(alignment.apply(controls_with(Switches{Switch::pattern}), layout));
         EXPECT_NE(alignment.pattern(), first);
         alignment.apply({}, layout);
         EXPECT_NE(alignment.pattern(), first);
-        alignment.apply(controls_with(Steering{.home = true}), layout);
+        alignment.apply(controls_with(Switches{Switch::home}), layout);
         EXPECT_EQ(alignment.pattern(), first);
     }
 }

@@ -62,7 +62,8 @@ public:
         for (int frame = 0; frame < int(seconds / dt_s); ++frame) {
             RecordEntry entry{.dt_ns = frame_ns};
             entry.controls = hands(dt_s);
-            entry.controls.range = entry.controls.quit = false; // its curve needs samples, and its own test has them
+            entry.controls.set(Switch::range, false),
+                entry.controls.set(Switch::quit, false); // its curve needs samples, and its own test has them
             if (options_.exposure.calm)
                 entry.controls = session.calm_hands.let_through(entry.controls, dt_s);
             step(session, entry, {metered, renderer_.frame().surface_samples(), {}, renderer_.frame().samples_across()},

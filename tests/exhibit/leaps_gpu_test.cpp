@@ -133,7 +133,7 @@ TEST(Leaps, EveryProgrammeBeginsWithTheExposureOfItsStill)
             live.frame({}, 1e-3);
             expect_still(live, first_ev(kind, name), kind + " " + name);
             live.fly_away();
-            live.frame(controls_with(Looking{.lock_exposure = i % 2 == 0}));
+            live.frame(controls_with(i % 2 == 0 ? Switches{Switch::lock_exposure} : Switches{}));
         }
 }
 
@@ -170,12 +170,12 @@ TEST(Leaps, AResetLeadsToTheStartsExposure)
         Live live(options_of(programme_of_shot(name)));
         live.frame();
         live.fly_away();
-        live.frame(controls_with(Steering{.reset = true}), 1e-3);
+        live.frame(controls_with(Switches{Switch::reset}), 1e-3);
         expect_still(live, first_ev("shots", name), name);
         live.fly_away();
         forget_directions(live.session); // as the command reset does
         begin_programme(live.session, live.options.programme);
-        live.frame(controls_with(Steering{.reset = true}), 1e-3);
+        live.frame(controls_with(Switches{Switch::reset}), 1e-3);
         expect_still(live, first_ev("shots", name), name + ", by the docent");
     }
 }
@@ -193,7 +193,7 @@ TEST(Leaps, ToursHandOverWithTheirOwnExposure)
             for (int presses = 0; presses < 60 && !live.session.guide->over(); ++presses) {
                 for (double t = 0; t < rest_s; t += 0.1)
                     live.frame(controls_with(Steering{.lever = flew ? 0.7 : 0.}), 0.1);
-                live.frame(controls_with(Steering{.home = true}), 1e-3);
+                live.frame(controls_with(Switches{Switch::home}), 1e-3);
                 const bool flies = visitor_flies(live.session),
                            cut = file["steps"][live.session.guide->step()].contains("cut");
                 const std::string what = name + ", step " + std::to_string(live.session.guide->step());
@@ -204,7 +204,7 @@ TEST(Leaps, ToursHandOverWithTheirOwnExposure)
                 step = live.session.guide->step(), flew = flies;
             }
             live.fly_away();
-            live.frame(controls_with(Steering{.reset = true}), 1e-3);
+            live.frame(controls_with(Switches{Switch::reset}), 1e-3);
         }
     }
     EXPECT_GT(hand_overs, 10);
@@ -220,7 +220,7 @@ TEST(Leaps, TenSecondsBackAndAStopAreAdaptedToAtOnce)
         live.frame();
         for (int i = 0; i < 80; ++i)
             live.frame(controls_with(Steering{.lever = 0.9}), 0.1);
-        live.frame(controls_with(Steering{.stop = stops, .undo = !stops}), 1e-3);
+        live.frame(controls_with(Switches{stops ? Switch::stop : Switch::undo}), 1e-3);
         live.frame({}, 1e-3);
         EXPECT_NEAR(ev_of(live.session), metered_in(live.session) + offset, 0.05) << stops;
     }
@@ -235,8 +235,10 @@ TEST(Leaps, AReplayHasTheFlightsExposures)
     {
         Live live(options);
         for (int i = 0; i < 200; ++i) {
-            live.frame(controls_with(Steering{
-                .lever = 0.5 + 0.4 * std::sin(i), .stop = i % 60 == 59, .undo = i % 50 == 49, .reset = i % 77 == 76}));
+            Controls hands = controls_with(Steering{.lever = 0.5 + 0.4 * std::sin(i)});
+            hands.set(Switch::stop, i % 60 == 59), hands.set(Switch::undo, i % 50 == 49);
+            hands.set(Switch::reset, i % 77 == 76);
+            live.frame(hands);
             shown.push_back(ev_of(live.session));
         }
         live.session.record_replay.end(live.session.flight, [](const std::string&) {});

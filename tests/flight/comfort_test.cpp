@@ -39,10 +39,10 @@ struct Hands {
             controls.lever = uniform(0, 1);
             controls.push = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
         }
-        controls.home = uniform(0, 1) < 0.001;
-        controls.undo = false;
+        controls.set(Switch::home, uniform(0, 1) < 0.001);
+        controls.set(Switch::undo, false);
         controls.look_rad = {uniform(-0.05, 0.05), uniform(-0.05, 0.05)};
-        controls.look_ahead = uniform(0, 1) < 0.01;
+        controls.set(Switch::look_ahead, uniform(0, 1) < 0.01);
         return controls;
     }
 };
@@ -124,10 +124,10 @@ TEST(ComfortTest, TheWayHomeEndsAtTheLevelStartToTheBit)
             Hands hands(3);
             for (int i = 0; i < 10 / 0.016; ++i) {
                 Controls controls = hands.next();
-                controls.home = controls.look_ahead = false;
+                controls.set(Switch::home, false), controls.set(Switch::look_ahead, false);
                 level.fly(controls);
             }
-            level.fly(controls_with(Steering{.home = true}));
+            level.fly(controls_with(Switches{Switch::home}));
             for (int i = 0; i < 60 / 0.016 && level.flight.homing; ++i)
                 level.fly({});
             ASSERT_FALSE(level.flight.homing);
@@ -203,7 +203,7 @@ TEST(ComfortTest, WithoutRollTheRollOfAHandDoesNothingToTheBit)
             for (int i = 0; i < 30 / 0.016; ++i) {
                 Controls controls = hands.next();
                 if (i % 500 == 250)
-                    controls.freeze = true;
+                    controls.set(Switch::freeze);
                 rolled.fly(controls), usual.fly(controls);
                 controls.turn.z = 0;
                 still.fly(controls);
@@ -262,7 +262,7 @@ TEST(ComfortTest, InFlightAndOnTheWayHomeNothingTurnsBetweenSteps)
                     const bool homing = steps.flight.homing.has_value(), homeward = steps.flight.homeward;
                     const glm::dquat before = steps.flight.ship.ship_from_cockpit;
                     Controls now = controls;
-                    now.home = controls.home && ms == 0;
+                    now.set(Switch::home, controls[Switch::home] && ms == 0);
                     steps.fly(now, tick_ns);
                     const double turned = angle_deg(before, steps.flight.ship.ship_from_cockpit);
                     ++since;
@@ -318,7 +318,7 @@ TEST(ComfortTest, TheVignetteIsSeenWhileTheShipTurnsAndIsGoneAfterwards)
     EXPECT_EQ(ship.flight.vignette, 0);
     hold({0, 0.01, 0}, 2);
     EXPECT_EQ(ship.flight.vignette, 0) << "a turn that nobody sees";
-    ship.fly(controls_with(Steering{.freeze = true}));
+    ship.fly(controls_with(Switches{Switch::freeze}));
     hold({0, 1, 0}, 1);
     EXPECT_GT(ship.flight.vignette, 0.9) << "looking around in a world that stands still turns the picture, too";
     Flown none(FlightMode::guided, {});

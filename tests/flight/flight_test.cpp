@@ -78,13 +78,14 @@ TEST_P(Modes, FlyTheSameAtAnyFrameRate)
         Flight flight = flight_at(start(), rules);
         for (int tenth = 0; tenth < 600; ++tenth) {
             Controls controls = some_controls(random);
-            controls.home = tenth == 300;
-            controls.stop = tenth == 400;
+            controls.set(Switch::home, tenth == 300);
+            controls.set(Switch::stop, tenth == 400);
             if (tenth == 401) // after a stop the thrust is inhibited until the lever is at 0
                 controls = controls_with(Steering{.lever = 0.0});
             for (std::int64_t left = 100 * ms; left > 0; left -= dt) {
                 flight = step(flight, controls, std::min(dt, left), rules, 1, start());
-                controls.look_rad = {0, 0}, controls.home = controls.stop = false; // these controls count once
+                controls.look_rad = {0, 0}, controls.set(Switch::home, false),
+                controls.set(Switch::stop, false); // these controls count once
             }
         }
         return flight;
@@ -214,7 +215,7 @@ TEST_P(Modes, StopIsImmediateAndLasts)
     ASSERT_GT(rapidity(flight), 1);
     const dvec3 place = flight.ship.position.total();
     const glm::dquat axes = flight.ship.ship_from_cockpit;
-    Flight stopped = step(flight, controls_with(Steering{.lever = 0.7, .stop = true}), 0, rules, 1, start());
+    Flight stopped = step(flight, controls_with(Steering{.lever = 0.7}, Switches{Switch::stop}), 0, rules, 1, start());
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
     EXPECT_EQ(stopped.ship.position.total(), place);
     EXPECT_EQ(stopped.ship.ship_from_cockpit, axes);
@@ -226,15 +227,15 @@ TEST_P(Modes, StopIsImmediateAndLasts)
     EXPECT_GT(rapidity(stopped), 0.5);
     // The same holds for a key.
     flight = hold(flight_at(start(), rules), controls_with(Steering{.throttle_rate = 4}), 3, rules);
-    stopped = hold(step(flight, controls_with(Steering{.throttle_rate = 4, .stop = true}), 0, rules, 1, start()),
+    stopped = hold(step(flight, controls_with(Steering{.throttle_rate = 4}, Switches{Switch::stop}), 0, rules, 1, start()),
         controls_with(Steering{.throttle_rate = 4}), 1, rules);
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
     EXPECT_GT(rapidity(hold(hold(stopped, {}, 0.1, rules), controls_with(Steering{.throttle_rate = 4}), 2, rules)), 0.1);
     // A key that was released before the stop, or before homing, must not speed the ship up again.
     flight = hold(hold(flight_at(start(), rules), controls_with(Steering{.throttle_rate = 4}), 3, rules), {}, 0.2, rules);
-    stopped = hold(step(flight, controls_with(Steering{.stop = true}), 0, rules, 1, start()), {}, 2, rules);
+    stopped = hold(step(flight, controls_with(Switches{Switch::stop}), 0, rules, 1, start()), {}, 2, rules);
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
-    flight = hold(step(flight, controls_with(Steering{.home = true}), 0, rules, 1, start()), {}, 60, rules);
+    flight = hold(step(flight, controls_with(Switches{Switch::home}), 0, rules, 1, start()), {}, 60, rules);
     EXPECT_FALSE(flight.homing);
     EXPECT_EQ(flight.ship.u.total(), dvec3(0));
 }
@@ -262,7 +263,7 @@ TEST_P(Modes, HomingFliesBackToTheStart)
         SCOPED_TRACE(seconds);
         Flight flight = hold(
             flight_at(start(), rules), controls_with(Steering{.lever = 0.6, .turn = {0.2, 0.5, -0.1}}), seconds, rules);
-        flight = step(flight, controls_with(Steering{.lever = 0.6, .home = true}), 0, rules, 1, start());
+        flight = step(flight, controls_with(Steering{.lever = 0.6}, Switches{Switch::home}), 0, rules, 1, start());
         for (int i = 0; i < 20'000 && flight.homing; ++i) {
             const Ship before = flight.ship;
             flight = step(flight, controls_with(Steering{.lever = 0.6}), ms, rules, 1, start());
@@ -313,14 +314,14 @@ TEST(Flight, UndoLeavesTheSwitchesAndTheClock)
     for (int i = 0; i < 120; ++i)
         flight = flown(flight, history, controls_with(Steering{.lever = 0.3}), 100 * ms, rules, 1, start());
     flight.mode = FlightMode::free, flight.frozen = true, flight.slowness = 2;
-    flight.effects.doppler = !flight.effects.doppler;
+    flight.effects.on.set(Effect::doppler, !flight.effects[Effect::doppler]);
     flight.exposure_ev = -3, flight.hud = !flight.hud, flight.vignette = 0.5, flight.left_ns = 7;
     const Flight back = history.back(flight);
     EXPECT_LT(back.ship.distance.total(), 0.5 * flight.ship.distance.total());
     EXPECT_EQ(back.mode, flight.mode);
     EXPECT_EQ(back.frozen, flight.frozen);
     EXPECT_EQ(back.slowness, flight.slowness);
-    EXPECT_EQ(back.effects.doppler, flight.effects.doppler);
+    EXPECT_EQ(back.effects[Effect::doppler], flight.effects[Effect::doppler]);
     EXPECT_EQ(back.exposure_ev, flight.exposure_ev);
     EXPECT_EQ(back.hud, flight.hud);
     EXPECT_EQ(back.vignette, flight.vignette);
@@ -406,7 +407,7 @@ TEST(Flight, AHandOnTheControlsTakesTheFlightOver)
     flight = hold_from(shot, flight_at(shot, rules), controls_with(Steering{.throttle_rate = 4}), 2, rules);
     EXPECT_GT(rapidity(flight), speed + 1);
     // After a stop the throttle waits for its zero as it always does.
-    flight = step(flight_at(shot, rules), controls_with(Steering{.lever = 0.5, .stop = true}), 0, rules, 1, shot);
+    flight = step(flight_at(shot, rules), controls_with(Steering{.lever = 0.5}, Switches{Switch::stop}), 0, rules, 1, shot);
     flight = hold_from(shot, flight, controls_with(Steering{.lever = 0.6}), 2, rules);
     EXPECT_EQ(flight.ship.u.total(), dvec3(0));
 }
@@ -422,7 +423,7 @@ TEST(Flight, AFrozenWorldStandsStillAndCanBeLookedAt)
         Flight flight = hold_from(shot, flight_at(shot, rules), {}, 1, rules);
         history.keep(flight);
         const Flight before = flight;
-        flight = step(flight, controls_with(Steering{.freeze = true}), 16 * ms, rules, 1, shot);
+        flight = step(flight, controls_with(Switches{Switch::freeze}), 16 * ms, rules, 1, shot);
         flight = hold_from(shot, flight,
             controls_with(Steering{.lever = 0.8, .throttle_rate = 1, .push = {1, 1, 1}, .turn = {0, 1, 0}}), 2, rules);
         EXPECT_EQ(shot_of(flight.ship).position, shot_of(before.ship).position);
@@ -434,16 +435,16 @@ TEST(Flight, AFrozenWorldStandsStillAndCanBeLookedAt)
         EXPECT_EQ(flight.look_rad.y, 0);
         EXPECT_EQ(flight.ticks, before.ticks);
         flight = hold_from(shot, flight, {}, 2, rules); // the head comes to rest
-        flight = step(flight, controls_with(Steering{.freeze = true}, Looking{.look_ahead = true}), 0, rules, 1, shot);
+        flight = step(flight, controls_with(Switches{Switch::freeze, Switch::look_ahead}), 0, rules, 1, shot);
         flight = hold_from(shot, flight, {}, 1, rules);
         const Flight straight = hold_from(shot, before, {}, 1, rules);
         EXPECT_EQ(flight.ship.position.total(), straight.ship.position.total());
         EXPECT_EQ(flight.ship.time.total(), straight.ship.time.total());
         EXPECT_EQ(flight.ship.u.total(), straight.ship.u.total());
         // The way home, a stop and an undo work in a frozen world, too.
-        const Flight frozen = step(straight, controls_with(Steering{.freeze = true}), 0, rules, 1, shot);
-        EXPECT_EQ(step(frozen, controls_with(Steering{.stop = true}), 0, rules, 1, shot).ship.u.total(), dvec3(0));
-        EXPECT_FALSE(step(frozen, controls_with(Steering{.home = true}), 0, rules, 1, shot).frozen);
+        const Flight frozen = step(straight, controls_with(Switches{Switch::freeze}), 0, rules, 1, shot);
+        EXPECT_EQ(step(frozen, controls_with(Switches{Switch::stop}), 0, rules, 1, shot).ship.u.total(), dvec3(0));
+        EXPECT_FALSE(step(frozen, controls_with(Switches{Switch::home}), 0, rules, 1, shot).frozen);
         EXPECT_EQ(history.back(frozen).ship.time.total(), before.ship.time.total());
     }
 }
@@ -455,7 +456,7 @@ TEST(Flight, HomeIsTheStartsInstant)
         const Flying rules = with(FlightMode::guided);
         Flight flight = hold_from(
             shot, flight_at(shot, rules), controls_with(Steering{.throttle_rate = 1, .turn = {0.2, 0.5, -0.1}}), 5, rules);
-        flight = step(flight, controls_with(Steering{.home = true}), 0, rules, 1, shot);
+        flight = step(flight, controls_with(Switches{Switch::home}), 0, rules, 1, shot);
         double fastest = 0;
         for (Flight before = flight; flight.homing; before = flight) {
             flight = step(flight, {}, ms, rules, 1, shot);
@@ -511,7 +512,7 @@ TEST(Flight, TheWayHomeKeepsTheLimitsOfComfort)
     flight = hold_from(shot, flight, controls_with(Steering{.turn = {0, 1, 0}}), 10, rules);
     ASSERT_GT(rapidity(flight), 5);
     flight = hold_from(shot, flight, {}, 1, rules);
-    flight = step(flight, controls_with(Steering{.home = true}), 0, rules, 1, shot);
+    flight = step(flight, controls_with(Switches{Switch::home}), 0, rules, 1, shot);
     double most = 0, most_turn = 0;
     for (int i = 0; i < 200'000 && flight.homing; ++i) {
         const Ship before = flight.ship;
@@ -586,7 +587,7 @@ TEST(Flight, TheWayHomeKeepsTheLimitsOfJerk)
         std::vector<Felt> ticks{felt(flight.ship, by_hand.ship)};
         const Felt goes_on = felt(by_hand.ship, step(by_hand, hand, ms, rules, 1, shot).ship);
         Controls home = hand;
-        home.home = true;
+        home.set(Switch::home);
         flight = step(by_hand, home, 0, rules, 1, shot);
         while (ticks.size() < 100'000 && flight.homing) {
             const Ship was = flight.ship;
@@ -622,23 +623,21 @@ TEST(Flight, TheWayHomeKeepsTheLimitsOfJerk)
 TEST(Flight, SwitchesToggleAndResetRestores)
 {
     const Flying rules = with(FlightMode::guided);
-    Flight flight
-        = step(flight_at(start(), rules), controls_with(EffectSwitches{.doppler = true}), 10 * ms, rules, 1, start());
-    EXPECT_TRUE(flight.effects.aberration && !flight.effects.doppler && flight.effects.headlight);
+    Flight flight = step(flight_at(start(), rules), controls_with(Switches{Switch::doppler}), 10 * ms, rules, 1, start());
+    EXPECT_TRUE(flight.effects[Effect::aberration] && !flight.effects[Effect::doppler] && flight.effects[Effect::headlight]);
     flight = step(flight,
-        controls_with(EffectSwitches{.aberration = true, .doppler = true, .headlight = true, .false_colours = true},
-            WindowSwitches{.hud = true}),
+        controls_with(Switches{Switch::aberration, Switch::doppler, Switch::headlight, Switch::false_colours, Switch::hud}),
         10 * ms, rules, 1, start());
-    EXPECT_TRUE(!flight.effects.aberration && flight.effects.doppler && !flight.effects.headlight
-        && flight.effects.false_colours && !flight.hud);
+    EXPECT_TRUE(!flight.effects[Effect::aberration] && flight.effects[Effect::doppler] && !flight.effects[Effect::headlight]
+        && flight.effects[Effect::false_colours] && !flight.hud);
     flight = hold(flight, controls_with(Steering{.lever = 1.0, .turn = {1, 0, 0}}, Looking{.exposure = 1}), 2, rules);
     EXPECT_NEAR(flight.exposure_ev, 2 * exposure_ev_per_s, 1e-9);
-    flight = step(flight, controls_with(Steering{.next_mode = true}), 0, rules, 1, start());
+    flight = step(flight, controls_with(Switches{Switch::next_mode}), 0, rules, 1, start());
     EXPECT_EQ(flight.mode, FlightMode::free);
-    flight = step(flight, controls_with(Steering{.reset = true}), 10 * ms, rules, 1, start());
+    flight = step(flight, controls_with(Switches{Switch::reset}), 10 * ms, rules, 1, start());
     EXPECT_EQ(flight.ship.position.total(), start().position);
     EXPECT_EQ(flight.ship.u.total(), dvec3(0));
-    EXPECT_TRUE(flight.effects.aberration && flight.effects.headlight);
+    EXPECT_TRUE(flight.effects[Effect::aberration] && flight.effects[Effect::headlight]);
     EXPECT_FALSE(flight.hud) << "a display that was switched off stays off";
 }
 
@@ -651,7 +650,7 @@ TEST(Flight, LookingAroundTurnsOnlyThePicture)
     dvec3 seen = shot_of(flight, "").ship_from_cockpit * dvec3(0, 0, -1);
     EXPECT_NEAR(seen.x, -std::sin(0.5) * std::cos(0.2), 1e-12);
     EXPECT_NEAR(seen.y, std::sin(0.2), 1e-12);
-    flight = step(flight, controls_with(Looking{.look_ahead = true}), 10 * ms, rules, 1, level);
+    flight = step(flight, controls_with(Switches{Switch::look_ahead}), 10 * ms, rules, 1, level);
     EXPECT_EQ(flight.look_rad, glm::dvec2(0));
 }
 
@@ -680,12 +679,12 @@ TEST(Flight, AHundredThousandRandomStepsStayFiniteAndBounded)
         for (int i = 0; i < 50000; ++i) {
             if (i % 20 == 0)
                 controls = some_controls(random);
-            controls.stop = random() % 997 == 0;
-            controls.reset = random() % 4999 == 0;
-            controls.home = random() % 1511 == 0;
-            controls.next_mode = random() % 499 == 0;
-            controls.aberration = random() % 7 == 0, controls.doppler = random() % 7 == 0,
-            controls.headlight = random() % 7 == 0;
+            controls.set(Switch::stop, random() % 997 == 0);
+            controls.set(Switch::reset, random() % 4999 == 0);
+            controls.set(Switch::home, random() % 1511 == 0);
+            controls.set(Switch::next_mode, random() % 499 == 0);
+            controls.set(Switch::aberration, random() % 7 == 0), controls.set(Switch::doppler, random() % 7 == 0),
+                controls.set(Switch::headlight, random() % 7 == 0);
             if (random() % 601 == 0)
                 flight = history.back(flight);
             flight = step(flight, controls, random() % 10 == 0 ? 100 * ms : 16 * ms, rules, 1, start());

@@ -20,13 +20,15 @@ struct Visitor {
         {.title = "worlds",
             .items = {{"train", Command{.kind = CommandKind::scene, .text = "train"}},
                 {"clocks", Command{.kind = CommandKind::scene, .text = "clocks"}}}},
-        {.title = "switches", .items = {{"doppler", Command{.kind = CommandKind::doppler}}}, .stays = true}};
+        {.title = "switches",
+            .items = {{"doppler", Command{.kind = CommandKind::effect, .effect = Effect::doppler}}},
+            .stays = true}};
     MenuState menu;
     Controls left; ///< of the last frame's controls: what reaches the ship
 
-    std::optional<Command> does(const Steering& hands)
+    std::optional<Command> does(const Controls& hands)
     {
-        left = controls_with(hands);
+        left = hands;
         const std::optional<Command> chosen = advance(menu, pages, left, frame_ns);
         Controls rest; // the hand lets go
         advance(menu, pages, rest, frame_ns);
@@ -34,8 +36,9 @@ struct Visitor {
     }
 };
 
-const Steering opens{.menu = true}, right{.turn = {0, -1, 0}}, left_hand{.turn = {0, 1, 0}}, takes{.stop = true},
-    leads_back{.home = true};
+const Controls opens = controls_with(Switches{Switch::menu}), takes = controls_with(Switches{Switch::stop}),
+               leads_back = controls_with(Switches{Switch::home}), right = controls_with(Steering{.turn = {0, -1, 0}}),
+               left_hand = controls_with(Steering{.turn = {0, 1, 0}});
 
 } // namespace
 
@@ -58,15 +61,16 @@ TEST(MenuTest, NothingButTheLeverReachesTheShip)
 {
     Visitor visitor;
     visitor.does(opens);
-    visitor.does({.lever = 0.4, .throttle_rate = 1, .push = {1, 1, 1}, .turn = {1, 1, 1}, .undo = true});
+    visitor.does(controls_with(
+        Steering{.lever = 0.4, .throttle_rate = 1, .push = {1, 1, 1}, .turn = {1, 1, 1}}, Switches{Switch::undo}));
     EXPECT_EQ(visitor.left.lever, 0.4);
     EXPECT_EQ(visitor.left.turn, glm::dvec3(0));
     EXPECT_EQ(visitor.left.push, glm::dvec3(0));
     EXPECT_EQ(visitor.left.throttle_rate, 0);
-    EXPECT_FALSE(visitor.left.undo || visitor.left.stop || visitor.left.home);
+    EXPECT_FALSE((visitor.left & switches_of(Presser::pilot)).any());
     Visitor closed;
-    closed.does({.turn = {1, 1, 1}, .stop = true});
-    EXPECT_TRUE(closed.left.stop) << "a menu that is shut takes nothing";
+    closed.does(controls_with(Steering{.turn = {1, 1, 1}}, Switches{Switch::stop}));
+    EXPECT_TRUE(closed.left[Switch::stop]) << "a menu that is shut takes nothing";
     EXPECT_EQ(closed.left.turn, glm::dvec3(1));
 }
 
@@ -112,9 +116,9 @@ TEST(MenuTest, SwitchesStayOpen)
     visitor.does(opens);
     visitor.does(right);
     visitor.does(takes);
-    EXPECT_EQ(visitor.does(takes)->kind, CommandKind::doppler);
+    EXPECT_EQ(visitor.does(takes)->effect, Effect::doppler);
     EXPECT_TRUE(visitor.menu.open);
-    EXPECT_EQ(visitor.does(takes)->kind, CommandKind::doppler);
+    EXPECT_EQ(visitor.does(takes)->effect, Effect::doppler);
     visitor.does(opens);
     EXPECT_FALSE(visitor.menu.open) << "the menu's own key shuts it";
 }
@@ -156,8 +160,10 @@ TEST(MenuTest, RandomHandsNeverLeaveTheMenusPages)
     for (int i = 0; i < 200'000; ++i) {
         const auto once_in = [&](unsigned frames) { return random() % frames == 0; };
         const double turn = double(random() % 3) - 1;
-        Controls hands = controls_with(Steering{
-            .turn = {0, turn, 0}, .stop = once_in(10), .home = once_in(100), .undo = once_in(100), .menu = once_in(20)});
+        Controls hands = controls_with(Steering{.turn = {0, turn, 0}});
+        for (const auto& [which, frames] :
+            {std::pair(Switch::stop, 10u), {Switch::home, 100u}, {Switch::undo, 100u}, {Switch::menu, 20u}})
+            hands.set(which, once_in(frames));
         if (i % 5000 == 0)
             visitor.pages[1].items.resize(random() % 3, world); // a world goes, or comes
         chosen += advance(visitor.menu, visitor.pages, hands, frame_ns).has_value();

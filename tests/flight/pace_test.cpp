@@ -176,7 +176,7 @@ TEST(SlowMotionTest, OnlyTheTimeOnBoardIsSlower)
     const Flying rules{.max_gamma = 100};
     const Controls flown = controls_with(Steering{.lever = 0.4, .turn = {0, 0.3, 0}});
     Flight usual = flight_at(start, rules), slow = usual;
-    slow = step(slow, controls_with(Steering{.slow_motion = true}), 0, rules, 1, start);
+    slow = step(slow, controls_with(Switches{Switch::slow_motion}), 0, rules, 1, start);
     EXPECT_EQ(time_rates[slow.slowness], 0.25);
     usual = step(usual, flown, 3'000'000'000, rules, 1, start);
     slow = step(slow, flown, 3'000'000'000, rules, 1, start);
@@ -188,7 +188,7 @@ TEST(SlowMotionTest, OnlyTheTimeOnBoardIsSlower)
         1e-6)
         << "the same controls lead to the same velocity and the same look";
     EXPECT_NEAR(rapidity_of(slow.ship), rapidity_of(usual.ship), 1e-6);
-    const Controls press = controls_with(Steering{.slow_motion = true});
+    const Controls press = controls_with(Switches{Switch::slow_motion});
     slow = step(slow, press, 0, rules, 1, start);
     EXPECT_EQ(time_rates[slow.slowness], 0.0625);
     slow = step(slow, press, 0, rules, 1, start);
@@ -201,7 +201,7 @@ TEST(SlowMotionTest, TheFlightThroughAWorldLastsItsPlannedTimeAtAGreaterGamma)
     for (int slow = 0; slow < 2; ++slow) {
         Paced world("avenue");
         if (slow)
-            world.frame(controls_with(Steering{.slow_motion = true}));
+            world.frame(controls_with(Switches{Switch::slow_motion}));
         while (world.flight.ship.position.total().z > -41)
             world.frame(controls_with(Steering{.lever = 1.0}));
         gamma[slow] = std::cosh(rapidity_of(world.flight.ship)), time_s[slow] = world.time_s;

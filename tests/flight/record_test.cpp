@@ -1,6 +1,5 @@
 // Records: lines are read back to the bit, a replayed flight is the same to the bit, and wrong files are refused.
 #include "config/model/shipped.h"
-#include "input/switches.h"
 #include "runtime/flight/history.h"
 #include "runtime/flight/record_replay.h"
 #include "runtime/flight/recorder.h"
@@ -90,7 +89,8 @@ RecordEntry some_entry(std::mt19937_64& random)
     if (random() % 5 == 0)
         entry.range_goal = {-31.25, 4.5, double(random() % 80), some_double(random, -9, 2), 0.001, 0.517, 1};
     if (random() % 4 == 0)
-        c.commands = {{.kind = CommandKind::scene, .text = "train"}, {.kind = CommandKind::doppler, .on = random() % 2 == 0},
+        c.commands = {{.kind = CommandKind::scene, .text = "train"},
+            {.kind = CommandKind::effect, .on = random() % 2 == 0, .effect = Effect::doppler},
             {.kind = CommandKind::speed_limit, .number = 1 + std::uniform_real_distribution<double>(0, 9)(random)},
             {.kind = CommandKind::caption, .text = "\"Grüße\" \\ γ"}, {.kind = CommandKind::stop}};
     maybe3(c.head.moved_m, 10);
@@ -98,7 +98,8 @@ RecordEntry some_entry(std::mt19937_64& random)
         c.head.turned = glm::angleAxis(some_double(random, -3, 3), glm::normalize(glm::dvec3(1, 2, 3)));
     maybe(c.exposure, -1, 1);
     for (const SwitchEntry& one : all_switches)
-        c.*one.pressed = random() % 200 == 0;
+        c.set(one.which, random() % 200 == 0);
+    c.taken = random() % 200 == 0;
     c.choose = random() % 20 == 0 ? int(random() % 3) - 1 : 0;
     c.turn_by = random() % 20 == 0 ? int(random() % 21) - 10 : 0;
     return entry;
@@ -116,11 +117,14 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
     for (double v : e.range_goal)
         all.push_back(std::bit_cast<std::uint64_t>(v));
     for (const SwitchEntry& one : all_switches)
-        all.push_back(c.*one.pressed);
+        all.push_back(c[one.which]);
+    all.push_back(c.taken);
     all.push_back(std::uint64_t(c.choose));
     all.push_back(std::uint64_t(c.turn_by));
     for (const Command& command : c.commands) {
-        all.insert(all.end(), {std::uint64_t(command.kind), command.on, std::bit_cast<std::uint64_t>(command.number)});
+        all.insert(all.end(),
+            {std::uint64_t(command.kind), command.on, std::uint64_t(command.effect),
+                std::bit_cast<std::uint64_t>(command.number)});
         all.insert(all.end(), command.text.begin(), command.text.end());
     }
     return all;
@@ -134,7 +138,7 @@ RecordHeader some_header()
     header.start.position = {1.0 / 3, -2e10, 0.1};
     header.start.u = {0.3, 1e-17, -1};
     header.start.ship_from_cockpit = orientation({1, 0, -1}, {0, 1, 0.3});
-    header.start.effects.doppler = false;
+    header.start.effects.on.set(Effect::doppler, false);
     header.start.exposure_ev = -0.7;
     header.rules.mode = FlightMode::newtonian;
     header.rules.max_gamma = 123.456;
@@ -295,8 +299,8 @@ TEST(Record, TheDigestDependsOnEveryBit)
         *number = kept;
     }
     for (bool* flag : {&flight.thrust_inhibited, &flight.coasting, &flight.lever_waits, &flight.frozen, &flight.hud,
-             &flight.effects.aberration, &flight.effects.doppler, &flight.effects.headlight, &flight.effects.false_colours,
-             &flight.homing->arrived}) {
+             &flight.effects[Effect::aberration], &flight.effects[Effect::doppler], &flight.effects[Effect::headlight],
+             &flight.effects[Effect::false_colours], &flight.homing->arrived}) {
         *flag = !*flag;
         EXPECT_NE(digest(flight), before);
         *flag = !*flag;
@@ -341,8 +345,8 @@ TEST(Record, AReplayIsTheSameToTheBit)
     std::mt19937_64 random(2);
     const std::filesystem::path file = fresh("flight.jsonl");
     const Flight flight = record_random(file, random, length, [&](RecordEntry& entry, const Flight& now) {
-        entry.controls.reset = random() % 20'000 == 0;
-        entry.controls.freeze = now.frozen || random() % 200 == 0; // for one frame
+        entry.controls.set(Switch::reset, random() % 20'000 == 0);
+        entry.controls.set(Switch::freeze, now.frozen || random() % 200 == 0); // for one frame
     });
     EXPECT_GT(flight.ticks, 19 * length / 10);
     Replay replay(file), alone(file);
@@ -587,7 +591,7 @@ TEST(Record, IsReplayedAtItsOwnPace)
     std::string text = first_line();
     for (int i = 0; i < 3; ++i)
         text += text_of(RecordEntry{
-            .dt_ns = 30'000'000, .skipped_ns = 3'600'000'000'000, .controls = controls_with(AlignmentKeys{.save = true})});
+            .dt_ns = 30'000'000, .skipped_ns = 3'600'000'000'000, .controls = controls_with(Switches{Switch::save})});
     using namespace std::chrono_literals;
     ReplayTime::Clock::time_point now(1h);
     const ReplayTime time{
@@ -600,7 +604,7 @@ TEST(Record, IsReplayedAtItsOwnPace)
     Flight flight = flight_at(some_header().start);
     int frames = 1;
     for (record_replay.keep(entry, flight); record_replay.play(entry); ++frames) {
-        EXPECT_FALSE(entry.controls.save); // a replay never saves a layout
+        EXPECT_FALSE(entry.controls[Switch::save]); // a replay never saves a layout
         record_replay.keep(entry, flight);
     }
     EXPECT_EQ(frames, 3);

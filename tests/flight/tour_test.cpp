@@ -457,7 +457,7 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
     EXPECT_EQ(touring.chosen, 0);
     touring = later(later(touring, show, 0.1), show, 0.3, right);
     EXPECT_EQ(touring.chosen, 1);
-    const Touring answered = later(touring, show, 0.05, controls_with(Steering{.stop = true}));
+    const Touring answered = later(touring, show, 0.05, controls_with(Switches{Switch::stop}));
     EXPECT_EQ(answered.right, true);
     EXPECT_EQ(caption_of(answered, show, words(), {}).text, "Right! it is 4.00");
     EXPECT_EQ(caption_of(at_question, show, words(), {}).right, -1) << "not before the answer";
@@ -468,19 +468,19 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
     EXPECT_EQ(verdict_of(solved), "✓ four");
     EXPECT_EQ(verdict_of(caption_of(at_question, show, words(), {})), "");
     const Caption missed
-        = caption_of(later(at_question, show, 0.05, controls_with(EffectSwitches{.headlight = true})), show, words(), {});
+        = caption_of(later(at_question, show, 0.05, controls_with(Switches{Switch::headlight})), show, words(), {});
     EXPECT_EQ(missed.right, 1);
     EXPECT_EQ(missed.chosen, 2);
     EXPECT_EQ(verdict_of(missed), "✓ four   ✗ six");
     EXPECT_NEAR(u_of(answered).z, -std::sqrt(15.0), 1e-12) << "the button answers and does not stop the ship";
     touring = later(later(touring, show, 0.1), show, 0.3, left);
-    EXPECT_EQ(caption_of(later(touring, show, 0.05, controls_with(Steering{.stop = true})), show, words(), {}).text,
+    EXPECT_EQ(caption_of(later(touring, show, 0.05, controls_with(Switches{Switch::stop})), show, words(), {}).text,
         "Not quite. it is 4.00");
-    EXPECT_EQ(later(at_question, show, 0.05, controls_with(EffectSwitches{.headlight = true})).right, false)
+    EXPECT_EQ(later(at_question, show, 0.05, controls_with(Switches{Switch::headlight})).right, false)
         << "3 is the third choice";
-    EXPECT_TRUE(later(at_question, show, 0.05, controls_with(EffectSwitches{.headlight = true})).flight.effects.headlight)
+    EXPECT_TRUE(later(at_question, show, 0.05, controls_with(Switches{Switch::headlight})).flight.effects[Effect::headlight])
         << "the key must not switch the effect";
-    EXPECT_FALSE(later(at_question, show, 0.05, controls_with(Steering{.stop = true})).measured_answer)
+    EXPECT_FALSE(later(at_question, show, 0.05, controls_with(Switches{Switch::stop})).measured_answer)
         << "nothing chosen is not an answer";
     // The explanation stays for three seconds, whenever the answer came.
     EXPECT_EQ(later(answered, show, 2.8).step(), 1u);
@@ -497,9 +497,9 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
     EXPECT_NEAR(number.number, 1 + 0.5 * 13, 0.51);
     while (number.number < 8)
         number = later(later(number, show, 0.04), show, 0.04, right);
-    EXPECT_EQ(later(number, show, 0.05, controls_with(Steering{.stop = true})).right, true) << "7.87 within 0.2 of 8";
+    EXPECT_EQ(later(number, show, 0.05, controls_with(Switches{Switch::stop})).right, true) << "7.87 within 0.2 of 8";
     number = later(later(number, show, 0.04), show, 0.04, left);
-    EXPECT_EQ(later(number, show, 0.05, controls_with(Steering{.stop = true})).right, false);
+    EXPECT_EQ(later(number, show, 0.05, controls_with(Switches{Switch::stop})).right, false);
 }
 
 // One button: the answers are marked in turn, and a press takes the marked one, whichever it is and however long one waits.
@@ -522,7 +522,7 @@ TEST(Tours, OneButtonGivesEveryAnswer)
                 before = touring.chosen;
                 const bool presses = touring.chosen == wanted && passed > round;
                 touring = later(touring, show, 0.016,
-                    controls_with(advance_in_menu(scan, rules, {presses, presses}, 0, std::size_t(-1), 16'000'000)));
+                    controls_of(advance_in_menu(scan, rules, {presses, presses}, 0, std::size_t(-1), 16'000'000)));
             }
             ASSERT_FALSE(asks(touring, show)) << wanted;
             EXPECT_EQ(touring.chosen, wanted);
@@ -552,7 +552,7 @@ TEST(Tours, AVisitorFliesATryUntilItIsReached)
     EXPECT_TRUE(idle.measured_answer) << "the time is over";
     EXPECT_FALSE(idle.right);
     // Home leads to the next step. Without visitors the step is left out.
-    EXPECT_EQ(later(given, show, 0.05, controls_with(Steering{.home = true})).step(), 2u);
+    EXPECT_EQ(later(given, show, 0.05, controls_with(Switches{Switch::home})).step(), 2u);
     show.visitors = false;
     EXPECT_EQ(played(show, 1.5, 60).step(), 3u);
     EXPECT_NEAR(length_s(tour), 3, 1e-12);
@@ -565,9 +565,9 @@ TEST(Tours, GuidesCanPauseSkipAndGoBack)
     const Show show{tour, {}, 1, true};
     const Touring flying = later(touring_at(show), show, 5.5);
     EXPECT_EQ(flying.step(), 1u);
-    const Touring still = later(flying, show, 2, controls_with(Steering{.stop = true}));
+    const Touring still = later(flying, show, 2, controls_with(Switches{Switch::stop}));
     EXPECT_TRUE(still.paused);
-    EXPECT_TRUE(later(flying, show, 2, controls_with(Steering{.freeze = true})).paused);
+    EXPECT_TRUE(later(flying, show, 2, controls_with(Switches{Switch::freeze})).paused);
     // The display says what the keys or the stick's buttons do; a movie has neither.
     EXPECT_EQ(caption_of(flying, show, words(), {}).aside, "Space: pause · R: next · Backspace: back");
     const InputCapabilities stick{.stick = true, .stop_button = 1, .home_button = 2, .undo_button = 3};
@@ -576,18 +576,18 @@ TEST(Tours, GuidesCanPauseSkipAndGoBack)
     EXPECT_EQ(caption_of(flying, {tour, {}, 1, false}, words(), {}).aside, "");
     EXPECT_EQ(u_of(still), u_of(flying)) << "a paused tour stands still to the bit";
     EXPECT_EQ(caption_of(still, show, words(), {}).aside, "paused · Space: go on");
-    EXPECT_EQ(later(still, show, 1, controls_with(Steering{.stop = true})).step(), 2u) << "stop again continues the tour";
+    EXPECT_EQ(later(still, show, 1, controls_with(Switches{Switch::stop})).step(), 2u) << "stop again continues the tour";
     // Home skips to the state at the step's end.
-    const Touring on = later(flying, show, 0.01 + 1e-9, controls_with(Steering{.home = true}));
+    const Touring on = later(flying, show, 0.01 + 1e-9, controls_with(Switches{Switch::home}));
     EXPECT_EQ(on.step(), 2u);
     EXPECT_NEAR(std::asinh(glm::length(u_of(on))), 3, 1e-6);
     // Undo leads to the step's beginning, and soon after that to the step before.
-    Touring back = later(flying, show, 0.02, controls_with(Steering{.undo = true}));
+    Touring back = later(flying, show, 0.02, controls_with(Switches{Switch::undo}));
     EXPECT_EQ(back.step(), 1u);
     EXPECT_LT(glm::length(u_of(back)), 0.1);
-    back = later(back, show, 0.02, controls_with(Steering{.undo = true}));
+    back = later(back, show, 0.02, controls_with(Switches{Switch::undo}));
     EXPECT_EQ(back.step(), 0u);
-    EXPECT_EQ(later(on, show, 0.02, controls_with(Steering{.reset = true})).step(), 0u);
+    EXPECT_EQ(later(on, show, 0.02, controls_with(Switches{Switch::reset})).step(), 0u);
     // Flight controls do nothing to a tour that flies by itself; looking around works.
     Controls hands;
     hands.lever = 1.0, hands.throttle_rate = 1, hands.turn = {1, 1, 1};
@@ -609,7 +609,7 @@ TEST(Tours, AtTheEndTheVisitorFliesUntilAReset)
     touring = later(touring, show, 10, controls_with(Steering{.throttle_rate = 1}));
     EXPECT_GT(std::asinh(glm::length(u_of(touring))), 5);
     EXPECT_TRUE(later(touring, show, 300).over) << "the end of a visit is not the tour's own affair";
-    touring = later(touring, show, 0.01, controls_with(Steering{.reset = true}));
+    touring = later(touring, show, 0.01, controls_with(Switches{Switch::reset}));
     EXPECT_FALSE(touring.over);
     EXPECT_EQ(touring.step(), 0u);
     EXPECT_EQ(u_of(touring), glm::dvec3(0));
@@ -624,7 +624,7 @@ TEST(Tours, ExposureChangesSmoothlyAndKeepsTheVisitorsCorrection)
     EXPECT_NEAR(played(show, 3, 10).flight.exposure_ev, 1, 1e-9) << "in the middle of the change";
     EXPECT_NEAR(played(show, 5, 10).flight.exposure_ev, 4, 1e-9);
     EXPECT_EQ(played(show, 7, 10).flight.exposure_ev, 1);
-    EXPECT_FALSE(played(show, 7, 10).flight.effects.doppler);
+    EXPECT_FALSE(played(show, 7, 10).flight.effects[Effect::doppler]);
     EXPECT_NEAR(played(show, 1, 10, controls_with(Looking{.exposure = 1})).brighter_ev, exposure_ev_per_s, 1e-6);
 }
 

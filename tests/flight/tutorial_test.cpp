@@ -22,7 +22,7 @@ struct Visitor {
         for (int frame = 0; frame < 60 * seconds; ++frame) {
             flight = step(flight, controls, 16'666'667, rules, 1, start);
             tutorial = advance(tutorial, controls, flight, 1 / 60.0);
-            controls.stop = controls.home = false; // a press lasts one frame
+            controls.set(Switch::stop, false), controls.set(Switch::home, false); // a press lasts one frame
         }
     }
 };
@@ -42,7 +42,7 @@ TEST(TutorialTest, EachPromptGoesOnceItsControlIsUsed)
     EXPECT_EQ(visitor.tutorial.lesson, 1);
     visitor.hold(controls_with(Steering{.lever = 0.3, .turn = {0.5, 0, 0}}), 3);
     EXPECT_EQ(visitor.tutorial.lesson, 2);
-    visitor.hold(controls_with(Steering{.lever = 0.3, .stop = true}), 1);
+    visitor.hold(controls_with(Steering{.lever = 0.3}, Switches{Switch::stop}), 1);
     EXPECT_EQ(visitor.tutorial.lesson, lessons);
     EXPECT_EQ(prompt(visitor.tutorial, {}, starbow::testing::words()), "");
 }

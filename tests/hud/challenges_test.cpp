@@ -13,7 +13,7 @@ using namespace starbow::testing;
 namespace {
 
 constexpr double deg = 3.14159265358979323846 / 180;
-const Controls space = controls_with(Steering{.stop = true}), freeze = controls_with(Steering{.freeze = true});
+const Controls space = controls_with(Switches{Switch::stop}), freeze = controls_with(Switches{Switch::freeze});
 
 const Challenge& named(std::string_view name)
 {

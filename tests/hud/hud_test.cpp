@@ -165,13 +165,14 @@ TEST(Hud, UsesTheLanguagesWordsAndDecimalSign)
 TEST(Hud, EachCombinationOfLightEffectsHasAName)
 {
     EXPECT_EQ(light_name({}, starbow::testing::words()), "spectra shifted, times D³: as eyes see them");
-    EXPECT_EQ(light_name({.headlight = false}, starbow::testing::words()), "spectra shifted, without D³");
-    EXPECT_EQ(light_name({.doppler = false}, starbow::testing::words()), "colours unshifted, times D³");
-    EXPECT_EQ(light_name({.doppler = false, .headlight = false}, starbow::testing::words()), "colours as at rest");
-    EXPECT_EQ(light_name({.false_colours = true}, starbow::testing::words()),
+    EXPECT_EQ(light_name(Effects{}.without(Effect::headlight), starbow::testing::words()), "spectra shifted, without D³");
+    EXPECT_EQ(light_name(Effects{}.without(Effect::doppler), starbow::testing::words()), "colours unshifted, times D³");
+    EXPECT_EQ(light_name(Effects{}.without(Effect::doppler).without(Effect::headlight), starbow::testing::words()),
+        "colours as at rest");
+    EXPECT_EQ(light_name(Effects{}.with(Effect::false_colours), starbow::testing::words()),
         "false colours: infrared red, visible green, ultraviolet blue");
     Readings all = at_gamma(4);
-    all.effects = {.doppler = false, .false_colours = true};
+    all.effects = Effects{}.without(Effect::doppler).with(Effect::false_colours);
     EXPECT_EQ(field(all, "light"), "false colours: infrared red, visible green, ultraviolet blue, unshifted");
 }
 

@@ -116,7 +116,7 @@ TEST(LabPlot, OnlyStraightFlightGivesRates)
     lab.mark(0, lab.clock_near({0, 0, 0}));
     lab.log(), lab.wait(0.2), lab.log();
     EXPECT_EQ(points_of(Plot::clock, lab.lines()).size(), 1u);
-    lab.press(controls_with(Steering{.stop = true}));
+    lab.press(controls_with(Switches{Switch::stop}));
     lab.log();
     EXPECT_EQ(points_of(Plot::clock, lab.lines()).size(), 1u);
     lab.wait(0.2), lab.mark(0, lab.clock_near({5, 0, 0})), lab.log();
@@ -131,7 +131,7 @@ TEST(LabPlot, OnlyStraightFlightGivesRates)
     EXPECT_FALSE(straight_on(two[two.size() - 2], two.back()));
     // Without aberration the picture is none of a flight's.
     LabFlight off("clocks", "clocks-passing");
-    off.press(controls_with(EffectSwitches{.aberration = true}));
+    off.press(controls_with(Switches{Switch::aberration}));
     off.mark(0, off.clock_near({0, 0, 0})), off.log(), off.wait(0.2), off.log();
     for (Plot plot : plots)
         EXPECT_TRUE(points_of(plot, off.lines()).empty());

@@ -76,6 +76,7 @@ std::optional<Command> after(const PresenterState& state, PresenterHands& hands,
 }
 
 Command on(CommandKind kind, bool is = true) { return {.kind = kind, .on = is}; }
+Command shows(Effect which, bool is = true) { return {.kind = CommandKind::effect, .on = is, .effect = which}; }
 
 } // namespace
 
@@ -90,7 +91,7 @@ TEST(Presenter, NoKeyMeansTwoThings)
 {
     for (const PresenterList list : {PresenterList::worlds, PresenterList::views}) {
         const PresenterSheet sheet = sheet_of(some_state(), {.list = list}, words_in("en"));
-        std::set<int> keys{presenter_keys::escape, presenter_keys::enter, presenter_keys::backspace};
+        std::set<int> keys{keys::escape, keys::enter, keys::backspace};
         for (const auto* all : {&sheet.choices, &sheet.keys})
             for (const PresenterKey& key : *all) {
                 EXPECT_TRUE(keys.insert(key.key).second) << key.label;
@@ -132,21 +133,21 @@ TEST(Presenter, KeysGiveTheCommandsThatTheyName)
     using enum CommandKind;
     EXPECT_EQ(after(state, hands, {'H'}), on(hold));
     EXPECT_EQ(after(state, hands, {'B'}), on(fade));
-    EXPECT_EQ(after(state, hands, {'D'}), on(doppler, false)); // it is on
+    EXPECT_EQ(after(state, hands, {'D'}), shows(Effect::doppler, false)); // it is on
     EXPECT_EQ(after(state, hands, {'S'}), on(slow_motion));
-    EXPECT_EQ(after(state, hands, {presenter_keys::page_down}), Command{.kind = next}); // a clicker's key
-    EXPECT_EQ(after(state, hands, {presenter_keys::left}), Command{.kind = back});
+    EXPECT_EQ(after(state, hands, {keys::page_down}), Command{.kind = next}); // a clicker's key
+    EXPECT_EQ(after(state, hands, {keys::left}), Command{.kind = back});
     EXPECT_EQ(after(state, hands, {'C'}), (Command{.kind = comparison, .text = "galilean"}));
     EXPECT_EQ(after(state, hands, {'G', '2'}), (Command{.kind = speed_limit, .number = 2.2942}));
     EXPECT_EQ(after(state, hands, {'L', '1'}), (Command{.kind = language, .text = "de"}));
-    EXPECT_EQ(after(state, hands, {presenter_keys::up}), (Command{.kind = exposure, .number = 0.5}));
+    EXPECT_EQ(after(state, hands, {keys::up}), (Command{.kind = exposure, .number = 0.5}));
     state.exposure_ev = -10, state.hold = true;
-    EXPECT_EQ(after(state, hands, {presenter_keys::down}), (Command{.kind = exposure, .number = -10})); // the least
+    EXPECT_EQ(after(state, hands, {keys::down}), (Command{.kind = exposure, .number = -10})); // the least
     EXPECT_EQ(after(state, hands, {'H'}), on(hold, false));
     // A list stays until another one is opened, or Escape leads back to the worlds.
     EXPECT_EQ(after(state, hands, {'T', '1'}), (Command{.kind = tour, .text = state.tours[0].first}));
     EXPECT_EQ(after(state, hands, {'0'}), std::nullopt); // there are no ten tours
-    EXPECT_EQ(after(state, hands, {presenter_keys::escape, '0'}), (Command{.kind = scene, .text = state.scenes[9].first}));
+    EXPECT_EQ(after(state, hands, {keys::escape, '0'}), (Command{.kind = scene, .text = state.scenes[9].first}));
     EXPECT_EQ(after(state, hands, {'V', 'M', '1'}), (Command{.kind = shot, .text = state.shots[10].first}));
     EXPECT_EQ(after(state, hands, {'Q'}), std::nullopt);
 }
@@ -154,7 +155,7 @@ TEST(Presenter, KeysGiveTheCommandsThatTheyName)
 TEST(Presenter, ASecondPressWithinAFrameGoesOnFromTheFirst)
 {
     PresenterState state = some_state();
-    state.effects.headlight = false;
+    state.effects.on.set(Effect::headlight, false);
     PresenterHands hands;
     const auto twice = [&](int key) {
         const std::optional<Command> first = after(state, hands, {key});
@@ -163,18 +164,19 @@ TEST(Presenter, ASecondPressWithinAFrameGoesOnFromTheFirst)
         return after(then, hands, {key}).value();
     };
     using enum CommandKind;
-    for (const auto& [key, kind] : {std::pair{'H', hold}, {'B', fade}, {'P', pause}, {'E', headlight}, {'F', false_colours},
-             {'S', slow_motion}, {'U', range}})
+    for (const auto& [key, kind] : {std::pair{'H', hold}, {'B', fade}, {'P', pause}, {'S', slow_motion}, {'U', range}})
         EXPECT_EQ(twice(key), on(kind, false));
-    for (const auto& [key, kind] : {std::pair{'A', aberration}, {'D', doppler}}) // they are on
-        EXPECT_EQ(twice(key), on(kind));
+    EXPECT_EQ(twice('A'), shows(Effect::aberration)); // it is on
+    EXPECT_EQ(twice('D'), shows(Effect::doppler));
+    EXPECT_EQ(twice('E'), shows(Effect::headlight, false));
+    EXPECT_EQ(twice('F'), shows(Effect::false_colours, false));
     EXPECT_EQ(twice('C'), (Command{.kind = comparison, .text = "no-light-delay"}));
     EXPECT_EQ(twice('X'), (Command{.kind = beside, .text = "aberration"}));
     EXPECT_EQ(twice('I'), (Command{.kind = information, .text = "laboratory"}));
     EXPECT_EQ(twice('O'), on(one_button, false));
     EXPECT_EQ(twice('N'), on(left_handed, false));
-    EXPECT_EQ(twice(presenter_keys::up), (Command{.kind = exposure, .number = 1}));
-    EXPECT_EQ(twice(presenter_keys::right), Command{.kind = next});
+    EXPECT_EQ(twice(keys::up), (Command{.kind = exposure, .number = 1}));
+    EXPECT_EQ(twice(keys::right), Command{.kind = next});
 }
 
 TEST(Presenter, EveryGivenCommandIsOneThatARecordReadsBack)
@@ -199,15 +201,15 @@ TEST(Presenter, ACaptionIsTypedAndNoKeyIsACommandMeanwhile)
     type(hands, 'B');
     type(hands, U'ü');
     type(hands, U'γ');
-    EXPECT_EQ(after(state, hands, {'B', presenter_keys::page_down}), std::nullopt);
+    EXPECT_EQ(after(state, hands, {'B', keys::page_down}), std::nullopt);
     EXPECT_EQ(hands.typed, "Büγ");
-    after(state, hands, {presenter_keys::backspace, presenter_keys::backspace});
+    after(state, hands, {keys::backspace, keys::backspace});
     EXPECT_EQ(hands.typed, "B");
-    EXPECT_EQ(after(state, hands, {presenter_keys::enter}), (Command{.kind = CommandKind::caption, .text = "B"}));
+    EXPECT_EQ(after(state, hands, {keys::enter}), (Command{.kind = CommandKind::caption, .text = "B"}));
     EXPECT_FALSE(hands.typed);
     // An empty one takes the shown one away; Escape leaves everything as it is.
-    EXPECT_EQ(after(state, hands, {'K', presenter_keys::enter}), Command{.kind = CommandKind::caption});
-    EXPECT_EQ(after(state, hands, {'K', presenter_keys::escape}), std::nullopt);
+    EXPECT_EQ(after(state, hands, {'K', keys::enter}), Command{.kind = CommandKind::caption});
+    EXPECT_EQ(after(state, hands, {'K', keys::escape}), std::nullopt);
     EXPECT_FALSE(hands.typed);
     after(state, hands, {'K'});
     for (int i = 0; i < 300; ++i)
@@ -226,8 +228,8 @@ TEST(Presenter, TheCueSheetSaysWhereTheTourIs)
     EXPECT_TRUE(sheet.cues[3].text.starts_with("A rainbow!")) << sheet.cues[3].text;
     const auto usable
         = [](const PresenterSheet& of, int key) { return std::ranges::find(of.keys, key, &PresenterKey::key)->usable; };
-    EXPECT_TRUE(usable(sheet, presenter_keys::right));
-    EXPECT_FALSE(usable(sheet_of(some_state(), {}, words), presenter_keys::right));
+    EXPECT_TRUE(usable(sheet, keys::right));
+    EXPECT_FALSE(usable(sheet_of(some_state(), {}, words), keys::right));
     EXPECT_EQ(sheet_of(some_state(), {}, words).cue_title, "No tour is shown");
 }
 

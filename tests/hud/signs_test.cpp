@@ -1,6 +1,6 @@
 // Signs say what is true, at the place where the thing is seen, and only while it is seen.
-#include "runtime/hud/signs.h"
 #include "config/model/scene_file.h"
+#include "runtime/hud/signs.h"
 #include "runtime/world/surroundings.h"
 #include "runtime/world/world.h"
 #include "tests/support/files.h"
@@ -52,7 +52,7 @@ TEST(Signs, NothingIsSaidThatIsNotSo)
     EXPECT_FALSE(sign(ahead_at(E), {box_at({2, 0, -10}, 1)})) << "it lies ahead";
     EXPECT_FALSE(sign(ahead_at(E), {box_at(1e4 * way, 1)})) << "too small to be told apart";
     Shot shot = ahead_at(E);
-    shot.effects.aberration = false;
+    shot.effects.on.set(Effect::aberration, false);
     EXPECT_FALSE(sign(shot, behind));
     shot = ahead_at(E);
     shot.effects.comparison = Comparison::galilean;

@@ -4,6 +4,7 @@
 #include "displays/projections/views.h"
 #include "runtime/hud/hud_place.h"
 #include "runtime/hud/visitor_panel.h"
+#include "tests/support/effects.h"
 #include "tests/support/files.h"
 #include <cmath>
 #include <cstdio>
@@ -40,8 +41,8 @@ std::vector<Readings> all_states()
         for (int bits = 0; bits < 128; ++bits)
             for (const Comparison comparison : {Comparison::none, Comparison::galilean, Comparison::no_light_delay}) {
                 Readings r = at_rapidity(rapidity, bits & 64 ? 90 : bits & 1 ? 0 : 180);
-                r.effects = {.aberration = (bits & 2) != 0, .doppler = (bits & 4) != 0, .headlight = (bits & 8) != 0};
-                r.effects.false_colours = (bits & 16) != 0;
+                r.effects = effects_of((bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0);
+                r.effects.on.set(Effect::false_colours, (bits & 16) != 0);
                 r.effects.comparison = comparison;
                 r.frozen = (bits & 32) != 0;
                 r.ship_s = rapidity < 1 ? 12.3 : 599.9, r.world_s = rapidity < 1 ? 35999 : 1.3e11;
@@ -97,7 +98,7 @@ TEST(VisitorPanel, WhereOneLooksIsSaidByTheAngle)
 {
     const auto said = [](double rapidity, double degrees, bool colours) {
         Readings r = at_rapidity(rapidity, degrees);
-        r.effects.doppler = r.effects.headlight = colours;
+        r.effects.on.set(Effect::doppler, colours), r.effects.on.set(Effect::headlight, colours);
         return plain_sentence(r, words());
     };
     std::mt19937 random(3);
@@ -121,7 +122,7 @@ TEST(VisitorPanel, WhereOneLooksIsSaidByTheAngle)
         }
     }
     Readings one = at_rapidity(1, 150);
-    one.effects.doppler = true, one.effects.headlight = false;
+    one.effects.on.set(Effect::doppler, true), one.effects.on.set(Effect::headlight, false);
     EXPECT_EQ(plain_sentence(one, words()).find("dimmer"), std::string::npos)
         << "without the headlight effect nothing is dimmer";
 }
@@ -151,10 +152,8 @@ TEST(VisitorPanel, EverySentenceIsTrueOfThePicture)
         flight.ship.ship_from_cockpit = glm::angleAxis(any(0, 6), direction());
         flight.look_rad = i % 3 == 0 ? glm::dvec2(0) : glm::dvec2(any(-3, 3), any(-1.5, 1.5));
         const bool all_on = i % 2 == 0;
-        flight.effects = {.aberration = all_on || any(0, 1) < 0.6,
-            .doppler = all_on || any(0, 1) < 0.6,
-            .headlight = all_on || any(0, 1) < 0.6};
-        flight.effects.false_colours = any(0, 1) < 0.05;
+        for (const EffectEntry& one : all_effects)
+            flight.effects.on.set(one.which, one.usual ? all_on || any(0, 1) < 0.6 : any(0, 1) < 0.05);
         flight.effects.comparison = any(0, 1) < 0.9 ? Comparison::none
             : any(0, 1) < 0.5                       ? Comparison::galilean
                                                     : Comparison::no_light_delay;
@@ -193,35 +192,35 @@ TEST(VisitorPanel, EverySentenceIsTrueOfThePicture)
         else if (key == "slow")
             EXPECT_TRUE(beta > 0 && beta < 0.25);
         else if (key == "rain")
-            EXPECT_TRUE(on.aberration && looks_ahead && ahead > 0.6 && ahead < 1);
+            EXPECT_TRUE(on[Effect::aberration] && looks_ahead && ahead > 0.6 && ahead < 1);
         else if (key == "colours")
-            EXPECT_TRUE(on.doppler && on.headlight && looks_ahead && D(way) > 1.5);
+            EXPECT_TRUE(on[Effect::doppler] && on[Effect::headlight] && looks_ahead && D(way) > 1.5);
         else if (key == "beam")
-            EXPECT_TRUE(on.aberration && looks_ahead && ahead > 0.95) << ahead;
+            EXPECT_TRUE(on[Effect::aberration] && looks_ahead && ahead > 0.95) << ahead;
         else if (key == "limit")
             EXPECT_TRUE(looks_ahead && 1 - beta < 1e-4);
         else if (key == "back")
-            EXPECT_TRUE(on.aberration && looks_back && magnified > 1.05) << magnified;
+            EXPECT_TRUE(on[Effect::aberration] && looks_back && magnified > 1.05) << magnified;
         else if (key == "back_colours")
-            EXPECT_TRUE(on.doppler && on.headlight && looks_back && D(view) < 1);
+            EXPECT_TRUE(on[Effect::doppler] && on[Effect::headlight] && looks_back && D(view) < 1);
         else if (key == "aside" || key == "aside_colours") {
             EXPECT_FALSE(looks_ahead || looks_back) << from_motion;
             // What is seen there lies farther from the way for who is at rest, and light nearer to the way is bluer.
             EXPECT_LT(glm::dot(in_frame_of(-u, view), way), glm::dot(view, way));
             EXPECT_GT(D(glm::normalize(view + 0.1 * way)), D(view));
-            EXPECT_TRUE(key == "aside" || (on.doppler && on.headlight));
+            EXPECT_TRUE(key == "aside" || (on[Effect::doppler] && on[Effect::headlight]));
         } else if (key == "no_aberration")
-            EXPECT_TRUE(!on.aberration && on.doppler && on.headlight);
+            EXPECT_TRUE(!on[Effect::aberration] && on[Effect::doppler] && on[Effect::headlight]);
         else if (key == "colours_alone")
-            EXPECT_TRUE(!on.aberration && on.doppler && !on.headlight);
+            EXPECT_TRUE(!on[Effect::aberration] && on[Effect::doppler] && !on[Effect::headlight]);
         else if (key == "brightness_alone")
-            EXPECT_TRUE(!on.aberration && !on.doppler && on.headlight);
+            EXPECT_TRUE(!on[Effect::aberration] && !on[Effect::doppler] && on[Effect::headlight]);
         else if (key == "no_effects")
-            EXPECT_TRUE(!on.aberration && !on.doppler && !on.headlight);
+            EXPECT_TRUE(!on[Effect::aberration] && !on[Effect::doppler] && !on[Effect::headlight]);
         else if (key == "galilean" || key == "no_light_delay")
             EXPECT_EQ(on.comparison, key == "galilean" ? Comparison::galilean : Comparison::no_light_delay);
         else if (key == "false_colours")
-            EXPECT_TRUE(on.false_colours);
+            EXPECT_TRUE(on[Effect::false_colours]);
         else if (key == "frozen")
             EXPECT_TRUE(flight.frozen);
         else

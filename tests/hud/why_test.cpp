@@ -271,7 +271,7 @@ void expect_true(Why why, const State& state, const char* language)
     case Why::none:
         break;
     case Why::aberration:
-        if (!m.effects.aberration) { // the formula's angles are not those of the picture
+        if (!m.effects[Effect::aberration]) { // the formula's angles are not those of the picture
             lines.take("why.aberration_off");
             break;
         }
@@ -293,7 +293,7 @@ void expect_true(Why why, const State& state, const char* language)
         // 1 - beta cos is as small as 1 / gamma^2, of doubles.
         const double formula = 1 / (aim.past_gamma * (1 - aim.past_beta * (std::isnan(aim.past_cos) ? 1 : aim.past_cos)));
         const bool holds = std::abs(formula / aim.D - 1) < 1e-3 + 1e-15 * aim.past_gamma * aim.past_gamma;
-        EXPECT_TRUE(holds || !m.effects.aberration);
+        EXPECT_TRUE(holds || !m.effects[Effect::aberration]);
         if (holds) {
             auto shown = lines.take("why.doppler_numbers");
             shows(shown["gamma"], aim.past_gamma);
@@ -303,7 +303,7 @@ void expect_true(Why why, const State& state, const char* language)
         } else {
             lines.take("why.aberration_off");
         }
-        if (m.effects.doppler)
+        if (m.effects[Effect::doppler])
             expect_wave(lines.take("why.doppler_seen")["nm"], 550 / aim.D, language);
         else
             lines.take("why.doppler_off");
@@ -313,7 +313,7 @@ void expect_true(Why why, const State& state, const char* language)
         auto shown = lines.take("why.headlight_numbers");
         shows(shown["D"], aim.D);
         shows(shown["cube"], aim.D * aim.D * aim.D);
-        if (!m.effects.headlight)
+        if (!m.effects[Effect::headlight])
             lines.take("why.headlight_off");
         break;
     }
@@ -344,7 +344,7 @@ void expect_true(Why why, const State& state, const char* language)
             lines.take("why.length_none");
         } else if (state.marks[0]->sky || state.marks[1]->sky) {
             lines.take("why.length_sky");
-        } else if (!m.effects.aberration) {
+        } else if (!m.effects[Effect::aberration]) {
             lines.take("why.aberration_off");
         } else {
             const Spot &a = *state.marks[0], &b = *state.marks[1];
@@ -402,7 +402,8 @@ TEST(WhyPages, EveryNumberIsTrueAndEveryRemarkStandsWhereItHolds)
         scene.light_speed_m_s = scale == 3 ? 5 : light_m_s;
         scene.unit_m = scale == 0 ? light_m_s : scale == 2 ? year_s * light_m_s : 1;
         Effects effects;
-        effects.aberration = one_of(4) > 0, effects.doppler = one_of(4) > 0, effects.headlight = one_of(4) > 0;
+        effects.on.set(Effect::aberration, one_of(4) > 0), effects.on.set(Effect::doppler, one_of(4) > 0),
+            effects.on.set(Effect::headlight, one_of(4) > 0);
         effects.comparison = one_of(8) > 0 ? Comparison::none
             : one_of(2)                    ? Comparison::galilean
                                            : Comparison::no_light_delay;
@@ -410,7 +411,7 @@ TEST(WhyPages, EveryNumberIsTrueAndEveryRemarkStandsWhereItHolds)
             .time = 100 * normal(random),
             .u = std::sqrt(gamma * gamma - 1) * glm::normalize(any()),
             .ship_from_cockpit = glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random))),
-            .aberration = effects.aberration || effects.comparison == Comparison::no_light_delay,
+            .aberration = effects[Effect::aberration] || effects.comparison == Comparison::no_light_delay,
             .comparison = effects.comparison};
         if (i % 10 == 0)
             ship.u = dvec3(0);

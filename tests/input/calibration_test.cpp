@@ -200,7 +200,7 @@ TEST(CalibrationTest, TheProfileHasTheChosenRolesAndMeasuredRanges)
     present.axes[0].curve = 2;
     const Chosen chosen{{{AxisRole::nose_up, Push{1, false, 1}}, {AxisRole::nose_right, Push{0, true, 1}},
                             {AxisRole::roll_right, {}}, {AxisRole::throttle, Push{3, false, 1}}},
-        {{ButtonRole::stop, 4}, {ButtonRole::undo, {}}}};
+        {{Switch::stop, 4}, {Switch::undo, {}}}};
     const Profile profile = calibrated(present, descriptor, axes, chosen);
     const AxisUse &up = with(profile, AxisRole::nose_up), &right = with(profile, AxisRole::nose_right),
                   &lever = with(profile, AxisRole::throttle);
@@ -232,8 +232,8 @@ TEST(CalibrationTest, TheProfileHasTheChosenRolesAndMeasuredRanges)
         1);
     // In the usual profile button 1 stopped, 3 went ten seconds back and 4 was the Doppler effect; 9 is still the menu.
     EXPECT_EQ(profile.buttons,
-        (std::vector<ButtonUse>{{2, ButtonRole::home}, {4, ButtonRole::stop}, {5, ButtonRole::headlight},
-            {6, ButtonRole::aberration}, {7, ButtonRole::hud}, {8, ButtonRole::next_mode}, {9, ButtonRole::menu}}));
+        (std::vector<ButtonUse>{{2, Switch::home}, {4, Switch::stop}, {5, Switch::headlight}, {6, Switch::aberration},
+            {7, Switch::hud}, {8, Switch::next_mode}, {9, Switch::menu}}));
     EXPECT_EQ(profile.hat.x, AxisRole::look_right);
     // Another calibration that keeps the roles gives the same.
     EXPECT_EQ(calibrated(profile, descriptor, axes, {}).axes, profile.axes);

@@ -1,6 +1,5 @@
 // A calm exhibit's limits, against hands that do their worst; and the flashes that these hands make, by WCAG 2.3.1.
 #include "input/calm.h"
-#include "input/switches.h"
 #include "runtime/flight/history.h"
 #include "runtime/images/flashes.h"
 #include "runtime/light/exposure.h"
@@ -68,14 +67,14 @@ struct View {
             const double angle = 5 * i * 3.14159265358979324 / 180;
             const double D = 2 / (E * (1 - std::cos(angle)) + (1 + std::cos(angle)) / E); // 1 / (gamma (1 - beta cos))
             const double own = 0.2 + 0.05 * (i % 3);
-            all.push_back({float(flight.effects.headlight ? own * D * D * D : own), 0.01f});
+            all.push_back({float(flight.effects[Effect::headlight] ? own * D * D * D : own), 0.01f});
         }
         return all;
     }
 };
 
 /// These show words at most, and the exposure that a lock lets go is slow.
-const std::set<std::string> of_words{"taken", "lock_exposure", "quit", "save"};
+const std::set<std::string> of_words{"lock_exposure", "quit", "save"};
 
 /// Directions farther apart than a field's diameter, on circles around the sphere.
 glm::vec3 field_at(int i)
@@ -97,7 +96,7 @@ Worst flown_by(const std::function<Controls(int frame)>& script, bool calm, doub
     Shot start;
     start.u = {0, 0, -std::sqrt(15.0)};
     start.exposure_ev = -3;
-    start.effects.headlight = false;
+    start.effects.on.set(Effect::headlight, false);
     Flying rules;
     rules.max_gamma = max_gamma;
     const Exposing exposing{.calm = calm};
@@ -119,7 +118,7 @@ Worst flown_by(const std::function<Controls(int frame)>& script, bool calm, doub
             controls = hands.let_through(controls, dt_s);
         flight = flown(flight, history, controls, frame_ns, rules, 1, start);
         const std::vector<LuminanceSample> light = View::light(flight);
-        exposure.locked ^= controls.lock_exposure;
+        exposure.locked ^= controls[Switch::lock_exposure];
         exposure = adapted(exposure, metered_ev(light), dt_s, exposing, start.exposure_ev);
         double shown = shown_ev(exposure, exposing, flight.exposure_ev, start.exposure_ev);
         if (calm)
@@ -128,7 +127,7 @@ Worst flown_by(const std::function<Controls(int frame)>& script, bool calm, doub
         for (const LuminanceSample& sample : light)
             picture.push_back(calm_shader::tone_map(glm::vec3(float(sample.luminance * std::exp2(shown)))));
         for (std::size_t i = 0; i < all_switches.size(); ++i) {
-            const bool leaps = controls.*all_switches[i].pressed && !of_words.contains(all_switches[i].name);
+            const bool leaps = controls[all_switches[i].which] && !of_words.contains(std::string(all_switches[i].name));
             leapt[i] ^= leaps, any_leapt ^= leaps;
             picture.emplace_back(leapt[i] ? 0.7f : 0.1f);
         }
@@ -178,18 +177,18 @@ TEST(CalmTest, TheFirstPressActsAtOnceAndTheOthersTogetherASecondLater)
     std::vector<int> headlight, doppler, stop;
     for (int frame = 0; frame < 180; ++frame) {
         Controls controls;
-        controls.headlight = frame == 10 || frame == 20 || frame == 30 || frame == 40; // three more: one is left
-        controls.doppler = frame == 25 || frame == 35; // two: none is left
-        controls.stop = frame == 50;
-        controls.lock_exposure = frame == 15; // changes words alone
+        controls.set(Switch::headlight, frame == 10 || frame == 20 || frame == 30 || frame == 40); // three more: one is left
+        controls.set(Switch::doppler, frame == 25 || frame == 35); // two: none is left
+        controls.set(Switch::stop, frame == 50);
+        controls.set(Switch::lock_exposure, frame == 15); // changes words alone
         controls = hands.let_through(controls, dt_s);
-        if (controls.headlight)
+        if (controls[Switch::headlight])
             headlight.push_back(frame);
-        if (controls.doppler)
+        if (controls[Switch::doppler])
             doppler.push_back(frame);
-        if (controls.stop)
+        if (controls[Switch::stop])
             stop.push_back(frame);
-        EXPECT_EQ(controls.lock_exposure, frame == 15);
+        EXPECT_EQ(controls[Switch::lock_exposure], frame == 15);
     }
     EXPECT_EQ(headlight, (std::vector{10, 70}));
     EXPECT_TRUE(doppler.empty());
@@ -216,7 +215,7 @@ TEST(CalmTest, AHeadlightSwitchPressedTenTimesASecondFlickersOnlyWithoutCalm)
 {
     const auto mash = [](int frame) {
         Controls controls;
-        controls.headlight = frame % 6 == 0;
+        controls.set(Switch::headlight, frame % 6 == 0);
         return controls;
     };
     EXPECT_GE(flown_by(mash, false, 5).general, 10);
@@ -226,12 +225,12 @@ TEST(CalmTest, AHeadlightSwitchPressedTenTimesASecondFlickersOnlyWithoutCalm)
     const auto presses = [](int number) {
         return [number](int frame) {
             Controls controls;
-            controls.headlight = frame % 6 == 0 && frame < 6 * number;
+            controls.set(Switch::headlight, frame % 6 == 0 && frame < 6 * number);
             return controls;
         };
     };
-    EXPECT_TRUE(flown_by(presses(7), true, 5).last.effects.headlight);
-    EXPECT_FALSE(flown_by(presses(8), true, 5).last.effects.headlight);
+    EXPECT_TRUE(flown_by(presses(7), true, 5).last.effects[Effect::headlight]);
+    EXPECT_FALSE(flown_by(presses(8), true, 5).last.effects[Effect::headlight]);
 }
 
 TEST(CalmTest, NoHandsMakeMoreThanThreeFlashesInASecond)
@@ -245,9 +244,9 @@ TEST(CalmTest, NoHandsMakeMoreThanThreeFlashesInASecond)
         double lever = 0.5, exposure = 0, rate = 0;
         for (Controls& controls : script) {
             for (const SwitchEntry& one : all_switches)
-                controls.*one.pressed = any(random) < 0.1 * restless;
-            controls.headlight = any(random) < restless;
-            controls.aberration = any(random) < restless;
+                controls.set(one.which, any(random) < 0.1 * restless);
+            controls.set(Switch::headlight, any(random) < restless);
+            controls.set(Switch::aberration, any(random) < restless);
             controls.choose = any(random) < 0.1 * restless;
             controls.turn_by = any(random) < 0.1 * restless;
             if (any(random) < restless)
@@ -367,18 +366,18 @@ TEST(CalmTest, EverySwitchThatChangesThePictureActsOnceASecond)
                 press(controls);
             controls = hands.let_through(controls, dt_s);
             for (std::size_t i = 0; i < all_switches.size(); ++i)
-                of_each[i] += controls.*all_switches[i].pressed;
+                of_each[i] += controls[all_switches[i].which];
         }
         return of_each;
     };
     const std::vector<int> together = let_through([](Controls& controls) {
         for (const SwitchEntry& one : all_switches)
-            controls.*one.pressed = true;
+            controls.set(one.which);
     });
     for (std::size_t i = 0; i < all_switches.size(); ++i) {
         const SwitchEntry& one = all_switches[i];
-        const int alone = let_through([&](Controls& controls) { controls.*one.pressed = true; })[i];
-        if (of_words.contains(one.name)) {
+        const int alone = let_through([&](Controls& controls) { controls.set(one.which); })[i];
+        if (of_words.contains(std::string(one.name))) {
             EXPECT_EQ(alone, 20) << one.name;
             EXPECT_EQ(together[i], 20) << one.name;
         } else {
@@ -394,17 +393,17 @@ TEST(CalmTest, ASecondPressOfATwoWaySwitchUndoesTheFirstWhileItWaitsAndOneOfTheO
     const std::set<std::string> two_ways{
         "aberration", "doppler", "headlight", "false_colours", "range", "hud", "menu", "full_screen", "freeze"};
     for (const SwitchEntry& one : all_switches) {
-        if (of_words.contains(one.name))
+        if (of_words.contains(std::string(one.name)))
             continue;
         CalmHands hands;
         int acted = 0;
         for (int frame = 0; frame < 180; ++frame) {
             Controls controls;
-            controls.*(one.pressed == &Controls::stop ? &Controls::home : &Controls::stop) = frame == 0;
-            controls.*one.pressed = frame == 20 || frame == 40;
-            acted += hands.let_through(controls, dt_s).*one.pressed;
+            controls.set(one.which == Switch::stop ? Switch::home : Switch::stop, frame == 0);
+            controls.set(one.which, frame == 20 || frame == 40);
+            acted += hands.let_through(controls, dt_s)[one.which];
         }
-        EXPECT_EQ(acted, two_ways.contains(one.name) ? 0 : 1) << one.name;
+        EXPECT_EQ(acted, two_ways.contains(std::string(one.name)) ? 0 : 1) << one.name;
     }
 }
 

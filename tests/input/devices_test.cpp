@@ -24,7 +24,7 @@ const Descriptor stick{.fields = {{.usage = {1, 0x30}, .bits = 8, .logical_max =
 const Profile profile{.name = "stick",
     .axes = {{.usage = 0x30, .role = AxisRole::nose_right, .dead_zone = 0.1, .curve = 1},
         {.usage = 0x36, .role = AxisRole::throttle, .dead_zone = 0}},
-    .buttons = {{1, ButtonRole::stop}}};
+    .buttons = {{1, Switch::stop}}};
 
 struct Hand {
     Mapping mapping{stick, profile};
@@ -134,7 +134,7 @@ TEST(DevicesTest, ASilentDeviceCountsForTheNextVisitorOnceItReports)
         Mapping mapping(stick, profile); // as Hid makes it for other hands
         Controls controls;
         mapping.add(known_since(hand.state, came_ns), 7 * s, 0.016, controls);
-        return std::tuple(controls.turn.y, mapping.levers().size(), controls.held, controls.pressed, controls.stop);
+        return std::tuple(controls.turn.y, mapping.levers().size(), controls.held, controls.pressed, controls[Switch::stop]);
     };
     EXPECT_EQ(read(-1), std::tuple(1., 1u, true, true, true));
     EXPECT_EQ(read(6 * s), std::tuple(0., 0u, false, false, false)) << "nobody holds it";
@@ -147,15 +147,15 @@ TEST(DevicesTest, NoTapIsTooShort)
 {
     Hand hand;
     hand.report(128, 0, false, 1);
-    EXPECT_FALSE(hand.controls_at(1).stop);
+    EXPECT_FALSE(hand.controls_at(1)[Switch::stop]);
     hand.report(128, 0, true, 2);
     hand.report(128, 0, false, 3);
-    EXPECT_TRUE(hand.controls_at(4).stop);
-    EXPECT_FALSE(hand.controls_at(5).stop);
+    EXPECT_TRUE(hand.controls_at(4)[Switch::stop]);
+    EXPECT_FALSE(hand.controls_at(5)[Switch::stop]);
     hand.report(128, 0, true, 6);
-    EXPECT_TRUE(hand.controls_at(7).stop);
+    EXPECT_TRUE(hand.controls_at(7)[Switch::stop]);
     hand.report(128, 0, true, 8);
-    EXPECT_FALSE(hand.controls_at(9).stop); // held
+    EXPECT_FALSE(hand.controls_at(9)[Switch::stop]); // held
 }
 
 namespace {
@@ -186,12 +186,12 @@ std::vector<Controls> frames_after(
 // Reports come 100 times a second and more, and a frame may take 300 ms. Each press is that of a frame of its own.
 TEST(DevicesTest, EveryPressInOneFrameCountsOnce)
 {
-    Mapping mapping(grip, {.name = "", .buttons = {{1, ButtonRole::doppler}, {2, ButtonRole::overlay}}});
+    Mapping mapping(grip, {.name = "", .buttons = {{1, Switch::doppler}, {2, Switch::overlay}}});
     DeviceState state;
     const auto pressed = [&](const std::vector<std::uint8_t>& reports) {
         std::pair<int, int> count;
         for (const Controls& controls : frames_after(mapping, state, reports, 8))
-            count.first += controls.doppler, count.second += controls.overlay;
+            count.first += controls[Switch::doppler], count.second += controls[Switch::overlay];
         return count;
     };
     EXPECT_EQ(pressed({let_go}), std::pair(0, 0));
@@ -206,21 +206,23 @@ TEST(DevicesTest, EveryPressInOneFrameCountsOnce)
 // A frame has one switch for both: the second press waits for the next frame.
 TEST(DevicesTest, TwoButtonsOfOneRoleInOneFrameAreTwoPresses)
 {
-    Mapping mapping(grip, {.name = "", .buttons = {{1, ButtonRole::hud}, {2, ButtonRole::hud}}});
+    Mapping mapping(grip, {.name = "", .buttons = {{1, Switch::hud}, {2, Switch::hud}}});
     DeviceState state;
     const auto frames = frames_after(mapping, state, {let_go, first | second, let_go}, 3);
-    EXPECT_TRUE(frames[0].hud && frames[1].hud);
-    EXPECT_FALSE(frames[2].hud);
+    EXPECT_TRUE(frames[0][Switch::hud] && frames[1][Switch::hud]);
+    EXPECT_FALSE(frames[2][Switch::hud]);
 }
 
 // A loose plug or a broken chip presses everything many times a second; fingers do not.
 TEST(DevicesTest, ABurstThatNoHandsMakeIsLeftOut)
 {
     const std::vector<std::string> said{"presses come in a burst that no hands make and are left out"};
-    const auto presses = [](const Controls& controls) { return controls.home + controls.doppler + controls.overlay; };
+    const auto presses = [](const Controls& controls) {
+        return controls[Switch::home] + controls[Switch::doppler] + controls[Switch::overlay];
+    };
     /// Eight buttons in a byte.
     Descriptor box{.report_bits = {{0, 8}}};
-    Profile profile{.name = "", .buttons = {{1, ButtonRole::home}, {2, ButtonRole::doppler}, {3, ButtonRole::overlay}}};
+    Profile profile{.name = "", .buttons = {{1, Switch::home}, {2, Switch::doppler}, {3, Switch::overlay}}};
     for (int i = 0; i < 8; ++i)
         box.fields.push_back({.usage = {9, std::uint16_t(i + 1)}, .bit_offset = i, .bits = 1, .logical_max = 1});
     struct Player {
@@ -249,7 +251,7 @@ TEST(DevicesTest, ABurstThatNoHandsMakeIsLeftOut)
     EXPECT_EQ(all.mapping.troubles(), said);
     all.report(0, 1 * s + 20 * ms);
     all.report(1, 2 * s + 10 * ms);
-    EXPECT_TRUE(all.read(2 * s + 16 * ms).home);
+    EXPECT_TRUE(all.read(2 * s + 16 * ms)[Switch::home]);
     EXPECT_TRUE(all.mapping.troubles().empty());
 
     // One button at 500 Hz, and random bits at 125 Hz, read 60 times a second, for ten seconds.
@@ -284,7 +286,7 @@ TEST(DevicesTest, ABurstThatNoHandsMakeIsLeftOut)
 TEST(DevicesTest, ATapOfARateLastsAFrame)
 {
     Mapping mapping(grip,
-        {.name = "", .buttons = {{1, ButtonRole::brighter}}, .hat = {.x = AxisRole::push_right, .y = AxisRole::push_up}});
+        {.name = "", .buttons = {{1, HeldRole::brighter}}, .hat = {.x = AxisRole::push_right, .y = AxisRole::push_up}});
     DeviceState state;
     auto frames = frames_after(mapping, state, {let_go, first, let_go, first, let_go}, 3);
     EXPECT_EQ(frames[0].exposure, 1);

@@ -90,9 +90,9 @@ TEST(PadTest, EveryPressOfAnyPadCountsOnce)
         buttons.take(0, first);
         buttons.take(15, second);
         Controls controls;
-        controls.doppler = by_key;
+        controls.set(Switch::doppler, by_key);
         buttons.add(controls);
-        return controls.doppler;
+        return controls[Switch::doppler];
     };
     EXPECT_TRUE(doppler(&held, nullptr));
     EXPECT_FALSE(doppler(&held, nullptr));
@@ -159,8 +159,8 @@ TEST(PadTest, ALeftHandHasTheOtherSideOfThePad)
     buttons.take(0, &seen);
     controls = {};
     buttons.add(controls);
-    EXPECT_TRUE(controls.headlight);
-    EXPECT_FALSE(controls.look_ahead);
+    EXPECT_TRUE(controls[Switch::headlight]);
+    EXPECT_FALSE(controls[Switch::look_ahead]);
     EXPECT_TRUE(controls.held);
     const GLFWgamepadstate rests = at_rest();
     buttons.take(0, &rests);

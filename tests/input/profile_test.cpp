@@ -1,4 +1,5 @@
-// Profiles and the mapping of a device's values: every shipped profile on its device's fields, the shapes of axes, wrong files.
+// Profiles and the mapping of a device's values: every shipped profile on its device's fields, the shapes of axes, wrong
+// files.
 #include "config/model/profile.h"
 #include "input/mapping.h"
 #include "tests/support/files.h"
@@ -91,7 +92,7 @@ TEST(ProfileTest, ShippedProfilesAreValidAndFitTheirDevices)
         EXPECT_EQ(controls.turn, glm::dvec3(0));
         EXPECT_EQ(controls.look_rad, glm::dvec2(0));
         EXPECT_EQ(controls.throttle_rate, 0);
-        EXPECT_FALSE(controls.stop || controls.home || controls.undo);
+        EXPECT_FALSE(controls[Switch::stop] || controls[Switch::home] || controls[Switch::undo]);
         for (const Lever& lever : mapping.levers())
             EXPECT_NEAR(lever.place, 0.5, 0.01);
     }
@@ -294,7 +295,7 @@ TEST(ProfileTest, WrittenProfilesReadBackTheSame)
     full.vendor = 0x044f, full.product = 0xfffe, full.serial = "A/1 2";
     full.axes = {{2, 0xbb, 3, AxisRole::throttle, true, 0.123, 2.5, std::array{4294967295.0, 0.5, -2147483648.0}, {0.1, 1}},
         {1, 0x30, 0, AxisRole::none, false, 0, 1, std::array{-0.25, 1.0 / 3, 1e9}}};
-    full.buttons = {{128, ButtonRole::darker}, {1, ButtonRole::none}};
+    full.buttons = {{128, HeldRole::darker}, {1, ButtonRole::none}};
     full.mirrored_buttons = {{1, 128}, {7, 8}};
     full.hat.y = AxisRole::push_back;
     all.push_back(full);

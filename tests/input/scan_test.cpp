@@ -27,13 +27,13 @@ struct Scanned {
     double moved_s = 0; ///< with any rate
     double time_s = 0;
 
-    Steering frame(AnyButton button, std::int64_t dt_ns = frame_ns)
+    ScannedHands frame(AnyButton button, std::int64_t dt_ns = frame_ns)
     {
-        const Steering steering = advance(scan, rules, button, dt_ns);
+        const ScannedHands hands = advance(scan, rules, button, dt_ns);
         time_s += 1e-9 * double(dt_ns);
-        if (steering.throttle_rate != 0 || steering.turn != glm::dvec3(0))
+        if (hands.throttle_rate != 0 || hands.turn != glm::dvec3(0))
             moved_s += 1e-9 * double(dt_ns);
-        return steering;
+        return hands;
     }
     void wait_for(ScanChoice choice)
     {
@@ -64,14 +64,14 @@ TEST(ScanTest, EveryChoiceIsReachedByOneButtonAndDoesWhatItSays)
         Scanned one;
         one.wait_for(deed.choice);
         EXPECT_LT(one.time_s, one.rules.scan_s * scan_choices);
-        const Steering now = one.frame(goes_down);
+        const ScannedHands now = one.frame(goes_down);
         EXPECT_EQ(now.throttle_rate, deed.throttle);
         EXPECT_EQ(now.turn, glm::dvec3(deed.up, deed.left, 0));
-        EXPECT_EQ(now.stop, deed.stop);
-        EXPECT_EQ(now.home, deed.home);
-        EXPECT_EQ(now.menu, deed.menu);
-        const Steering later = one.frame(stays_down);
-        EXPECT_FALSE(later.stop || later.home || later.menu) << "a switch counts once";
+        EXPECT_EQ(now[Switch::stop], deed.stop);
+        EXPECT_EQ(now[Switch::home], deed.home);
+        EXPECT_EQ(now[Switch::menu], deed.menu);
+        const ScannedHands later = one.frame(stays_down);
+        EXPECT_FALSE(later[Switch::stop] || later[Switch::home] || later[Switch::menu]) << "a switch counts once";
         EXPECT_EQ(later.throttle_rate, deed.throttle);
     }
 }
@@ -156,7 +156,8 @@ TEST(ScanTest, OneButtonReachesEveryItemOfAMenuAndTheWayOut)
                 {"clocks", Command{.kind = CommandKind::scene, .text = "clocks"}},
                 {"twins", Command{.kind = CommandKind::scene, .text = "twins"}}}},
         {.title = "switches",
-            .items = {{"doppler", Command{.kind = CommandKind::doppler}}, {"one", Command{.kind = CommandKind::one_button}}},
+            .items = {{"doppler", Command{.kind = CommandKind::effect, .effect = Effect::doppler}},
+                {"one", Command{.kind = CommandKind::one_button}}},
             .stays = true}};
     const OneButton rules;
     std::set<std::string> taken;
@@ -170,9 +171,8 @@ TEST(ScanTest, OneButtonReachesEveryItemOfAMenuAndTheWayOut)
             for (; !chosen && menu.open && time_s < 60; time_s += 0.016) {
                 const bool here = menu.page == 0 ? menu.item == page - 1 : menu.item == item;
                 const AnyButton button = here ? goes_down : untouched;
-                Controls controls;
-                static_cast<Steering&>(controls)
-                    = advance_in_menu(scan, rules, button, menu.page, pages[menu.page].items.size(), frame_ns);
+                Controls controls
+                    = controls_of(advance_in_menu(scan, rules, button, menu.page, pages[menu.page].items.size(), frame_ns));
                 chosen = advance(menu, pages, controls, frame_ns);
             }
             ASSERT_TRUE(chosen) << page << ' ' << item;
@@ -188,9 +188,8 @@ TEST(ScanTest, OneButtonReachesEveryItemOfAMenuAndTheWayOut)
     for (; menu.open && time_s < 60; time_s += 0.016) {
         if (menu.page == 1)
             shown.insert(menu.item);
-        Controls controls;
-        static_cast<Steering&>(controls)
-            = advance_in_menu(scan, rules, untouched, menu.page, pages[menu.page].items.size(), frame_ns);
+        Controls controls
+            = controls_of(advance_in_menu(scan, rules, untouched, menu.page, pages[menu.page].items.size(), frame_ns));
         EXPECT_FALSE(advance(menu, pages, controls, frame_ns));
     }
     EXPECT_EQ(shown.size(), 3u);
@@ -212,9 +211,8 @@ TEST(ScanTest, AHundredVisitorsWithOneButtonFlyOutAndComeHome)
         Scanned one{.rules = {.scan_s = uniform(0.5, 3), .act_s = uniform(0.3, 3)}};
         double farthest = 0, reacts_s = uniform(0.1, 0.4), holds_s = 0;
         const auto fly = [&](AnyButton button) {
-            Controls controls;
-            static_cast<Steering&>(controls) = one.frame(button);
-            controls.menu = false;
+            Controls controls = controls_of(one.frame(button));
+            controls.set(Switch::menu, false);
             flight = step(flight, controls, frame_ns, rules, scene.seconds_per_time_unit(), scene.start);
             farthest = std::max(farthest, glm::distance(flight.ship.position.total(), scene.start.position));
         };

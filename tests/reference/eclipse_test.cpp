@@ -60,7 +60,7 @@ TEST(Eclipse, LeavesTheLightThatAnotherEphemerisSays)
             const dvec3 ground
                 = turn * (glm::transpose(globe_turn(*earth, days)) * on_ground(row[0], row[1], earth->flattening)) * radius;
             Shot shot = testing::shot_at(1.02 * ground, dvec3(0), -ground, turn * dvec3(0, 0, 1));
-            shot.effects = {true, true, true};
+            shot.effects = {};
             const auto light = [&](const ReferenceWorld& world) {
                 const Reference truth = reference(world.input(), layout, shot, 0, {.samples = 1});
                 return (truth.light[0][4].g - truth.numbers[4].glare.g) / truth.exposure;

@@ -114,7 +114,7 @@ TEST(Reference, PointsAndLinesAreAsWideAsAPixelAndAberrated)
         for (const double far : {3.0, 300.0}) {
             const dvec3 way = glm::normalize(dvec3(0.1, 0.05, -1));
             Shot shot = shot_at(dvec3(0), dvec3(0, 0, -u_of_beta(beta)));
-            shot.effects.doppler = shot.effects.headlight = false;
+            shot.effects.on.set(Effect::doppler, false), shot.effects.on.set(Effect::headlight, false);
             Plates plates = strokes(Topology::points, {way * far}, {0});
             const dvec3 seen = middle(plates.seen(shot, layout, {.samples = 256}));
             // Straight ahead is -z: tan(half the angle) shrinks by sqrt((1 - beta) / (1 + beta)).
@@ -307,7 +307,7 @@ TEST(Reference, ShiftedBlackBodiesHaveTheColoursOfTheirNewTemperature)
             material.temperature_K = known.kelvin / D, material.emissivity = 1;
             material.base_colour = glm::vec4(0, 0, 0, 1);
             Shot shot = shot_at(dvec3(0), {0, 0, -u_of_beta(beta)});
-            shot.effects = {true, true, true};
+            shot.effects = {};
             const dvec3 rgb = plates.seen(shot, one_view(Planar{.fov_y_deg = 0.001}, {1, 1})).light[0][0];
             const dvec3 xyz = glm::inverse(rec709_from_sunlit_xyz()) * rgb;
             const double sum = xyz.x + xyz.y + xyz.z;
@@ -337,7 +337,7 @@ TEST(Reference, AStarGivesAllItsLight)
         plates.scene.stars = sky;
         plates.stars = {{equatorial(30, 20), 1.5, 5772}};
         Shot shot = shot_at(dvec3(0), {0, 0, flying ? -u_of_beta(beta) : 0.0});
-        shot.effects = {true, true, true};
+        shot.effects = {};
         const glm::ivec2 size(21, 16); // the picture's middle is a pixel's middle across, and a pixel's edge down
         const Reference picture = plates.seen(shot, one_view(Planar{.fov_y_deg = 1}, size));
         const double pixel = 2 * std::tan(0.5 * degree) / size.y;

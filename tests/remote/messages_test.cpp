@@ -143,7 +143,8 @@ TEST(Messages, AddressesAreComparedAsPlainOnes)
 TEST(Messages, StatusesAndAnswersAreJson)
 {
     Snapshot now;
-    now.scene = "avenue", now.tour = "twins", now.step = 2, now.steps = 9, now.effects.doppler = false, now.speed = 0.5;
+    now.scene = "avenue", now.tour = "twins", now.step = 2, now.steps = 9, now.effects.on.set(Effect::doppler, false),
+    now.speed = 0.5;
     now.effects.comparison = Comparison::no_light_delay;
     now.caption = "\xff\"</script>";
     now.gamma = std::numeric_limits<double>::infinity();
@@ -179,7 +180,8 @@ TEST(Messages, ListsNameTheShippedFilesAndRoles)
 TEST(Osc, MessagesAndBundlesAreRead)
 {
     EXPECT_EQ(commands(osc_samples[0]), (std::vector<Command>{{.kind = CommandKind::scene, .text = "avenue"}}));
-    EXPECT_EQ(commands(osc_samples[1]), (std::vector<Command>{{.kind = CommandKind::doppler, .on = false}}));
+    EXPECT_EQ(commands(osc_samples[1]),
+        (std::vector<Command>{{.kind = CommandKind::effect, .on = false, .effect = Effect::doppler}}));
     EXPECT_EQ(commands(osc_samples[2]), (std::vector<Command>{{.kind = CommandKind::speed_limit, .number = 7}}));
     EXPECT_EQ(commands(osc_samples[4]), (std::vector<Command>{{.kind = CommandKind::fade, .on = true}}));
     EXPECT_EQ(commands(osc_samples[5]),

@@ -54,7 +54,7 @@ TEST(Allocations, AFrameTakesNothingFromTheHeap)
     renderer.frame().repeatable(false); // as the exhibit flies: images only grow
     renderer.frame().meter(true);
     Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
-    shot.effects = {true, true, true};
+    shot.effects = {};
     renderer.picture(shot);
     long prepare = 0, record = 0;
     double ms = 0;

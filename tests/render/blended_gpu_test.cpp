@@ -93,7 +93,7 @@ Doc panes()
 void compare(const char* name, const Doc& doc, const Json& scene, const dvec3& u, double floor_db)
 {
     Shot shot = shot_at({0, 0, 0}, u);
-    shot.effects = {true, true, true};
+    shot.effects = {};
     const auto [db, off] = beside_rays(doc, scene, one_view(Planar{.fov_y_deg = 60}, {240, 180}), shot, 16, false, 1e-3);
     std::printf("%s: %.1f dB, light off by %.4f in the middle, %.4f at 9 of 10\n", name, db, off[off.size() / 2],
         off[off.size() * 9 / 10]);
@@ -241,7 +241,7 @@ TEST(Blended, OpaqueTexelsHideAsThoseOfAMask)
             if (one.infrared)
                 doc.json["materials"][0]["extras"]["starbow"] = {{"infrared", 0.9}, {"ultraviolet", 0.1}};
             Shot shot = shot_at({0, 0, 0}, one.u);
-            shot.effects = {true, true, true};
+            shot.effects = {};
             const Json scene = {{"sky", sky}, {"ambient", {0.2, 0.2, 0.25}}, {"lights", {lamp}}};
             db[blend] = beside_rays(doc, scene, one_view(Planar{.fov_y_deg = 50}, {160, 120}), shot, 16, false, 1e-3).db;
         }

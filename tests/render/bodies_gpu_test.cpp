@@ -380,7 +380,7 @@ TEST(BodiesGpuTest, TwoObserversAtOneEventSeeTheirOwnPictures)
     const dvec3 passing(0.3, -0.4, 1.1);
     viewports[2].observer = {false, passing};
     Shot ship = shot_at({0, 0, -8}, dvec3(0.2, 0.1, -1.0), {0.1, 0, -1});
-    ship.effects.doppler = true;
+    ship.effects.on.set(Effect::doppler);
     OffscreenRenderer all = renderer(avenue().world, three);
     const Numbers numbers(all, ship);
 

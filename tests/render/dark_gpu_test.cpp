@@ -12,7 +12,7 @@ namespace {
 Shot fast(double gamma, double exposure_ev = 0)
 {
     Shot shot = shot_at({0, 0, -8}, {0, 0, -u_of_gamma(gamma)});
-    shot.effects = {true, true, true};
+    shot.effects = {};
     shot.exposure_ev = exposure_ev;
     return shot;
 }

@@ -2,6 +2,7 @@
 // final conversion to bytes.
 #include "config/model/angles.h"
 #include "runtime/light/exposure.h"
+#include "tests/support/effects.h"
 #include "tests/support/small_world.h"
 
 namespace starbow::gpu_test::exposure_gpu_test {
@@ -23,7 +24,7 @@ GpuWorld sky_alone(const std::string& name, const Json& scene)
 Shot flown(double gamma, double exposure_ev = 0)
 {
     Shot shot = shot_at({0, 0, 0}, u_of_gamma(gamma) * glm::normalize(dvec3(0.3, 0.5, -0.8)), {0, 0, -1});
-    shot.effects = {true, false, true};
+    shot.effects = testing::effects_of(true, false, true);
     shot.exposure_ev = exposure_ev;
     return shot;
 }
@@ -156,7 +157,7 @@ void expect_in_range(double lamps, const std::vector<double>& gammas)
         for (bool doppler : {false, true})
             for (double ev : {-30.0, -15.0, 0.0, 15.0, 30.0}) {
                 Shot shot = flown(gamma, ev);
-                shot.effects.doppler = doppler;
+                shot.effects.on.set(Effect::doppler, doppler);
                 const Numbers numbers(offscreen, shot);
                 const auto picture = offscreen.picture(shot).front();
                 for (int i = 0; i < numbers.count(); ++i) {
@@ -208,7 +209,7 @@ TEST(Range, RedShiftedLightIsRightAtGreatExposures)
     OffscreenRenderer offscreen = renderer(world, one_view(Planar{20}, {32, 32}));
     for (double gamma : {1.5, 2.0, 4.0}) {
         Shot shot = shot_at({0, 0, 0}, {0, 0, u_of_gamma(gamma)}, {0, 0, -1});
-        shot.effects = {true, true, true};
+        shot.effects = {};
         const Numbers numbers(offscreen, shot);
         shot.exposure_ev = std::log2(0.5 / numbers.light(16 * 32 + 16).r);
         const auto picture = offscreen.picture(shot).front();

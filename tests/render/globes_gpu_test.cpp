@@ -7,6 +7,7 @@
 #include "runtime/light/spectrum.h"
 #include "runtime/reference/globes.h"
 #include "runtime/reference/reference.h"
+#include "tests/support/effects.h"
 #include "tests/support/gpu_environment.h"
 #include <map>
 
@@ -198,7 +199,7 @@ Taken shot_of(const Subject& subject, const Speed& speed)
     const dvec3 seen = glm::normalize(subject.look + u + u * (glm::dot(u, subject.look) / (speed.gamma + 1)));
     Shot shot = shot_at(subject.eye, u, seen, up);
     shot.time = subject.time;
-    shot.effects = {true, speed.doppler, true};
+    shot.effects = effects_of(true, speed.doppler, true);
     return {shot, D};
 }
 
@@ -372,13 +373,13 @@ TEST(Globes, LightIsThatOfTheRaysWithOtherEffects)
     };
     Effects galilean{true, true, true}, now{true, true, true}, false_colours{true, true, true};
     galilean.comparison = Comparison::galilean, now.comparison = Comparison::no_light_delay,
-    false_colours.false_colours = true;
+    false_colours.on.set(Effect::false_colours);
     for (const Case& one : {Case{"galilean", galilean}, {"without light delay", now}, {"in false colours", false_colours},
              {"without aberration", {false, true, true}}, {"without headlight effect", {true, true, false}}}) {
         const std::string name = std::string("Jupiter at 0.5 c ") + one.name;
         Taken taken = shot_of(*subject, speeds[1]);
         taken.shot.effects = one.effects;
-        if (!one.effects.aberration)
+        if (!one.effects[Effect::aberration])
             taken.shot.ship_from_cockpit = orientation(subject->look, {0, 1, 0});
         expect_close(compare(one_view(Planar{.fov_y_deg = 50}, {96, 72}), taken.shot, 4, name), *subject, speeds[1], name);
     }
@@ -452,7 +453,7 @@ TEST(Globes, WholeDiscsHaveThePublishedMagnitudes)
             const dvec3 from = is_sun ? s.pole("Sun") : s.to_sun(body.name, time);
             Shot shot = shot_at(s.place(body.name, time) + from * distance, dvec3(0), -from,
                 std::abs(from.y) > 0.9 ? dvec3(0, 0, 1) : dvec3(0, 1, 0));
-            shot.effects = {true, true, true};
+            shot.effects = {};
             shot.time = time;
             const double sun_au = is_sun ? 1 : glm::length(s.place(body.name, time) - s.place("Sun", time)) / au;
             const Numbers numbers(live, shot);
@@ -488,7 +489,7 @@ TEST(Globes, TheSunIsDarkerAtItsLimb)
     const double distance = 200 * s.radius("Sun");
     Shot shot
         = shot_at(s.place("Sun") + north * distance, dvec3(0), -north, glm::normalize(glm::cross(north, dvec3(1, 0, 0))));
-    shot.effects = {true, true, true};
+    shot.effects = {};
     shot.time = later;
     const double fov = 2 * std::atan(1.1 / 200) / degree;
     const Layout layout = one_view(Planar{.fov_y_deg = fov}, {201, 201});
@@ -534,7 +535,7 @@ TEST(Globes, TheMoonsShadowFallsWhereItWasPredicted)
     const dvec3 ground = s.on_earth(65.2, -25.2, 0) * s.radius("Earth");
     const dvec3 eye = s.place("Earth", 0) + ground * 2.2;
     Shot shot = shot_at(eye, dvec3(0), s.place("Earth", 0) + ground - eye, dvec3(0, 1, 0));
-    shot.effects = {true, true, true};
+    shot.effects = {};
     const Layout layout = one_view(Planar{.fov_y_deg = 14}, {144, 108});
     OffscreenRenderer dark(device(), pipelines(), small.gpu, layout, test_quality(), true),
         lit(device(), pipelines(), bright.gpu, layout, test_quality(), true);
@@ -592,7 +593,7 @@ TEST(Globes, ASpotBecomesADiscWithoutAChangeOfLight)
                 const dvec3 look
                     = glm::normalize(-from + (right * (place % 3 / 3.0 + 0.1) + up * (place / 3 / 3.0 + 0.1)) * pixel);
                 Shot shot = shot_at(s.place(name) + from * s.radius(name) / (pixels * pixel), dvec3(0), look);
-                shot.effects = {true, true, true};
+                shot.effects = {};
                 shot.time = later;
                 const Numbers numbers(live, shot);
                 double by_live = 0;

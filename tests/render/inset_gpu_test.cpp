@@ -106,7 +106,7 @@ void compare(const GpuWorld& world, const Layout& layout, const Shot& ship, cons
 Shot flying(double gamma, bool coloured, double look = 0)
 {
     Shot ship = shot_at({0.3, 0.1, -8}, {0, 0, -u_of_gamma(gamma)}, {std::sin(look), 0.05, -std::cos(look)});
-    ship.effects.doppler = ship.effects.headlight = coloured;
+    ship.effects.on.set(Effect::doppler, coloured), ship.effects.on.set(Effect::headlight, coloured);
     ship.exposure_ev = coloured && gamma > 10 ? -8 : 0;
     return ship;
 }
@@ -122,7 +122,8 @@ TEST(InsetGpuTest, TheAvenueAtEverySpeed)
                 if (!all && (coloured != (gamma > 1.1) || (look == 0.6) != (gamma == 1)))
                     continue;
                 SCOPED_TRACE(std::to_string(gamma) + " " + std::to_string(look));
-                compare(avenue().world, small_shipped_layout("desk", 400), flying(gamma, coloured, look), test_quality(), gamma == 1);
+                compare(avenue().world, small_shipped_layout("desk", 400), flying(gamma, coloured, look), test_quality(),
+                    gamma == 1);
             }
 }
 
@@ -162,7 +163,7 @@ TEST(InsetGpuTest, BesideAComparison)
     for (const Comparison comparison : {Comparison::galilean, Comparison::no_light_delay}) {
         Shot ship = flying(4, true);
         ship.effects.comparison = comparison;
-        ship.effects.false_colours = true;
+        ship.effects.on.set(Effect::false_colours);
         compare(avenue().world, small_shipped_layout("desk", 400), ship, test_quality(), false);
     }
 }

@@ -135,9 +135,9 @@ TEST(Lab, EveryMeasurementGivesTheTheorysValue)
         const GpuWorld& world = contexts[shot.scene]->world;
         Shot pressed = shot;
         for (char key : row.cells[2]) {
-            pressed.effects.aberration ^= key == '1';
-            pressed.effects.doppler ^= key == '2';
-            pressed.effects.headlight ^= key == '3';
+            pressed.effects[Effect::aberration] ^= key == '1';
+            pressed.effects[Effect::doppler] ^= key == '2';
+            pressed.effects[Effect::headlight] ^= key == '3';
         }
         const std::vector<Point> points = parse_points(row.cells[3], desk);
         for (const auto& [right, up] : {std::pair(0.0, 0.0), std::pair(0.1, 0.06), std::pair(-0.08, -0.1)}) {
@@ -184,7 +184,7 @@ TEST(Lab, AComparisonIsReadAsTheRaysShowIt)
         SCOPED_TRACE(comparison_names[std::size_t(comparison)]);
         Shot shot = load_shot(folder / "shots/train-tunnel.json");
         shot.u = {0.2, 0.05, -0.3};
-        shot.effects.comparison = comparison, shot.effects.aberration = aberration;
+        shot.effects.comparison = comparison, shot.effects.on.set(Effect::aberration, aberration);
         const Reference truth = reference(rays.input(), desk, shot, 0, {.samples = 1});
         const StillMeasurement measurement
             = measure_still(renderer, context.world, shot, points, "off", "none", testing::words());

@@ -1,6 +1,7 @@
 // Every kind of light on a surface, alone and together, in worlds where nothing moves and where a body does, at every
 // spectral level, compared with rays, which know neither the shader nor its coefficients.
 #include "runtime/reference/reference.h"
+#include "tests/support/effects.h"
 #include "tests/support/small_world.h"
 #include <cstdio>
 
@@ -106,7 +107,7 @@ TEST(Lamps, EveryKindOfLightEqualsRays)
             const ReferenceWorld rays = open_reference_world(starbow::testing::scratch("lamps.json"));
             const SpectralLevel needed = world.spectra.level;
             Shot shot = shot_at({0, 0, 0}, {0, 0, -u_of_gamma(gamma)});
-            shot.effects = {true, doppler, false};
+            shot.effects = effects_of(true, doppler, false);
             const Reference truth = reference(rays.input(), layout, shot, 0, {.samples = 4});
             // Every level at rest; elsewhere the one that the scene chooses.
             for (SpectralLevel level : gamma == 1 ? levels : std::vector{needed}) {
@@ -152,7 +153,7 @@ TEST(Lamps, ALampThatPassesEqualsRays)
             GpuWorld world = open_world("passing", plates(true), scene);
             const ReferenceWorld rays = open_reference_world(starbow::testing::scratch("passing.json"));
             Shot shot = shot_at({0, 0, 0}, {0, 0, 0});
-            shot.effects = {true, true, false};
+            shot.effects = effects_of(true, true, false);
             const Reference truth = reference(rays.input(), layout, shot, 0, {.samples = 4});
             OffscreenRenderer live = renderer(world, layout);
             const Numbers numbers(live, shot);
@@ -231,7 +232,7 @@ TEST(Cones, EqualRaysAtRestAndPassing)
                 GpuWorld world = open_world("cones", floor_alone(passes, glossy), scene);
                 const ReferenceWorld rays = open_reference_world(starbow::testing::scratch("cones.json"));
                 Shot shot = shot_at({0, 5, 0}, flies * dvec3(0, 0, -1), {0, -1, 0}, {0, 0, -1});
-                shot.effects = {true, true, false};
+                shot.effects = effects_of(true, true, false);
                 const Reference truth = reference(rays.input(), layout, shot, 0, {.samples = 4});
                 OffscreenRenderer live = renderer(world, layout);
                 const Numbers numbers(live, shot);

@@ -3,6 +3,7 @@
 #include "config/model/angles.h"
 #include "runtime/images/capture.h"
 #include "runtime/reference/reference.h"
+#include "tests/support/effects.h"
 #include "tests/support/small_world.h"
 
 namespace starbow::gpu_test::milky_way_gpu_test {
@@ -80,7 +81,7 @@ TEST(MilkyWay, ASpotIsInItsPlaceOnEveryDisplay)
                     const ivec2 size = std::holds_alternative<Equirectangular>(display) ? ivec2(480, 240) : ivec2(240, 240);
                     OffscreenRenderer live = renderer(world, one_view(display, size));
                     Shot shot = shot_at({0, 0, 0}, dvec3(0, 0, -u_of_beta(beta)));
-                    shot.effects = {true, false, false};
+                    shot.effects = effects_of(true, false, false);
                     // The spot stands in the middle of the picture.
                     const dvec3 there = glm::transpose(equatorial_from_world) * middle;
                     const dvec3 aside = std::abs(there.y) > 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);

@@ -173,7 +173,7 @@ TEST(Overlay, TheProbeReadsThePicture)
     OffscreenRenderer offscreen = renderer(context.world, window({320, 240}));
     for (double gamma : {1.0, 1.1, 2.0, 20.0}) { // at 1.1 the cube map has the cockpit's axes
         Shot shot = shot_at({0.1, 0.3, -8}, {0, 0, -u_of_gamma(gamma)}, {0.2, 0, -1});
-        shot.effects = {true, true, true};
+        shot.effects = {};
         const Numbers numbers(offscreen, shot);
         Measuring measuring;
         std::vector<int> at;
@@ -408,7 +408,8 @@ TEST(Overlay, ItsColoursAreWhatTheProbeReadsInEveryShot)
                     continue;
                 SCOPED_TRACE(file.stem().string());
                 Shot shot = load_shot(file);
-                shot.effects.doppler = shot.effects.headlight = false; // bright pixels would hide nothing and cost digits
+                shot.effects.on.set(Effect::doppler, false),
+                    shot.effects.on.set(Effect::headlight, false); // bright pixels would hide nothing and cost digits
                 expect_colours_of_probes(gpu, layout, shot, overlay, testing::all_cases() ? 1000 : 100);
             }
     }

@@ -220,7 +220,7 @@ TEST_P(ShippedShots, DepthIsTheDistanceInTheWorldFromTheEyesEvent)
         for (int i = 0; i < numbers.count() && failures < 5; ++i) {
             if (!numbers.shown(i))
                 continue;
-            const double D = shot.effects.aberration ? numbers.D(i) : 1, depth = numbers.depth(i);
+            const double D = shot.effects[Effect::aberration] ? numbers.D(i) : 1, depth = numbers.depth(i);
             const double footprint
                 = D * pixel_angle(Picture{projection, size}, numbers.centre(i)); // the pixel's size in the world, radians
             // The cube map's depth belongs to a sample up to 0.7 + 0.53 texels away. A texel is at most footprint / 1.5

@@ -5,6 +5,7 @@
 #include "displays/compile/direction_map.h"
 #include "runtime/light/srgb.h"
 #include "shaders/physics/physics.h"
+#include "tests/support/effects.h"
 #include "tests/support/small_world.h"
 #include <functional>
 
@@ -47,7 +48,7 @@ TEST(Picture, AtRestEveryEffectIsTheIdentity)
     Shot shot = shipped_shot("start");
     std::vector<std::vector<std::uint8_t>> first;
     for (int bits = 0; bits < 8; ++bits) {
-        shot.effects = {bool(bits & 1), bool(bits & 2), bool(bits & 4)};
+        shot.effects = testing::effects_of(bool(bits & 1), bool(bits & 2), bool(bits & 4));
         const auto picture = offscreen.picture(shot);
         if (bits == 0)
             first = picture;
@@ -60,7 +61,7 @@ TEST(Picture, WithoutAberrationDirectionsAreThoseAtRest)
     for (const Projection& projection : {Projection(Planar{60}), Projection(Fisheye{180, 30})}) {
         OffscreenRenderer offscreen = renderer(avenue().world, one_view(projection, {160, 160}));
         Shot shot = shot_at({0.1, 0.2, -7}, u_of_gamma(4) * glm::normalize(dvec3(1, 0.5, -2)), {0, 0, -1});
-        shot.effects.aberration = false;
+        shot.effects.on.set(Effect::aberration, false);
         const Numbers moving(offscreen, shot);
         shot.u = {0, 0, 0};
         const Numbers rest(offscreen, shot);
@@ -89,7 +90,7 @@ TEST(Picture, HeadlightAloneMultipliesByTheCubeOfD)
         OffscreenRenderer offscreen = renderer(avenue().world, one_view(Fisheye{180, 30}, {200, 200}));
         Shot shot = shot_at({0, 0, -8}, {0, 0, -u_of_gamma(gamma)}, {0, 0, -1});
         const Numbers off(offscreen, shot);
-        shot.effects.headlight = true;
+        shot.effects.on.set(Effect::headlight);
         const Numbers on(offscreen, shot);
         double worst = 0;
         int compared = 0;

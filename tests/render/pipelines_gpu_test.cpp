@@ -1,6 +1,7 @@
 // Pipelines that no frame uses are released beyond a bound, and the device gives their memory back. Those of an earlier
 // start come from a whole file alone.
 #include "tests/support/damage.h"
+#include "tests/support/effects.h"
 #include "tests/support/small_world.h"
 #include <cstdlib>
 #include <fstream>
@@ -35,7 +36,7 @@ TEST(Pipelines, StayWithinTheirBoundAndSoDoesTheMemory)
     constexpr std::size_t most = 4;
     const auto fly_round = [&] {
         for (int off = 0; off < 4; ++off) {
-            shot.effects = {.aberration = !(off & 1), .doppler = !(off & 2), .headlight = !(off & 4)};
+            shot.effects = testing::effects_of(!(off & 1), !(off & 2), !(off & 4));
             own.release_old(most);
             renderer.picture(shot);
             EXPECT_LE(own.kept(), most + 3) << "before the next turn the frame's new ones come on top";

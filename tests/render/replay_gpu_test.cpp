@@ -24,10 +24,10 @@ RecordEntry at(int frame)
     controls.lever = std::min(0.3, 0.025 * frame);
     controls.turn = {0.3 * std::sin(0.1 * frame), 0.7, 0};
     controls.head = {{0.01 * frame, 0, 0.1}, glm::angleAxis(0.01 * frame, dvec3(0, 1, 0))};
-    controls.doppler = frame == 7;
+    controls.set(Switch::doppler, frame == 7);
     controls.turn_by = frame == 9 ? 10 : 0;
-    controls.pattern = frame > 20;
-    controls.undo = frame == 14;
+    controls.set(Switch::pattern, frame > 20);
+    controls.set(Switch::undo, frame == 14);
     return entry;
 }
 

@@ -2,6 +2,7 @@
 // pigments, lines, infrared and ultraviolet.
 #include "runtime/light/colour_difference.h"
 #include "runtime/light/spectrum.h"
+#include "tests/support/effects.h"
 #include "tests/support/small_world.h"
 #include <cstdio>
 
@@ -23,7 +24,7 @@ dvec2 chromaticity(const dvec3& xyz) { return dvec2(xyz) / (xyz.x + xyz.y + xyz.
 Shot ahead(double E, bool headlight = true)
 {
     Shot shot = shot_at({0, 0, 0}, {0, 0, -0.5 * (E - 1 / E)}, {0, 0, -1});
-    shot.effects = {true, true, headlight};
+    shot.effects = effects_of(true, true, headlight);
     return shot;
 }
 
@@ -269,7 +270,7 @@ TEST(Spectra, WithoutDopplerLightHasTheColoursOfRest)
     shot.effects = {};
     OffscreenRenderer with = renderer(world, layout), without = renderer(world, layout);
     const Numbers coefficients(with, shot);
-    shot.effects.doppler = false;
+    shot.effects.on.set(Effect::doppler, false);
     const Numbers colours(without, shot);
     double worst = 0;
     for (int i = 0; i < colours.count(); ++i) {
@@ -295,7 +296,7 @@ TEST(Spectra, TheDopplerSwitchLeavesNothingBehind)
         shot.effects = {};
         for (const auto& [doppler, false_colours] :
             {std::pair{true, false}, {false, false}, {false, true}, {false, false}, {true, false}, {true, true}}) {
-            shot.effects.doppler = doppler, shot.effects.false_colours = false_colours;
+            shot.effects.on.set(Effect::doppler, doppler), shot.effects.on.set(Effect::false_colours, false_colours);
             OffscreenRenderer fresh(device(), pipelines(), world, layout, quality, false);
             EXPECT_EQ(flown.picture(shot), fresh.picture(shot))
                 << "Doppler " << doppler << ", false colours " << false_colours << ", body " << body;
@@ -389,7 +390,7 @@ TEST(Spectra, FalseColoursShowTheInfraredRedAndTheUltravioletBlue)
         OffscreenRenderer offscreen = renderer(world, one_view(Planar{40}, {64, 48}));
         Shot shot = ahead(1);
         const Numbers plain(offscreen, shot);
-        shot.effects.false_colours = true;
+        shot.effects.on.set(Effect::false_colours);
         const Numbers shown(offscreen, shot);
         const int left = 24 * 64 + 16, right = 24 * 64 + 48;
         for (int i : {left, right}) // the visible light of both is the same grey

@@ -4,6 +4,7 @@
 #include "runtime/light/colour.h"
 #include "runtime/light/spectrum.h"
 #include "runtime/reference/reference.h"
+#include "tests/support/effects.h"
 #include "tests/support/planck.h"
 #include "tests/support/small_world.h"
 #include <glm/gtx/quaternion.hpp>
@@ -338,7 +339,7 @@ TEST(Stars, AStarIsABlackBodyAtDT)
         put_stars(world, {star_at({0, 0, -1}, c.T)});
         OffscreenRenderer offscreen = renderer(world, one_view(Planar{20}, {64, 64}));
         Shot shot = shot_at({0, 0, 0}, {0, 0, -0.5 * (c.D - 1 / c.D)}, {0, 0, -1});
-        shot.effects = {true, true, true};
+        shot.effects = {};
         const dvec3 light = sum_of(Numbers(offscreen, shot)).light / (brightness_arcmin2 * arcmin2_sr);
         const dvec2 xy = chromaticity_of(light);
         const dvec3 at_DT = integral(c.D * c.T), at_rest = integral(c.T);
@@ -351,11 +352,11 @@ TEST(Stars, AStarIsABlackBodyAtDT)
         if (c.D == 2.90) {
             EXPECT_NEAR(luminance(light), 2.88, 0.03);
         }
-        shot.effects = {true, true, false}; // without the D^3 of a surface's radiance
+        shot.effects = effects_of(true, true, false); // without the D^3 of a surface's radiance
         EXPECT_NEAR(luminance(sum_of(Numbers(offscreen, shot)).light) / luminance(light * brightness_arcmin2 * arcmin2_sr)
                 * (c.D * c.D * c.D),
             1, 1e-5);
-        shot.effects = {true, false, true}; // D^3 of the radiance, D^-2 of the solid angle
+        shot.effects = effects_of(true, false, true); // D^3 of the radiance, D^-2 of the solid angle
         EXPECT_NEAR(luminance(sum_of(Numbers(offscreen, shot)).light) / (brightness_arcmin2 * arcmin2_sr) / c.D, 1, 0.01);
     }
 }
@@ -367,7 +368,7 @@ TEST(Stars, WithoutAberrationStarsStayAndUseTheirPixelsD)
     put_stars(world, {star_at(n)});
     OffscreenRenderer offscreen = renderer(world, one_view(Planar{20}, {64, 64}));
     Shot shot = shot_at({0, 0, 0}, {0, u_of_gamma(3), 0}, {0, 0, -1});
-    shot.effects = {false, false, true};
+    shot.effects = effects_of(false, false, true);
     const Sum sum = sum_of(Numbers(offscreen, shot));
     EXPECT_LT(between(sum.middle, n), 0.1 * 20 * degree / 64);
     // D of a direction in the ship is 1 / (gamma - u.n); a surface there keeps its size and has D^3 of its radiance.
@@ -417,7 +418,7 @@ TEST(Stars, AStarAndASmallDiscLoseAndGainTheSameLight)
     for (double gamma : {1.25, 4.0})
         for (int switches = 0; switches < 16; ++switches) {
             Shot shot = shot_at({0, 0, 0}, {0, 0, -u_of_gamma(gamma)}, {0, 0, -1});
-            shot.effects = {bool(switches & 1), bool(switches & 2), bool(switches & 4)};
+            shot.effects = effects_of(bool(switches & 1), bool(switches & 2), bool(switches & 4));
             if (switches & 8)
                 shot.effects.comparison = Comparison::galilean;
             if ((switches & 8) && !(switches & 1))
@@ -459,7 +460,7 @@ TEST(Stars, TheWholeSkysLightIsTheCataloguesSum)
     for (double gamma : {1.0, 1.5, 4.0, 10.0, 100.0}) {
         const dvec3 u = u_of_gamma(gamma) * glm::normalize(dvec3(0.3, 0.5, -0.8));
         Shot shot = shot_at({0, 0, 0}, u, {0, 0, -1});
-        shot.effects = {true, true, true};
+        shot.effects = {};
         const auto folder = testing::scratch("whole_sky");
         render_still(folder, offscreen, shot, true);
         const auto [read_size, channels] = read_exr(folder / "view.exr");

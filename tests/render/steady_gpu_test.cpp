@@ -74,7 +74,7 @@ TEST(Steady, ObliqueSlowFlightShowsWhatRaysShow)
                 if (!all_cases() && name == "dome" && (beta != 0.5 || comparison != Comparison::none))
                     continue;
                 Shot shot = along({0.6, 0.48, 0.64}, beta);
-                shot.effects = {.aberration = true, .doppler = true, .headlight = true, .comparison = comparison};
+                shot.effects = {.comparison = comparison};
                 const Layout layout = small_shipped_layout(name, 160);
                 OffscreenRenderer live = renderer(avenue().world, layout);
                 const auto pictures = live.picture(shot);

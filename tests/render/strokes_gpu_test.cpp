@@ -82,7 +82,7 @@ void expect_equal(const char* name, const Together& seen)
 Shot shot_of(const dvec3& u)
 {
     Shot shot = shot_at({0, 0, 0}, u);
-    shot.effects = {true, true, true};
+    shot.effects = {};
     return shot;
 }
 

@@ -46,13 +46,14 @@ TEST_P(WarmUpIn, AFlightAfterItMakesNoPipeline)
             offscreen.frame().measure(Measuring{.probes = {{glm::dvec3(0, 0, -1)}}, .over = {.overlay = overlay}});
         offscreen.picture(shot);
         EXPECT_EQ(own.count() - std::exchange(before, own.count()), 0u)
-            << "gamma " << gamma << ", overlay " << int(overlay) << ", effects " << effects.aberration << effects.doppler
-            << effects.headlight << effects.false_colours << int(effects.comparison);
+            << "gamma " << gamma << ", overlay " << int(overlay) << ", effects " << effects[Effect::aberration]
+            << effects[Effect::doppler] << effects[Effect::headlight] << effects[Effect::false_colours]
+            << int(effects.comparison);
     };
     for (double gamma : {1.0, 1.01, 1.2, 2.0, 4.0, 20.0, 100.0})
-        for (const Effects& effects : {Effects{}, Effects{.aberration = false}, Effects{.doppler = false},
-                 Effects{.headlight = false}, Effects{false, false, false}, Effects{.comparison = Comparison::galilean},
-                 Effects{.comparison = Comparison::no_light_delay}, Effects{.false_colours = true}})
+        for (const Effects& effects : {Effects{}, Effects{}.without(Effect::aberration), Effects{}.without(Effect::doppler),
+                 Effects{}.without(Effect::headlight), Effects{.on = {}}, Effects{.comparison = Comparison::galilean},
+                 Effects{.comparison = Comparison::no_light_delay}, Effects{}.with(Effect::false_colours)})
             fly(gamma, effects, Overlay::off);
     offscreen.frame().range(RangeCurve());
     for (double gamma : {1.0, 1.01, 1.2, 2.0, 4.0, 20.0, 100.0})

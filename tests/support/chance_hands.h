@@ -1,5 +1,5 @@
 #pragma once
-#include "input/switches.h"
+#include "input/channels.h"
 #include <cmath>
 #include <random>
 
@@ -24,7 +24,7 @@ public:
         time_s_ += dt_s;
         Controls controls;
         for (const SwitchEntry& one : all_switches)
-            controls.*one.pressed = uniform(0, 1) < 3 * restless_ * dt_s;
+            controls.set(one.which, uniform(0, 1) < 3 * restless_ * dt_s);
         for (const auto step : all_steps)
             controls.*step = uniform(0, 1) < 3 * restless_ * dt_s ? int(uniform(-10, 11)) : 0;
         if (has_lever_)

@@ -1,5 +1,6 @@
 #pragma once
 #include "config/model/shot.h"
+#include "tests/support/effects.h"
 
 namespace starbow::testing {
 
@@ -11,7 +12,7 @@ inline Shot shot_at(
     shot.position = position;
     shot.u = u;
     shot.ship_from_cockpit = orientation(look, up);
-    shot.effects = {true, false, false};
+    shot.effects = effects_of(true, false, false);
     return shot;
 }
 

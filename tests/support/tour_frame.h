@@ -125,7 +125,7 @@ inline Frame frame_of(const Touring& touring)
         .at = ship.position.total(),
         .u = ship.u.total(),
         .cockpit = ship.ship_from_cockpit,
-        .aberration = touring.flight.effects.aberration};
+        .aberration = touring.flight.effects[Effect::aberration]};
 }
 
 } // namespace starbow::testing

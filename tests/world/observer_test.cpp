@@ -57,7 +57,7 @@ TEST(CubeAxes, AreTheMotionsInFastFlight)
     }
     // Directions are not aberrated: a heading does not show at any speed.
     Shot unaberrated = shot_at({}, {0, u_of_gamma(100), 0});
-    unaberrated.effects.aberration = false;
+    unaberrated.effects.on.set(Effect::aberration, false);
     EXPECT_EQ(observer_of(world, unaberrated, {}).rest_frames[0].cube_from_frame,
         observer_of(world, shot_at({}, {}), {}).rest_frames[0].cube_from_frame);
 }

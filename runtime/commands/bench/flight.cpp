@@ -19,7 +19,7 @@ constexpr double frames_per_s = 10;
 
 /// A part of the flight: what begins it, and how fast the ship is at its two ends.
 struct Manoeuvre {
-    const char* name;
+    std::string name;
     double seconds, from_gamma, to_gamma;
     std::function<void(Shot&, FrameRenderer&)> begin = [](Shot&, FrameRenderer&) {};
 };
@@ -35,13 +35,15 @@ std::vector<Manoeuvre> manoeuvres(const Layout& layout)
     Layout edited = layout;
     std::get<Planar>(edited.outputs[0].viewports[0].projection).fov_y_deg *= 0.9;
     std::vector<Manoeuvre> all = {{"at rest", 3, 1, 1}, {"take-off", 6, 1, 4}};
-    all.push_back({"aberration off", 2, 4, 4, effects({.aberration = false})});
-    all.push_back({"Doppler off", 2, 4, 4, effects({.doppler = false})});
-    all.push_back({"headlight off", 2, 4, 4, effects({.headlight = false})});
-    all.push_back({"all off", 2, 4, 4, effects({false, false, false})});
+    for (const EffectEntry& one : all_effects)
+        if (one.usual)
+            all.push_back({std::string(one.name) + " off", 2, 4, 4, effects(Effects{}.without(one.which))});
+    all.push_back({"all off", 2, 4, 4, effects({.on = {}})});
     all.push_back({"Galilean", 2, 4, 4, effects({.comparison = Comparison::galilean})});
     all.push_back({"no light delay", 2, 4, 4, effects({.comparison = Comparison::no_light_delay})});
-    all.push_back({"false colours", 2, 4, 4, effects({.false_colours = true})});
+    for (const EffectEntry& one : all_effects)
+        if (!one.usual)
+            all.push_back({std::string(one.name), 2, 4, 4, effects(Effects{}.with(one.which))});
     all.push_back({"all on", 2, 4, 4, effects({})});
     for (Overlay which : {Overlay::aim, Overlay::grid, Overlay::ring, Overlay::distance, Overlay::emission})
         all.push_back({"overlay", 2, 4, 4, overlay(which)});
@@ -84,7 +86,7 @@ FlightTimes bench_flight()
     std::vector<double> ms;
     for (const Manoeuvre& one : all) {
         one.begin(shot, renderer.frame());
-        const bool cut = one.name == std::string("a tour's cut");
+        const bool cut = one.name == "a tour's cut";
         const std::size_t first = ms.size(), pipelines = context.pipelines.count();
         const double from = std::acosh(one.from_gamma), to = std::acosh(one.to_gamma);
         for (int i = 0; i < one.seconds * frames_per_s; ++i, flown += 1 / frames_per_s) {
@@ -101,7 +103,7 @@ FlightTimes bench_flight()
             if (shot.u == glm::dvec3(0) && at_rest.ready()) // as the exhibit at rest
                 ms.back() += milliseconds([&] { at_rest.step(&panel); });
         }
-        std::printf("  %-22s%8.1f%8zu\n", one.name, *std::max_element(ms.begin() + std::ptrdiff_t(first), ms.end()),
+        std::printf("  %-22s%8.1f%8zu\n", one.name.c_str(), *std::max_element(ms.begin() + std::ptrdiff_t(first), ms.end()),
             context.pipelines.count() - pipelines);
     }
     const FlightTimes times{percentile(ms, 1), percentile(ms, 0.5), percentile(ms, 0.99)};

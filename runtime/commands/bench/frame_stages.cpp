@@ -76,7 +76,7 @@ StageTimes time_stages(
     renderer.picture(shot, &panel); // warms every cache
     // Without Doppler and headlight effect a pixel's light needs geometry alone: colour and strength are those at rest.
     Shot grey = shot;
-    grey.effects.doppler = grey.effects.headlight = false;
+    grey.effects = grey.effects.without(Effect::doppler).without(Effect::headlight);
     OffscreenRenderer geometry_renderer = renderer_of(avenue.starless), colour_renderer = renderer_of(avenue.starless);
     geometry_renderer.picture(grey);
     colour_renderer.picture(shot);

@@ -70,12 +70,12 @@ void PartList::add_effects()
     const Effects& effects = made.shot.effects;
     const bool moves = made.shot.u != glm::dvec3(0);
     const std::string at_rest = moves ? "the shot's effects leave it out" : "the shot is at rest";
-    add("aberration", moves && effects.aberration, "the ship moves", at_rest,
-        [](Made& m) { m.shot.effects.aberration = !m.shot.effects.aberration; });
-    add("Doppler shift of spectra", moves && effects.doppler, "the ship moves", at_rest,
-        [](Made& m) { m.shot.effects.doppler = !m.shot.effects.doppler; });
-    add("headlight, D^3", moves && effects.headlight, "the ship moves", at_rest,
-        [](Made& m) { m.shot.effects.headlight = !m.shot.effects.headlight; });
+    add("aberration", moves && effects[Effect::aberration], "the ship moves", at_rest,
+        [](Made& m) { m.shot.effects.on.flip(Effect::aberration); });
+    add("Doppler shift of spectra", moves && effects[Effect::doppler], "the ship moves", at_rest,
+        [](Made& m) { m.shot.effects.on.flip(Effect::doppler); });
+    add("headlight, D^3", moves && effects[Effect::headlight], "the ship moves", at_rest,
+        [](Made& m) { m.shot.effects.on.flip(Effect::headlight); });
 }
 
 void PartList::add_light()

@@ -153,7 +153,7 @@ Shot flying(Shot shot, double gamma, double look_deg)
     const double E = physics::exp_rapidity(glm::length(shot.u)), s = std::pow(std::sin(0.5 * look_deg * degree), 2);
     const double D = 1 / ((1 - s) / E + s * E);
     shot.exposure_ev = std::clamp(-3 * std::log2(D), -30.0, 30.0);
-    shot.effects.doppler = false; // light that is shifted out of sight would be dark, and show nothing wrong
+    shot.effects.on.set(Effect::doppler, false); // light that is shifted out of sight would be dark, and show nothing wrong
     return shot;
 }
 
@@ -233,7 +233,7 @@ void see_small(Table& table, ExtremesBench& stage)
         Shot shot;
         shot.u = std::sqrt((gamma - 1) * (gamma + 1)) * way;
         shot.ship_from_cockpit = orientation(-way, {0, 1, 0});
-        shot.effects = {true, false, false};
+        shot.effects = {.on = {Effect::aberration}};
         stage.show(table,
             {text("picture: rings straight behind, oblique, gamma %g", gamma), SceneFile{},
                 rings(-far * way, way, 0.02 * far / (2 * gamma), 6), one_view(Planar{60}, {160, 120}), shot, 25});

@@ -7,13 +7,10 @@ namespace starbow {
 namespace {
 
 /// The switches that a visitor can press. Not among them: the end of the exhibit, the full screen, which a window of a test
-/// has no use for, and the keys that write into files.
-using Switch = bool Controls::*;
-constexpr Switch pressed[]{&Controls::stop, &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode,
-    &Controls::menu, &Controls::slow_motion, &Controls::information, &Controls::beside, &Controls::range, &Controls::freeze,
-    &Controls::look_ahead, &Controls::lock_exposure, &Controls::aberration, &Controls::doppler, &Controls::headlight,
-    &Controls::false_colours, &Controls::comparison, &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why,
-    &Controls::hud, &Controls::pattern};
+/// has no use for, and the key that writes into a file.
+constexpr Switches pressed = switches_where([](const SwitchEntry& one) {
+    return one.which != Switch::quit && one.which != Switch::full_screen && one.which != Switch::save;
+});
 
 /// On average. A switch costs a driver in software some tenths of a second for new pipelines, a world as much.
 constexpr double held_key_s = 0.5, switch_every_s = 1.5, direction_every_s = 1.5;
@@ -54,9 +51,9 @@ void SeededVisitor::act(Controls& controls, double dt_s)
 
 void SeededVisitor::press_keys(Controls& controls, double dt_s)
 {
-    for (const auto key : pressed)
-        if (chance(dt_s / switch_every_s / double(std::size(pressed))))
-            controls.*key = true;
+    for (const SwitchEntry& one : all_switches)
+        if (pressed[one.which] && chance(dt_s / switch_every_s / double(all_switches.size())))
+            controls.set(one.which);
     // Held keys: full rates, or none.
     const auto held = [&](double now) {
         return chance(dt_s / held_key_s) ? double(std::uniform_int_distribution<int>(-1, 1)(random_)) : now;
@@ -77,10 +74,10 @@ void SeededVisitor::move_stick(Controls& controls, double dt_s)
         turn_[axis] = std::clamp(turn_[axis] + uniform(-4, 4) * dt_s, -1.0, 1.0);
     lever_ = std::clamp(lever_ + uniform(-1.5, 1.5) * dt_s, 0.0, 1.0);
     controls.turn = turn_, controls.lever = lever_;
-    for (const auto button : std::initializer_list<Switch>{
-             &Controls::stop, &Controls::home, &Controls::next_mode, &Controls::overlay, &Controls::comparison})
+    for (const auto button :
+        std::initializer_list<Switch>{Switch::stop, Switch::home, Switch::next_mode, Switch::overlay, Switch::comparison})
         if (chance(dt_s / switch_every_s / 10))
-            controls.*button = true;
+            controls.set(button);
 }
 
 Command SeededVisitor::direction()
