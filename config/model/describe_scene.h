@@ -117,53 +117,84 @@ inline constexpr auto description<LightCone> = describe<LightCone>("cone", "The 
 static_assert(is_complete<LightCone>());
 void check(const Place& place, const LightCone& cone, const Folder&);
 
-struct BlackBodyForm {
+/// The form of each kind of spectrum in a light.
+template <class Kind> struct EmissionForm;
+template <> struct EmissionForm<BlackBody> {
+    static constexpr const char* says = "A black body's temperature, kelvins: 3000 is a lamp's filament.";
     Emission read(const Place& place, const Folder&) const { return BlackBody{number(place, {coldest_K, hottest_K})}; }
     Json schema(Json& definitions) const { return Number{{coldest_K, hottest_K}}.schema(definitions); }
 };
-struct SpectralLineForm {
+template <> struct EmissionForm<SpectralLine> {
+    static constexpr const char* says = "One wavelength alone, nm: 589.3 is a sodium lamp.";
     Emission read(const Place& place, const Folder&) const { return SpectralLine{number(place, {shortest_nm, longest_nm})}; }
     Json schema(Json& definitions) const { return Number{{shortest_nm, longest_nm}}.schema(definitions); }
 };
-struct SpectralTableForm {
+template <> struct EmissionForm<SpectralTable> {
+    static constexpr const char* says
+        = "A table: [[400, 0.1], [550, 1], [700, 0.4]], wavelengths in nm and relative radiance.";
     Emission read(const Place& place, const Folder&) const;
     Json schema(Json& definitions) const;
 };
-constexpr const char* kelvin_says = "A black body's temperature, kelvins: 3000 is a lamp's filament.";
-constexpr const char* line_says = "One wavelength alone, nm: 589.3 is a sodium lamp.";
-constexpr const char* table_says = "A table: [[400, 0.1], [550, 1], [700, 0.4]], wavelengths in nm and relative radiance.";
+/// The schema's rule that at most one of some members stands there, as JSON.
+template <std::size_t count> consteval auto at_most_one_of(const std::array<const char*, count>& names)
+{
+    std::array<char, 4096> rule{};
+    std::size_t at = 0;
+    const auto add = [&](const char* text) {
+        while (*text)
+            rule.at(at++) = *text++;
+    };
+    add("{\"not\":{\"anyOf\":[");
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = i + 1; j < count; ++j) {
+            add(i == 0 && j == 1 ? "{\"required\":[\"" : ",{\"required\":[\"");
+            add(names[i]), add("\",\""), add(names[j]), add("\"]}");
+        }
+    add("]}}");
+    return rule;
+}
+template <class... Kinds> consteval auto scene_members(const std::variant<Kinds...>*)
+{
+    return std::array{Kinds::scene_member...};
+}
+inline constexpr std::array emission_members = scene_members(static_cast<const Emission*>(nullptr));
+inline constexpr auto one_spectrum = at_most_one_of(emission_members);
+
+/// A light's description with a member for each kind of spectrum.
+template <class Owner, class... Fields> constexpr auto with_spectra(const Description<Owner, Fields...>& light)
+{
+    const auto all = [&]<class First, class... Others>(const std::variant<First, Others...>*) {
+        return std::tuple_cat(light.fields,
+            std::tuple{field(First::scene_member, EmissionForm<First>{}, EmissionForm<First>::says, &Owner::spectrum),
+                again(Others::scene_member, EmissionForm<Others>{}, EmissionForm<Others>::says, &Owner::spectrum)...});
+    }(static_cast<const Emission*>(nullptr));
+    return std::apply(
+        [&](const auto&... fields) {
+            return with_rules(describe<Owner>(light.name, light.says, fields...), one_spectrum.data());
+        },
+        all);
+}
 constexpr const char* radiance_says
     = "Its strength and its tint, linear Rec. 709: the colour of a white surface that faces it.";
-constexpr const char* one_spectrum = R"({ "not": { "anyOf": [{ "required": ["temperature_K", "line_nm"] },
-    { "required": ["temperature_K", "spectrum"] }, { "required": ["line_nm", "spectrum"] }] } })";
 
 template <>
-inline constexpr auto description<DirectionalLight> = with_rules(
+inline constexpr auto description<DirectionalLight> = with_spectra(
     describe<DirectionalLight>("directional", "A light that is the same everywhere.",
         needed("towards", UnitDirection{}, "The direction from the world to the light, [x, y, z] of any length.",
             &DirectionalLight::towards),
-        needed("radiance", Numbers<3>{any_radiance}, radiance_says, &DirectionalLight::radiance),
-        field("temperature_K", BlackBodyForm{}, kelvin_says, &DirectionalLight::spectrum),
-        again("line_nm", SpectralLineForm{}, line_says, &DirectionalLight::spectrum),
-        again("spectrum", SpectralTableForm{}, table_says, &DirectionalLight::spectrum)),
-    one_spectrum);
+        needed("radiance", Numbers<3>{any_radiance}, radiance_says, &DirectionalLight::radiance)));
 static_assert(is_complete<DirectionalLight>());
 void check_members(const Place& place, const DirectionalLight*);
 
 template <>
-inline constexpr auto description<PointLight> = with_rules(
-    describe<PointLight>("point", "A light that falls as 1 / r^2.",
-        needed("position", Numbers<3>{{-farthest, farthest}},
-            "Its place, [x, y, z] in scene units; in its body's own frame.", &PointLight::position),
-        needed("distance", Number{{0, farthest, true}}, "The distance at which its radiance holds, scene units.",
-            &PointLight::distance),
-        needed("radiance", Numbers<3>{any_radiance}, radiance_says, &PointLight::radiance),
-        field("temperature_K", BlackBodyForm{}, kelvin_says, &PointLight::spectrum),
-        again("line_nm", SpectralLineForm{}, line_says, &PointLight::spectrum),
-        again("spectrum", SpectralTableForm{}, table_says, &PointLight::spectrum),
-        field("body", Text{}, "The name of one of the scene's bodies, with which it moves.", &PointLight::body),
-        field("cone", Object<LightCone>{}, "", &PointLight::cone)),
-    one_spectrum);
+inline constexpr auto description<PointLight> = with_spectra(describe<PointLight>("point", "A light that falls as 1 / r^2.",
+    needed("position", Numbers<3>{{-farthest, farthest}}, "Its place, [x, y, z] in scene units; in its body's own frame.",
+        &PointLight::position),
+    needed("distance", Number{{0, farthest, true}}, "The distance at which its radiance holds, scene units.",
+        &PointLight::distance),
+    needed("radiance", Numbers<3>{any_radiance}, radiance_says, &PointLight::radiance),
+    field("body", Text{}, "The name of one of the scene's bodies, with which it moves.", &PointLight::body),
+    field("cone", Object<LightCone>{}, "", &PointLight::cone)));
 static_assert(is_complete<PointLight>());
 void check_members(const Place& place, const PointLight*);
 

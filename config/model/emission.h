@@ -6,17 +6,21 @@
 
 namespace starbow {
 
-/// A spectrum other than sunlight, without its strength.
+// The spectra other than sunlight, without their strength. Each says its member's name in a scene's light and in the extras
+// of a glTF material.
 struct BlackBody {
+    static constexpr const char *scene_member = "temperature_K", *gltf_member = "black_body_K";
     double kelvin;
     bool operator==(const BlackBody&) const = default;
 };
 struct SpectralLine {
+    static constexpr const char *scene_member = "line_nm", *gltf_member = "line_nm";
     double nm;
     bool operator==(const SpectralLine&) const = default;
 };
 /// Relative radiance per wavelength at wavelengths in nm, rising; linear between them, 0 beyond them.
 struct SpectralTable {
+    static constexpr const char *scene_member = "spectrum", *gltf_member = "table";
     std::vector<std::pair<double, double>> points;
     bool operator==(const SpectralTable&) const = default;
 };

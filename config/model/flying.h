@@ -12,9 +12,10 @@ namespace starbow {
 /// speed, and the nose turns by itself. newtonian: the throttle sets the thrust along the nose, and the ship is not
 /// slowed down otherwise.
 enum class FlightMode { guided, free, newtonian };
-inline const std::vector<std::pair<std::string_view, FlightMode>> flight_modes{
-    {"guided", FlightMode::guided}, {"free", FlightMode::free}, {"newtonian", FlightMode::newtonian}};
-inline std::string_view name_of(FlightMode mode) { return flight_modes[std::size_t(mode)].first; }
+constexpr std::array<std::string_view, 3> flight_mode_names{"guided", "free", "newtonian"};
+inline const std::vector<std::pair<std::string_view, FlightMode>> flight_modes{{flight_mode_names[0], FlightMode::guided},
+    {flight_mode_names[1], FlightMode::free}, {flight_mode_names[2], FlightMode::newtonian}};
+inline std::string_view name_of(FlightMode mode) { return flight_mode_names[std::size_t(mode)]; }
 
 /// The part of a world that visitors fly in: a ball. Scene units.
 struct Boundary {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -9,9 +10,10 @@ namespace starbow {
 /// sentence, without a formula. guide: the same with the numbers that a guide speaks of. laboratory: every figure and
 /// switch.
 enum class Information { visitor, guide, laboratory };
-inline const std::vector<std::pair<std::string_view, Information>> informations{
-    {"visitor", Information::visitor}, {"guide", Information::guide}, {"laboratory", Information::laboratory}};
-inline std::string_view name_of(Information information) { return informations[std::size_t(information)].first; }
+constexpr std::array<std::string_view, 3> information_names{"visitor", "guide", "laboratory"};
+inline const std::vector<std::pair<std::string_view, Information>> informations{{information_names[0], Information::visitor},
+    {information_names[1], Information::guide}, {information_names[2], Information::laboratory}};
+inline std::string_view name_of(Information information) { return information_names[std::size_t(information)]; }
 /// Throws InputError for a name that no display has.
 Information information_named(std::string_view name);
 inline Information after(Information information) { return Information((int(information) + 1) % 3); }

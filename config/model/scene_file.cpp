@@ -9,11 +9,13 @@ namespace {
 
 void check_spectra(const Place& light)
 {
-    if (find_member(light, "temperature_K").has_value() + find_member(light, "line_nm").has_value()
-            + find_member(light, "spectrum").has_value()
-        > 1)
-        complain(
-            light, "has more than one spectrum; at most one of \"temperature_K\", \"line_nm\" and \"spectrum\" is right");
+    const auto is_there = [&](const char* name) { return find_member(light, name).has_value(); };
+    if (std::ranges::count_if(emission_members, is_there) < 2)
+        return;
+    std::string names;
+    for (std::size_t i = 0; i < emission_members.size(); ++i)
+        names.append(i == 0 ? "\"" : i + 1 == emission_members.size() ? "\" and \"" : "\", \"").append(emission_members[i]);
+    complain(light, "has more than one spectrum; at most one of " + names + "\" is right");
 }
 
 } // namespace
@@ -77,7 +79,7 @@ void check(const Place& place, const LightCone& cone, const Folder&)
         complain(place, "ends inside \"inner_deg\"; a larger \"outer_deg\" is right");
 }
 
-Emission SpectralTableForm::read(const Place& place, const Folder&) const
+Emission EmissionForm<SpectralTable>::read(const Place& place, const Folder&) const
 {
     SpectralTable table;
     for (const Place& at : items(place, least_points, most_points, "pairs [wavelength in nm, value]")) {
@@ -93,7 +95,7 @@ Emission SpectralTableForm::read(const Place& place, const Folder&) const
     return table;
 }
 
-Json SpectralTableForm::schema(Json& definitions) const
+Json EmissionForm<SpectralTable>::schema(Json& definitions) const
 {
     return described::list_schema(least_points, most_points,
         described::list_schema(

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -8,13 +10,58 @@
 
 namespace starbow {
 
+/// A text of the program, with the names in { } that it needs, parted by spaces.
+struct KnownText {
+    std::string_view key, placeholders;
+    constexpr auto operator<=>(const KnownText&) const = default;
+};
+/// Every text of the program but tours' and goals': those of config/words/en.json, in the order of their keys.
+inline constexpr KnownText known_texts[] = {
+#include <known_texts.inc>
+};
+static_assert(std::ranges::is_sorted(known_texts));
+
+/// The key of a text that exists: another one does not compile.
+class Key {
+public:
+    constexpr Key() = default; ///< of no text
+    consteval Key(const char* name)
+        : Key("", name)
+    {
+    }
+    /// Of the text whose name has two parts.
+    consteval Key(std::string_view prefix, std::string_view name)
+    {
+        for (const KnownText& one : known_texts)
+            if (one.key.size() == prefix.size() + name.size() && one.key.starts_with(prefix) && one.key.ends_with(name))
+                text_ = &one;
+        if (!text_)
+            throw "config/words/en.json has no text with this key";
+    }
+    constexpr std::string_view name() const { return text_ ? text_->key : std::string_view(); }
+    constexpr explicit operator bool() const { return text_; }
+    constexpr bool operator==(const Key&) const = default;
+
+private:
+    const KnownText* text_ = nullptr;
+};
+/// The same where the compiler does not expect one, as on one side of a condition.
+consteval Key operator""_key(const char* name, std::size_t) { return Key(name); }
+/// The texts of several names, such as those of an enum's values: keys_of("beside.", beside_names).
+template <class Name, std::size_t count>
+consteval std::array<Key, count> keys_of(std::string_view prefix, const std::array<Name, count>& names)
+{
+    std::array<Key, count> keys;
+    for (std::size_t i = 0; i < count; ++i)
+        keys[i] = Key(prefix, names[i]);
+    return keys;
+}
+
 /// All visitors' texts in one language, by key. Log lines, errors and --help are English.
 class Words {
 public:
-    /// The text of a known key with its placeholders filled: words("hud.ev", {{"ev", "+1.0"}}) is "+1.0 EV". An unknown
-    /// key is a programming error and ends the program.
-    std::string operator()(
-        std::string_view key, const std::vector<std::pair<std::string_view, std::string>>& with = {}) const;
+    /// A text with its placeholders filled: words("hud.ev", {{"ev", "+1.0"}}) is "+1.0 EV". Empty without a key.
+    std::string operator()(Key key, const std::vector<std::pair<std::string_view, std::string>>& with = {}) const;
 
     /// A tour's text; nullopt where there is none.
     const std::string* tour(const std::string& key) const;

@@ -10,7 +10,7 @@ constexpr Range any{-1e30, 1e30};
 
 } // namespace
 
-WarpMesh read_bourke(const WarpFile& file, std::optional<double> wanted)
+static WarpMesh read_bourke(const WarpFile& file, std::optional<double> wanted)
 {
     Lines lines(file);
     WarpMesh mesh;
@@ -64,5 +64,13 @@ WarpMesh read_bourke(const WarpFile& file, std::optional<double> wanted)
     check_mesh(mesh, file);
     return mesh;
 }
+
+extern const WarpFormat bourke_format;
+const WarpFormat bourke_format{.name = "Bourke mesh",
+    .endings = {".data", ".map"},
+    .begins = nullptr,
+    .read = [](const WarpFile& file, const WarpReading& reading) { return read_bourke(file, reading.aspect); },
+    .seems = [](const WarpStart& start) { return start.line == "2"; },
+    .has_aspect = true};
 
 } // namespace starbow

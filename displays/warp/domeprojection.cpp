@@ -5,7 +5,7 @@
 
 namespace starbow {
 
-WarpMesh read_domeprojection(const WarpFile& file)
+static WarpMesh read_domeprojection(const WarpFile& file)
 {
     Lines lines(file);
     WarpMesh mesh;
@@ -86,5 +86,11 @@ WarpFrustum read_frustum(const WarpFile& file)
         lines.refuse(in_quotes(lines.text()) + " comes after the frustum; one line of numbers is right");
     return frustum;
 }
+
+extern const WarpFormat domeprojection_format;
+const WarpFormat domeprojection_format{.name = "domeprojection",
+    .endings = {".csv"},
+    .begins = [](const WarpStart& start) { return start.line.starts_with("x;y;"); },
+    .read = [](const WarpFile& file, const WarpReading&) { return read_domeprojection(file); }};
 
 } // namespace starbow

@@ -1,31 +1,49 @@
 #pragma once
 #include "mesh.h"
+#include <array>
+#include <span>
 #include <string_view>
 
 namespace starbow {
 
-/// A file's bytes and its name in messages. Each reader below is a pure function of these; it throws InputError "NAME:
-/// PLACE: ..." and allocates no more than the bytes warrant. README.md describes how each format is read.
+/// A file's bytes and its name in messages.
 struct WarpFile {
     std::string name;
     std::string_view content;
 };
 
-/// aspect: the x of the viewport's right edge; without it the file's own.
-WarpMesh read_bourke(const WarpFile& file, std::optional<double> aspect = {});
-WarpMesh read_domeprojection(const WarpFile& file);
-WarpMesh read_simcad(const WarpFile& file);
-WarpMesh read_sciss(const WarpFile& file);
-WarpMesh read_scalable(const WarpFile& file);
-WarpMesh read_skyskan(const WarpFile& file);
-WarpMesh read_obj(const WarpFile& file);
-WarpMesh read_pfm(const WarpFile& file, const FloatMapForm& form);
-WarpMesh read_mpcdi(const WarpFile& file, const std::string& region, const FloatMapForm& form);
-WarpMesh read_headset(const WarpFile& file);
+/// What a layout says about a file's content.
+struct WarpReading {
+    std::string region{}; ///< of MPCDI; empty: the only one
+    FloatMapForm form{};
+    std::optional<double> aspect{}; ///< the x of a Bourke mesh's right edge; none: the file's own
+};
 
-/// Reads any of the formats, recognised by its first bytes, then by its name. aspect: as Warp's.
-WarpMesh read_warp(
-    const WarpFile& file, const std::string& region, const FloatMapForm& form, std::optional<double> aspect = {});
+/// The beginning of a file, by which a format is recognised.
+struct WarpStart {
+    std::string_view bytes;
+    std::string_view text; ///< from the first character on
+    std::string_view line; ///< the first one of the text
+};
+
+/// A calibration format. Its reader is a pure function of a file's bytes; it throws InputError "NAME: PLACE: ..." and
+/// allocates no more than the bytes warrant. README.md describes how each format is read.
+struct WarpFormat {
+    const char* name; ///< the beginning of WarpMesh::format
+    std::array<std::string_view, 2> endings; ///< of files' names; empty: fewer
+    bool (*begins)(const WarpStart&); ///< true if the first bytes say that it is this format; null: they never do
+    WarpMesh (*read)(const WarpFile&, const WarpReading&);
+    bool (*seems)(const WarpStart&) = nullptr; ///< the same, less surely, where neither bytes nor a name say a format
+    bool has_regions = false, has_form = false, has_aspect = false; ///< what a layout may say about it
+};
+/// All of them, in the order of messages.
+std::span<const WarpFormat* const> warp_formats();
+
+/// A float map as a format's own file, or as a part of another's.
+WarpMesh read_pfm(const WarpFile& file, const FloatMapForm& form);
+
+/// Reads any of the formats, recognised by its first bytes, then by its name.
+WarpMesh read_warp(const WarpFile& file, const WarpReading& reading);
 
 /// domeprojection's second file.
 struct WarpFrustum {

@@ -2,7 +2,7 @@
 
 namespace starbow {
 
-WarpMesh read_headset(const WarpFile& file)
+static WarpMesh read_headset(const WarpFile& file)
 {
     Lines lines(file);
     WarpMesh mesh;
@@ -39,5 +39,11 @@ WarpMesh read_headset(const WarpFile& file)
     check_mesh(mesh, file);
     return mesh;
 }
+
+extern const WarpFormat headset_format;
+const WarpFormat headset_format{.name = "headset mesh",
+    .endings = {},
+    .begins = [](const WarpStart& start) { return start.line.starts_with("starbow headset"); },
+    .read = [](const WarpFile& file, const WarpReading&) { return read_headset(file); }};
 
 } // namespace starbow

@@ -167,100 +167,6 @@ std::string read_warp_bytes(const std::filesystem::path& file)
     return read_whole(file, std::size_t(512) << 20, "a warp file");
 }
 
-namespace {
-
-enum class Format { none, bourke, domeprojection, simcad, sciss, scalable, skyskan, obj, pfm, mpcdi, headset };
-
-Format format_of(const WarpFile& file)
-{
-    std::string_view text = file.content;
-    if (text.starts_with("PK\x03\x04"))
-        return Format::mpcdi;
-    if (text.starts_with("SGC"))
-        return Format::sciss;
-    if (text.starts_with("PF\n") || text.starts_with("PF ") || text.starts_with("PF\r") || text.starts_with("Pf\n"))
-        return Format::pfm;
-    if (text.starts_with("\xef\xbb\xbf"))
-        text.remove_prefix(3);
-    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
-    const std::string_view line = text.substr(0, std::min(text.find_first_of("\r\n"), text.size()));
-    if (line.starts_with("OPENMESH"))
-        return Format::scalable;
-    if (line.starts_with("starbow headset"))
-        return Format::headset;
-    if (line.starts_with("x;y;"))
-        return Format::domeprojection;
-    if (line.starts_with("Dome ") || line.starts_with("Horizontal FOV="))
-        return Format::skyskan;
-    if (line.starts_with("<") && text.substr(0, 4096).find("<GeometryFile") != text.npos)
-        return Format::simcad;
-    std::string extension = std::filesystem::path(file.name).extension();
-    std::transform(
-        extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    const std::pair<std::string_view, Format> names[] = {{".data", Format::bourke}, {".map", Format::bourke},
-        {".csv", Format::domeprojection}, {".simcad", Format::simcad}, {".sgc", Format::sciss}, {".ol", Format::scalable},
-        {".txt", Format::skyskan}, {".obj", Format::obj}, {".pfm", Format::pfm}, {".mpcdi", Format::mpcdi}};
-    for (const auto& [name, format] : names)
-        if (extension == name)
-            return format;
-    if (line == "2")
-        return Format::bourke;
-    if (line.starts_with("v ") || line.starts_with("#"))
-        return Format::obj;
-    return Format::none;
-}
-
-} // namespace
-
-WarpMesh read_warp(const WarpFile& file, const std::string& region, const FloatMapForm& form, std::optional<double> aspect)
-{
-    if (file.content.empty())
-        refuse(file, "", "is empty; a warp file is right");
-    const Format format = format_of(file);
-    if (!region.empty() && format != Format::mpcdi)
-        refuse(file, "", "has no regions, and " + in_quotes(region) + " is wanted; an MPCDI file, or no region, is right");
-    if (form != FloatMapForm() && format != Format::mpcdi && format != Format::pfm)
-        refuse(file, "",
-            std::string(form.first_row_on_top ? "has no first row to choose"
-                    : form.offsets            ? "holds no offsets"
-                    : form.v_up               ? "says itself whether v counts up or down"
-                                              : "says itself where its samples lie")
-                + "; an MPCDI or PFM file, or leaving that out, is right");
-    if (aspect && format != Format::bourke)
-        refuse(file, "",
-            "counts in fractions of the viewport, whose aspect it does not need; a Bourke mesh, or no aspect, is right");
-    if (form.offsets && (form.v_up || form.edge_to_edge))
-        refuse(file, "",
-            "holds offsets, which are upwards and from edge to edge; places, or no word of v and samples, is right");
-    switch (format) {
-    case Format::bourke:
-        return read_bourke(file, aspect);
-    case Format::domeprojection:
-        return read_domeprojection(file);
-    case Format::simcad:
-        return read_simcad(file);
-    case Format::sciss:
-        return read_sciss(file);
-    case Format::scalable:
-        return read_scalable(file);
-    case Format::skyskan:
-        return read_skyskan(file);
-    case Format::obj:
-        return read_obj(file);
-    case Format::pfm:
-        return read_pfm(file, form);
-    case Format::mpcdi:
-        return read_mpcdi(file, region, form);
-    case Format::headset:
-        return read_headset(file);
-    case Format::none:
-        break;
-    }
-    refuse(file, "",
-        "is not a warp file that is known; a Bourke mesh (.data), MPCDI (.mpcdi), PFM (.pfm), domeprojection (.csv), "
-        "SimCAD (.simcad), SCISS (.sgc), Scalable (.ol), SkySkan (.txt), OBJ (.obj) or headset mesh is right");
-}
-
 std::filesystem::path frustum_beside(const std::filesystem::path& mesh)
 {
     std::string name = mesh.stem().string();
@@ -273,7 +179,7 @@ WarpMesh load_warp(const Warp& warp)
 {
     const std::string bytes = read_warp_bytes(warp.file);
     const WarpFile file{one_line(warp.file.string()), bytes};
-    WarpMesh mesh = read_warp(file, warp.region, warp.map, warp.aspect);
+    WarpMesh mesh = read_warp(file, {warp.region, warp.map, warp.aspect});
     std::filesystem::path frustum = warp.frustum;
     if (frustum.empty() && mesh.format == "domeprojection mesh") {
         std::error_code ignored;

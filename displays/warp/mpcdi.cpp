@@ -313,7 +313,7 @@ WarpMesh mesh_of_mpcdi(const WarpFile& file, const std::string& xml_name, const 
     return mesh;
 }
 
-WarpMesh read_mpcdi(const WarpFile& file, const std::string& region, const FloatMapForm& form)
+static WarpMesh read_mpcdi(const WarpFile& file, const std::string& region, const FloatMapForm& form)
 {
     const Archive archive(file);
     std::vector<std::string> candidates;
@@ -334,5 +334,13 @@ WarpMesh read_mpcdi(const WarpFile& file, const std::string& region, const Float
     const std::string xml = archive.contents(candidates[0], std::size_t(1) << 20);
     return mesh_of_mpcdi(file, one_line(candidates[0], 100), xml, contents, region, form);
 }
+
+extern const WarpFormat mpcdi_format;
+const WarpFormat mpcdi_format{.name = "MPCDI",
+    .endings = {".mpcdi"},
+    .begins = [](const WarpStart& start) { return start.bytes.starts_with("PK\x03\x04"); },
+    .read = [](const WarpFile& file, const WarpReading& reading) { return read_mpcdi(file, reading.region, reading.form); },
+    .has_regions = true,
+    .has_form = true};
 
 } // namespace starbow

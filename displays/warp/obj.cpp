@@ -40,7 +40,7 @@ void place_on_screen(WarpMesh& mesh, const std::vector<glm::dvec3>& positions, c
 
 } // namespace
 
-WarpMesh read_obj(const WarpFile& file)
+static WarpMesh read_obj(const WarpFile& file)
 {
     Lines lines(file);
     WarpMesh mesh;
@@ -100,5 +100,12 @@ WarpMesh read_obj(const WarpFile& file)
     check_mesh(mesh, file);
     return mesh;
 }
+
+extern const WarpFormat obj_format;
+const WarpFormat obj_format{.name = "OBJ",
+    .endings = {".obj"},
+    .begins = nullptr,
+    .read = [](const WarpFile& file, const WarpReading&) { return read_obj(file); },
+    .seems = [](const WarpStart& start) { return start.line.starts_with("v ") || start.line.starts_with("#"); }};
 
 } // namespace starbow

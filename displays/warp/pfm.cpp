@@ -220,4 +220,15 @@ WarpMesh read_pfm(const WarpFile& file, const FloatMapForm& form)
     return mesh;
 }
 
+extern const WarpFormat pfm_format;
+const WarpFormat pfm_format{.name = "PFM",
+    .endings = {".pfm"},
+    .begins =
+        [](const WarpStart& start) {
+            return start.bytes.starts_with("PF\n") || start.bytes.starts_with("PF ") || start.bytes.starts_with("PF\r")
+                || start.bytes.starts_with("Pf\n");
+        },
+    .read = [](const WarpFile& file, const WarpReading& reading) { return read_pfm(file, reading.form); },
+    .has_form = true};
+
 } // namespace starbow

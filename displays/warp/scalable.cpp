@@ -178,7 +178,7 @@ void read_perspective(const WarpFile& file, const Keys& keys, WarpMesh& mesh)
 
 } // namespace
 
-WarpMesh read_scalable(const WarpFile& file)
+static WarpMesh read_scalable(const WarpFile& file)
 {
     Content content = read_content(file);
     check_counts(file, content);
@@ -190,5 +190,11 @@ WarpMesh read_scalable(const WarpFile& file)
     check_mesh(mesh, file);
     return mesh;
 }
+
+extern const WarpFormat scalable_format;
+const WarpFormat scalable_format{.name = "Scalable",
+    .endings = {".ol"},
+    .begins = [](const WarpStart& start) { return start.line.starts_with("OPENMESH"); },
+    .read = [](const WarpFile& file, const WarpReading&) { return read_scalable(file); }};
 
 } // namespace starbow

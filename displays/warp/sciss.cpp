@@ -193,7 +193,7 @@ void make_grid(WarpMesh& mesh, std::size_t columns)
 
 } // namespace
 
-WarpMesh read_sciss(const WarpFile& file)
+static WarpMesh read_sciss(const WarpFile& file)
 {
     Reader in{file};
     const Head head = read_head(in);
@@ -214,5 +214,11 @@ WarpMesh read_sciss(const WarpFile& file)
     check_mesh(mesh, file);
     return mesh;
 }
+
+extern const WarpFormat sciss_format;
+const WarpFormat sciss_format{.name = "SCISS",
+    .endings = {".sgc"},
+    .begins = [](const WarpStart& start) { return start.bytes.starts_with("SGC"); },
+    .read = [](const WarpFile& file, const WarpReading&) { return read_sciss(file); }};
 
 } // namespace starbow

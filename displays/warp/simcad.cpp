@@ -34,7 +34,7 @@ std::vector<double> offsets(const WarpFile& file, const pugi::xml_node& definiti
 
 } // namespace
 
-WarpMesh read_simcad(const WarpFile& file)
+static WarpMesh read_simcad(const WarpFile& file)
 {
     pugi::xml_document document;
     const pugi::xml_parse_result result = document.load_buffer(file.content.data(), file.content.size());
@@ -68,5 +68,14 @@ WarpMesh read_simcad(const WarpFile& file)
     check_mesh(mesh, file);
     return mesh;
 }
+
+extern const WarpFormat simcad_format;
+const WarpFormat simcad_format{.name = "SimCAD",
+    .endings = {".simcad"},
+    .begins =
+        [](const WarpStart& start) {
+            return start.text.starts_with("<") && start.text.substr(0, 4096).find("<GeometryFile") != std::string_view::npos;
+        },
+    .read = [](const WarpFile& file, const WarpReading&) { return read_simcad(file); }};
 
 } // namespace starbow

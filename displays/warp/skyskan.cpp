@@ -4,7 +4,7 @@
 
 namespace starbow {
 
-WarpMesh read_skyskan(const WarpFile& file)
+static WarpMesh read_skyskan(const WarpFile& file)
 {
     Lines lines(file);
     WarpMesh mesh;
@@ -75,5 +75,12 @@ WarpMesh read_skyskan(const WarpFile& file)
     check_mesh(mesh, file);
     return mesh;
 }
+
+extern const WarpFormat skyskan_format;
+const WarpFormat skyskan_format{.name = "SkySkan",
+    .endings = {".txt"},
+    .begins
+    = [](const WarpStart& start) { return start.line.starts_with("Dome ") || start.line.starts_with("Horizontal FOV="); },
+    .read = [](const WarpFile& file, const WarpReading&) { return read_skyskan(file); }};
 
 } // namespace starbow

@@ -504,7 +504,7 @@ int calibrate(const CalibrateOptions& options)
 
 } // namespace
 
-void add_calibrate(Subcommand& app, std::function<int()>& chosen)
+static void add_calibrate(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<CalibrateOptions>();
     Subcommand* command = app.add_subcommand(
@@ -519,5 +519,7 @@ void add_calibrate(Subcommand& app, std::function<int()>& chosen)
                     "  starbow calibrate --device 2 --out my/profiles/left-stick.json");
     command->callback([options, &chosen] { chosen = [options] { return calibrate(*options); }; });
 }
+
+static const Registered calibrate_command{7, add_calibrate};
 
 } // namespace starbow

@@ -73,15 +73,15 @@ int show(const ChallengeOptions& options)
 
 } // namespace
 
-void add_challenges(Subcommand& app, std::function<int()>& chosen)
+static void add_challenges(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<ChallengeOptions>();
     Subcommand* command = app.add_subcommand("challenges",
         "The laboratory's open questions: list them, show one with as many hints as you like, or check a log for answers.");
     Option* name = command->add_option("name", options->name, "One question, by its name in the list [all]");
     Option* hints = command->add_option("--hints", options->hints, "Show this many of its hints, from 0 to 3")
-                             ->check(whole_number(0, 3))
-                             ->needs(name);
+                        ->check(whole_number(0, 3))
+                        ->needs(name);
     Option* check
         = command->add_option("--check", options->log, "Look for answers in this log, which starbow run --log has written")
               ->excludes(hints);
@@ -94,5 +94,7 @@ void add_challenges(Subcommand& app, std::function<int()>& chosen)
         "GROUP1.csv\n  starbow challenges --sheet out/questions.html --language de");
     command->callback([options, &chosen] { chosen = [options] { return show(*options); }; });
 }
+
+static const Registered challenges_command{15, add_challenges};
 
 } // namespace starbow

@@ -93,7 +93,7 @@ int gather(const ClassOptions& options)
 
 } // namespace
 
-void add_class(Subcommand& app, std::function<int()>& chosen)
+static void add_class(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<ClassOptions>();
     Subcommand* command = app.add_subcommand("class",
@@ -111,5 +111,7 @@ void add_class(Subcommand& app, std::function<int()>& chosen)
         "--language de --out out/class.html");
     command->callback([options, &chosen] { chosen = [options] { return gather(*options); }; });
 }
+
+static const Registered class_command{16, add_class};
 
 } // namespace starbow

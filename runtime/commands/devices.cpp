@@ -155,7 +155,7 @@ int devices(const DevicesOptions& options)
 
 } // namespace
 
-void add_devices(Subcommand& app, std::function<int()>& chosen)
+static void add_devices(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<DevicesOptions>();
     Subcommand* command
@@ -169,5 +169,7 @@ void add_devices(Subcommand& app, std::function<int()>& chosen)
                     "/sys/class/hidraw/hidraw0/device/report_descriptor");
     command->callback([options, &chosen] { chosen = [options] { return devices(*options); }; });
 }
+
+static const Registered devices_command{6, add_devices};
 
 } // namespace starbow

@@ -54,12 +54,14 @@ int displays()
 
 } // namespace
 
-void add_displays(Subcommand& app, std::function<int()>& chosen)
+static void add_displays(Subcommand& app, std::function<int()>& chosen)
 {
     Subcommand* command
         = app.add_subcommand("displays", "List the GPUs, and the monitors with the line that names each in a layout.");
     command->footer("Example:\n  starbow displays");
     command->callback([&chosen] { chosen = displays; });
 }
+
+static const Registered displays_command{5, add_displays};
 
 } // namespace starbow

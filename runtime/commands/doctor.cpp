@@ -482,7 +482,7 @@ int doctor(bool as_json)
 
 } // namespace
 
-void add_doctor(Subcommand& app, std::function<int()>& chosen)
+static void add_doctor(Subcommand& app, std::function<int()>& chosen)
 {
     auto as_json = std::make_shared<bool>(false);
     Subcommand* command = app.add_subcommand("doctor",
@@ -493,5 +493,7 @@ void add_doctor(Subcommand& app, std::function<int()>& chosen)
     command->footer("Examples:\n  starbow doctor\n  starbow doctor --json > out/doctor.json");
     command->callback([as_json, &chosen] { chosen = [as_json] { return doctor(*as_json); }; });
 }
+
+static const Registered doctor_command{4, add_doctor};
 
 } // namespace starbow

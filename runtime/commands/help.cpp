@@ -6,7 +6,7 @@
 
 namespace starbow {
 
-void add_help(Subcommand& app, std::function<int()>& chosen)
+static void add_help(Subcommand& app, std::function<int()>& chosen)
 {
     Subcommand* command
         = app.add_subcommand("help", "Print every member of a kind of file, with its meaning and its limits.");
@@ -23,5 +23,7 @@ void add_help(Subcommand& app, std::function<int()>& chosen)
         };
     });
 }
+
+static const Registered help_command{17, add_help};
 
 } // namespace starbow

@@ -99,7 +99,7 @@ int import(const ImportOptions& options)
 
 } // namespace
 
-void add_import(Subcommand& app, std::function<int()>& chosen)
+static void add_import(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<ImportOptions>();
     Subcommand* command = app.add_subcommand("import", "Make a layout from another program's configuration.");
@@ -116,5 +116,7 @@ void add_import(Subcommand& app, std::function<int()>& chosen)
     command->footer("Example:\n  starbow import sgct single_fisheye.json --out my/dome.json");
     sgct->callback([options, &chosen] { chosen = [options] { return import(*options); }; });
 }
+
+static const Registered import_command{9, add_import};
 
 } // namespace starbow

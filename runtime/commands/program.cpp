@@ -6,6 +6,7 @@
 #include "runtime/operation/messages.h"
 #include "runtime/operation/state_folder.h"
 #include "version.h"
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -54,15 +55,21 @@ int guarded(const std::function<int()>& run)
     }
 }
 
-int run(int count, char** arguments, const std::vector<AddCommand>& commands)
+std::vector<Registered>& commands()
+{
+    static std::vector<Registered> all; // in the order of their places
+    return all;
+}
+
+int run(int count, char** arguments)
 {
     guard_streams();
     if (const std::filesystem::path folder = state_folder(); !folder.empty())
         keep_crash_traces(folder / "crash", program_version);
     std::function<int()> chosen;
     const auto add = [&](Subcommand& program) {
-        for (const AddCommand add_command : commands)
-            add_command(program, chosen);
+        for (const Registered& command : commands())
+            command.add(program, chosen);
     };
     const bool given = parse_command_line(count, arguments, std::string("starbow ") + program_version, add);
     return given ? chosen() : 0;
@@ -115,9 +122,17 @@ void end_at_once()
 
 } // namespace
 
-int run_program(int count, char** arguments, const std::vector<AddCommand>& commands)
+Registered::Registered(int its_place, AddCommand its_add)
+    : place(its_place)
+    , add(its_add)
 {
-    return guarded([&] { return run(count, arguments, commands); });
+    std::vector<Registered>& all = commands();
+    all.insert(std::ranges::upper_bound(all, place, {}, &Registered::place), *this);
+}
+
+int run_program(int count, char** arguments)
+{
+    return guarded([&] { return run(count, arguments); });
 }
 
 } // namespace starbow

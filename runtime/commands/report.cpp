@@ -139,7 +139,7 @@ int report(const ReportOptions& options)
 
 } // namespace
 
-void add_report(Subcommand& app, std::function<int()>& chosen)
+static void add_report(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<ReportOptions>();
     Subcommand* command = app.add_subcommand("report",
@@ -150,5 +150,7 @@ void add_report(Subcommand& app, std::function<int()>& chosen)
     command->footer("Examples:\n  starbow report\n  starbow report 2026-11-23 --state /var/lib/starbow --out day.html");
     command->callback([options, &chosen] { chosen = [options] { return report(*options); }; });
 }
+
+static const Registered report_command{12, add_report};
 
 } // namespace starbow

@@ -198,7 +198,7 @@ int run(const RunOptions& given)
 
 } // namespace
 
-void add_run(Subcommand& app, std::function<int()>& chosen)
+static void add_run(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<RunOptions>();
     Subcommand* command = app.add_subcommand(
@@ -270,5 +270,7 @@ void add_run(Subcommand& app, std::function<int()>& chosen)
         chosen = [options] { return run(*options); };
     });
 }
+
+static const Registered run_command{1, add_run};
 
 } // namespace starbow

@@ -1,9 +1,9 @@
+#include "runtime/remote/tell.h"
 #include "commands.h"
 #include "config/json/error.h"
 #include "config/model/shipped.h"
 #include "options/command_line.h"
 #include "runtime/remote/auth.h"
-#include "runtime/remote/tell.h"
 #include <cstdio>
 
 namespace starbow {
@@ -60,7 +60,7 @@ std::string command_list()
 
 } // namespace
 
-void add_tell(Subcommand& app, std::function<int()>& chosen)
+static void add_tell(Subcommand& app, std::function<int()>& chosen)
 {
     Subcommand* command = app.add_subcommand("tell", "Give a running exhibit a command, or print its state.");
     command->footer(command_list()
@@ -82,5 +82,7 @@ void add_tell(Subcommand& app, std::function<int()>& chosen)
         ->check(whole_number(1, 3600));
     command->callback([&chosen] { chosen = [] { return run_tell(given); }; });
 }
+
+static const Registered tell_command{14, add_tell};
 
 } // namespace starbow

@@ -1,4 +1,5 @@
 #include "tools.h"
+#include "commands.h"
 #include "config/json/error.h"
 #include "options/command_line.h"
 #include <filesystem>
@@ -34,5 +35,9 @@ void add_tool(Subcommand& app, std::function<int()>& chosen, const Tool& tool)
         chosen = [arguments]() -> int { become_tools(arguments); };
     });
 }
+
+template <const Tool& tool> static void add(Subcommand& app, std::function<int()>& chosen) { add_tool(app, chosen, tool); }
+static const Registered bench_forward{10, add<bench_tool>}, measure_forward{11, add<measure_tool>},
+    soak_forward{13, add<soak_tool>};
 
 } // namespace starbow

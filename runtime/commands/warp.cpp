@@ -221,7 +221,7 @@ void add_input(Subcommand& command, WarpOptions& options)
 
 } // namespace
 
-void add_warp(Subcommand& app, std::function<int()>& chosen)
+static void add_warp(Subcommand& app, std::function<int()>& chosen)
 {
     Subcommand* command = app.add_subcommand("warp", "Inspect calibrations, and convert them to another format.");
     command->require_subcommand();
@@ -256,5 +256,7 @@ void add_warp(Subcommand& app, std::function<int()>& chosen)
     command->footer("Example:\n  starbow warp inspect dome.data --out dome.png\n  starbow warp convert channel1.sgc "
                     "channel1.pfm --size 1920x1200");
 }
+
+static const Registered warp_command{8, add_warp};
 
 } // namespace starbow

@@ -40,7 +40,7 @@ static void add_visit(const Session& session, Readings& shown)
 {
     const Words& words = session.words;
     if (const auto left = seconds_left(session.visit, session.visiting)) {
-        const char* key = session.visit.phase == VisitPhase::asking ? "visit.asking" : "visit.ending";
+        const Key key = session.visit.phase == VisitPhase::asking ? "visit.asking"_key : "visit.ending"_key;
         shown.caption = Caption{.text = words(key, {{"left", std::to_string(int(std::ceil(*left)))}})};
     } else if (session.flight.homing && session.flight.homing->from_boundary) {
         say(words("visit.boundary"), true, shown);
@@ -52,7 +52,8 @@ static void add_visit(const Session& session, Readings& shown)
         else
             say(words("visit.held"), true, shown);
     } else if (session.options.visiting && !in_hand(session.visit)) {
-        const std::string& begin = words(session.hid.capabilities().stick ? "visit.begin_stick" : "visit.begin_keys");
+        const std::string& begin
+            = words(session.hid.capabilities().stick ? "visit.begin_stick"_key : "visit.begin_keys"_key);
         // Large for some seconds, and small beside the tour's caption, which passers-by read meanwhile.
         constexpr std::int64_t turn_ns = 12'000'000'000, large_ns = 4'000'000'000;
         shown.prompt.clear();
@@ -76,7 +77,7 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
         shown.prompt = session.guide->prompt(words);
         shown.caption = session.guide->caption(words, capabilities);
         if (shown.caption && by_one_button(session) && !visitor_flies(session))
-            shown.caption->aside = words(session.guide->asks() ? "scan.press_in_question" : "scan.press_on",
+            shown.caption->aside = words(session.guide->asks() ? "scan.press_in_question"_key : "scan.press_on"_key,
                 {{"left", std::to_string(int(std::ceil(session.guide->left_s())))}});
     } else if (session.options.tutorial)
         shown.prompt = prompt(session.tutorial, capabilities, words);

@@ -1,5 +1,6 @@
 #include "menu_pages.h"
 #include "config/json/error.h"
+#include "config/model/named_words.h"
 #include "config/model/shipped.h"
 #include <algorithm>
 #include <cmath>
@@ -28,14 +29,14 @@ MenuPage languages_of(const Session& session)
 }
 
 /// An item that switches something on or off.
-MenuItem switch_of(const Words& words, std::string_view key, Command command, bool is_on)
+MenuItem switch_of(const Words& words, Key key, Command command, bool is_on)
 {
     command.on = !is_on;
     return {(is_on ? "☑ " : "☐ ") + words(key), std::move(command)};
 }
 
 /// An item with its present value, which leads to the next one.
-MenuItem next_of(const Words& words, const char* key, const std::string& value, CommandKind kind, std::string_view next)
+MenuItem next_of(const Words& words, Key key, Key value, CommandKind kind, std::string_view next)
 {
     return {words(key) + ": " + words(value), Command{.kind = kind, .text = std::string(next)}};
 }
@@ -46,16 +47,17 @@ MenuPage switches_of(const Session& session)
     const Effects& on = session.flight.effects;
     MenuPage page{.title = words("menu.show"),
         .items = {switch_of(words, "menu.range", {.kind = CommandKind::range}, session.range),
-            next_of(words, "menu.beside", std::string("beside.") + name_of(session.beside), CommandKind::beside,
+            next_of(words, "menu.beside", beside_words[std::size_t(session.beside)], CommandKind::beside,
                 name_of(after(session.beside))),
-            next_of(words, "menu.information", "remote.display." + std::string(name_of(session.information)),
-                CommandKind::information, name_of(after(session.information)))},
+            next_of(words, "menu.information", display_words[std::size_t(session.information)], CommandKind::information,
+                name_of(after(session.information)))},
         .stays = true};
+    constexpr auto effect_keys = keys_of_usual_effects("menu.");
     std::vector<MenuItem> effects;
     for (const EffectEntry& one : all_effects)
         if (one.usual)
-            effects.push_back(switch_of(
-                words, "menu." + std::string(one.name), {.kind = CommandKind::effect, .effect = one.which}, on[one.which]));
+            effects.push_back(switch_of(words, effect_keys[std::size_t(one.which)],
+                {.kind = CommandKind::effect, .effect = one.which}, on[one.which]));
     page.items.insert(page.items.begin(), effects.begin(), effects.end());
     if (session.options.log.empty())
         page.items.push_back(
@@ -113,8 +115,10 @@ Caption caption_of(const MenuState& menu, std::span<const MenuPage> pages, const
 Caption caption_of(const Scan& scan, const OneButton& rules, const Words& words)
 {
     Caption caption{.chosen = int(scan.choice), .flying = true, .menu = true};
-    for (const char* key : {"scan.faster", "scan.slower", "scan.left", "scan.right", "scan.up", "scan.down", "scan.stop",
-             "scan.home", "scan.menu"}) // in the order of ScanChoice
+    constexpr Key choices[]{"scan.faster", "scan.slower", "scan.left", "scan.right", "scan.up", "scan.down", "scan.stop",
+        "scan.home", "scan.menu"}; // in the order of ScanChoice
+    static_assert(std::size(choices) == scan_choices);
+    for (const Key key : choices)
         caption.choices.push_back(words(key));
     std::string& chosen = caption.choices[scan.choice];
     if (scan.acts)
@@ -123,7 +127,7 @@ Caption caption_of(const Scan& scan, const OneButton& rules, const Words& words)
     const int passed = int(std::floor(dots * passed_part(scan, rules)));
     for (int i = 0; i < dots; ++i)
         caption.aside += i < dots - passed ? "●" : "○";
-    caption.aside += "   " + words(scan.acts ? "scan.acts" : "scan.press");
+    caption.aside += "   " + words(scan.acts ? "scan.acts"_key : "scan.press"_key);
     return caption;
 }
 

@@ -1,5 +1,6 @@
 #include "placards.h"
 #include "config/json/error.h"
+#include "config/model/named_words.h"
 #include "runtime/world/surroundings.h"
 #include <cstdio>
 
@@ -64,7 +65,7 @@ SmallPicture small_picture(Beside kind, const Shot& shot, double start_ev, doubl
         std::snprintf(angle, sizeof angle, "%g", telescope_deg);
         made.name = words("beside.telescope_angle", {{"angle", words.number(angle)}});
     } else {
-        made.name = words(std::string("beside.") + name_of(kind));
+        made.name = words(beside_words[std::size_t(kind)]);
     }
     return made;
 }

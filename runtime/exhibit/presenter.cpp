@@ -32,7 +32,7 @@ std::string visitors_of(const Session& session)
         return words("presenter.asking");
     if (session.options.visiting && !in_hand(session.visit))
         return words("presenter.watches");
-    return words(!knows_visitor(session) ? "presenter.nobody" : "presenter.somebody");
+    return words(!knows_visitor(session) ? "presenter.nobody"_key : "presenter.somebody"_key);
 }
 
 std::vector<std::pair<std::string, std::string>> titled(

@@ -122,7 +122,7 @@ StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& worl
     const Words english = words_in("en");
     if (shot.effects.comparison != Comparison::none)
         measurement.lines.push_back(
-            english(shot.effects.comparison == Comparison::galilean ? "light.galilean" : "light.no_light_delay"));
+            english(shot.effects.comparison == Comparison::galilean ? "light.galilean"_key : "light.no_light_delay"_key));
     for (std::size_t i = 0; i < probed.size(); ++i) {
         const Measured measured
             = measured_of(frame.head(i), ship, world.scene, world.world, shot.effects, spot_of(i), probed[i].light, marks);

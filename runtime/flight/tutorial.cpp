@@ -24,12 +24,12 @@ std::string prompt(const Tutorial& tutorial, const InputCapabilities& capabiliti
         if (capabilities.lever)
             return words("tutorial.go_throttle");
         if (capabilities.trigger)
-            return words(capabilities.left_handed ? "tutorial.go_left_trigger" : "tutorial.go_trigger");
-        return words(capabilities.left_handed ? "tutorial.go_left_key" : "tutorial.go_key");
+            return words(capabilities.left_handed ? "tutorial.go_left_trigger"_key : "tutorial.go_trigger"_key);
+        return words(capabilities.left_handed ? "tutorial.go_left_key"_key : "tutorial.go_key"_key);
     case 1:
-        return words(capabilities.stick    ? "tutorial.turn_stick"
-                : capabilities.left_handed ? "tutorial.turn_left_keys"
-                                           : "tutorial.turn_keys");
+        return words(capabilities.stick    ? "tutorial.turn_stick"_key
+                : capabilities.left_handed ? "tutorial.turn_left_keys"_key
+                                           : "tutorial.turn_keys"_key);
     case 2:
         return capabilities.stop_button > 0
             ? words("tutorial.stop_button", {{"button", std::to_string(capabilities.stop_button)}})

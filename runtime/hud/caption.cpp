@@ -39,7 +39,7 @@ Caption caption_of(const Touring& now, const Show& show, const Words& words, con
     if (caption.flying)
         caption.aside = words("touring.fly", {{"left", left}});
     if (step.question && now.measured_answer) {
-        caption.text = words(now.right ? *now.right ? "touring.right" : "touring.wrong" : "touring.answer") + " "
+        caption.text = words(now.right ? *now.right ? "touring.right"_key : "touring.wrong"_key : "touring.answer"_key) + " "
             + filled(step.question->explanation, {{"measured", figures(*now.measured_answer, words)}});
         if (const auto* choices = std::get_if<std::vector<Choice>>(&step.question->answer))
             for (const Choice& choice : *choices) {

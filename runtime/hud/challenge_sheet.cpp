@@ -37,7 +37,7 @@ std::string challenge_sheet(const Words& words)
         << "</p>\n";
     int number = 0;
     for (const Challenge& challenge : challenges()) {
-        const auto item = [&](const char* name, const std::string& text) {
+        const auto item = [&](Key name, const std::string& text) {
             out << "<dt>" << escaped_html(words(name)) << "</dt><dd>" << text << "</dd>\n";
         };
         out << "<section><h2>" << ++number << ". " << escaped_html(words(challenge.title)) << " <code>" << challenge.name

@@ -236,7 +236,7 @@ std::optional<Finding> behind_ahead(const Lines& lines)
 constexpr Challenge all_challenges[] = {
     {"slow-clock", "--shot clocks-rest", "challenge.slow_clock", "challenge.slow_clock_ask", "challenge.slow_clock_tools",
         "challenge.slow_clock_check",
-        {"challenge.slow_clock_hint_a", "challenge.slow_clock_hint_b", "challenge.slow_clock_hint_c"}, "", 4, slow_clock},
+        {"challenge.slow_clock_hint_a", "challenge.slow_clock_hint_b", "challenge.slow_clock_hint_c"}, {}, 4, slow_clock},
     {"own-colour", "--shot avenue-gamma4", "challenge.own_colour", "challenge.own_colour_ask", "challenge.own_colour_tools",
         "challenge.own_colour_check",
         {"challenge.own_colour_hint_a", "challenge.own_colour_hint_b", "challenge.own_colour_hint_c"}, "angle.degrees", 2,
@@ -251,20 +251,20 @@ constexpr Challenge all_challenges[] = {
         2, two_lengths},
     {"half-size", "--shot clocks-rest", "challenge.half_size", "challenge.half_size_ask", "challenge.half_size_tools",
         "challenge.half_size_check",
-        {"challenge.half_size_hint_a", "challenge.half_size_hint_b", "challenge.half_size_hint_c"}, "", 3, half_size},
+        {"challenge.half_size_hint_a", "challenge.half_size_hint_b", "challenge.half_size_hint_c"}, {}, 3, half_size},
     {"same-light", "--shot clocks-passing", "challenge.same_light", "challenge.same_light_ask", "challenge.same_light_tools",
         "challenge.same_light_check",
         {"challenge.same_light_hint_a", "challenge.same_light_hint_b", "challenge.same_light_hint_c"}, "time.s", 3,
         same_light},
     {"younger", "--shot start", "challenge.younger", "challenge.younger_ask", "challenge.younger_tools",
-        "challenge.younger_check", {"challenge.younger_hint_a", "challenge.younger_hint_b", "challenge.younger_hint_c"}, "",
+        "challenge.younger_check", {"challenge.younger_hint_a", "challenge.younger_hint_b", "challenge.younger_hint_c"}, {},
         3, younger},
     {"same-time", "--scene train", "challenge.same_time", "challenge.same_time_ask", "challenge.same_time_tools",
         "challenge.same_time_check",
         {"challenge.same_time_hint_a", "challenge.same_time_hint_b", "challenge.same_time_hint_c"}, "time.s", 2, same_time},
     {"half-rate", "--scene rainbow", "challenge.half_rate", "challenge.half_rate_ask", "challenge.half_rate_tools",
         "challenge.half_rate_check",
-        {"challenge.half_rate_hint_a", "challenge.half_rate_hint_b", "challenge.half_rate_hint_c"}, "", 3, half_rate},
+        {"challenge.half_rate_hint_a", "challenge.half_rate_hint_b", "challenge.half_rate_hint_c"}, {}, 3, half_rate},
     {"behind-ahead", "--shot start", "challenge.behind_ahead", "challenge.behind_ahead_ask", "challenge.behind_ahead_tools",
         "challenge.behind_ahead_check",
         {"challenge.behind_ahead_hint_a", "challenge.behind_ahead_hint_b", "challenge.behind_ahead_hint_c"}, "angle.degrees",
@@ -291,7 +291,7 @@ std::string said_of(const Challenge& challenge, const std::optional<Finding>& fi
         return words("challenge.no_line");
     const auto shown = [&](double value) {
         const std::string number = shown_number(value, challenge.decimals, words);
-        return *challenge.unit ? words(challenge.unit, {{"number", number}}) : number;
+        return challenge.unit ? words(challenge.unit, {{"number", number}}) : number;
     };
     const std::string right = finding->kind == Finding::Right::at_most
         ? words("challenge.at_most", {{"right", shown(finding->right)}})

@@ -19,9 +19,9 @@ struct Finding {
 struct Challenge {
     const char* name; ///< as the command line takes it
     const char* start; ///< options of starbow run that lead to a good place
-    const char *title, *ask, *tools, *check;
-    std::array<const char*, 3> hints; ///< in steps, each says more
-    const char* unit; ///< key of words with {number}; "" for a pure number
+    Key title, ask, tools, check;
+    std::array<Key, 3> hints; ///< in steps, each says more
+    Key unit; ///< with {number}; none for a pure number
     int decimals; ///< of the shown figures
     /// The line of a log that comes nearest to the answer; nullopt where no line says anything about it.
     std::optional<Finding> (*look)(const std::vector<LabLine>& lines);

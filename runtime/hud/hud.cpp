@@ -2,6 +2,7 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
+#include "config/model/named_words.h"
 #include "shaders/physics/physics.h"
 #include "visitor_panel.h"
 #include <algorithm>
@@ -59,7 +60,7 @@ std::string shown_number(double x, int decimals, const Words& words) { return fi
 std::string shown_duration(double s, const Words& words, int decimals)
 {
     double size = std::abs(s);
-    const auto phrase = [&](const char* key, const std::string& figures) { return words(key, {{"number", figures}}); };
+    const auto phrase = [&](Key key, const std::string& figures) { return words(key, {{"number", figures}}); };
     return size < 600              ? phrase("time.s", shown_number(s, decimals, words))
         : size < 36000             ? phrase("time.min", shown_number(s / 60, 1, words))
         : size < 10 * 86400.0      ? phrase("time.h", shown_number(s / 3600, 1, words))
@@ -69,7 +70,7 @@ std::string shown_duration(double s, const Words& words, int decimals)
 
 std::string shown_length(double m, double scene_light_speed_m_s, const Words& words)
 {
-    const auto phrase = [&](const char* key, const std::string& figures) { return words(key, {{"number", figures}}); };
+    const auto phrase = [&](Key key, const std::string& figures) { return words(key, {{"number", figures}}); };
     if (scene_light_speed_m_s == light_speed_m_s && m > 1e6) {
         double s = m / light_speed_m_s;
         return s < 600               ? phrase("length.light_s", shown_number(s, 2, words))
@@ -141,19 +142,19 @@ std::string range_sentence(const Readings::Range& range, const Words& words)
 std::string light_name(const Effects& on, const Words& words)
 {
     if (on.comparison != Comparison::none)
-        return words(on.comparison == Comparison::galilean ? "light.galilean" : "light.no_light_delay");
+        return words(on.comparison == Comparison::galilean ? "light.galilean"_key : "light.no_light_delay"_key);
     if (on[Effect::false_colours])
-        return words(on[Effect::doppler] ? "light.false_colours" : "light.false_colours_unshifted");
-    return words(on[Effect::doppler] ? on[Effect::headlight] ? "light.seen" : "light.without_headlight"
-            : on[Effect::headlight]  ? "light.without_doppler"
-                                     : "light.at_rest");
+        return words(on[Effect::doppler] ? "light.false_colours"_key : "light.false_colours_unshifted"_key);
+    return words(on[Effect::doppler] ? on[Effect::headlight] ? "light.seen"_key : "light.without_headlight"_key
+            : on[Effect::headlight]  ? "light.without_doppler"_key
+                                     : "light.at_rest"_key);
 }
 
 std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r, const Words& words)
 {
     bool close = r.beta_deficit < 1e-3;
     std::vector<std::pair<std::string, std::string>> fields = {
-        {words(close ? "hud.speed_deficit" : "hud.speed"),
+        {words(close ? "hud.speed_deficit"_key : "hud.speed"_key),
             close ? shown_number(r.beta_deficit, words) : shown_number(1 - r.beta_deficit, 4, words)},
         {words("hud.gamma"), shown_number(r.gamma, words)},
         {words("hud.doppler_ahead"), shown_number(r.doppler_ahead, words)},
@@ -161,14 +162,16 @@ std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r, c
         {words("hud.world"), shown_duration(r.world_s, words)},
         {words("hud.flown"), shown_length(r.distance_m, r.light_speed_m_s, words)},
     };
+    constexpr auto effect_keys = keys_of_usual_effects("hud.");
     for (const EffectEntry& one : all_effects)
         if (one.usual)
-            fields.emplace_back(words("hud." + std::string(one.name)), words(r.effects[one.which] ? "hud.on" : "hud.off"));
-    fields.push_back({words("hud.flight"), words("flight." + std::string(r.frozen ? "frozen" : name_of(r.mode)))});
+            fields.emplace_back(
+                words(effect_keys[std::size_t(one.which)]), words(r.effects[one.which] ? "hud.on"_key : "hud.off"_key));
+    fields.push_back({words("hud.flight"), words(r.frozen ? "flight.frozen"_key : mode_words[std::size_t(r.mode)])});
     const double ev = std::round(10 * r.exposure_ev) / 10;
     const std::string sign = ev < 0 ? "−" : ev > 0 ? "+" : "";
-    std::string exposure
-        = words(r.exposure_locked ? "hud.ev_locked" : "hud.ev", {{"ev", sign + shown_number(std::abs(ev), 1, words)}});
+    std::string exposure = words(
+        r.exposure_locked ? "hud.ev_locked"_key : "hud.ev"_key, {{"ev", sign + shown_number(std::abs(ev), 1, words)}});
     if (r.range)
         exposure = words("hud.ev_range",
             {{"stops", text("%.0f", r.range->stops)}, {"shown", text("%.0f", r.range->shown)}, {"ev", exposure}});

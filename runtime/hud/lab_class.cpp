@@ -127,7 +127,7 @@ std::string table(const LabClass& all, Plot plot, const Words& words)
             if (deviation.count == 0)
                 continue;
             out << "<tr><td>" << key_mark(i, by_eye) << ' ' << escaped_html(all.groups[i].name) << "</td><td>"
-                << words(by_eye ? "class.by_eye" : "class.read") << "</td><td>" << deviation.count << "</td><td>"
+                << words(by_eye ? "class.by_eye"_key : "class.read"_key) << "</td><td>" << deviation.count << "</td><td>"
                 << percent(deviation.mean, true, words) << "</td><td>"
                 << (deviation.count > 1 ? percent(deviation.spread, false, words) : "—") << "</td></tr>\n";
         }

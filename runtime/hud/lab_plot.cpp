@@ -348,7 +348,7 @@ Panel draw_lab_plot(const Typesetter& typesetter, const Words& words, Plot plot,
         within(words("plot.empty"), field.left + 0.03 * width, 0.5 * (field.top + field.bottom), int(0.04 * width),
             field.right - field.left - 0.06 * width, 0.9);
     std::vector<std::string> legend = {words(keys.read, {{"count", std::to_string(count[false])}})};
-    if (*keys.by_eye)
+    if (keys.by_eye)
         legend.push_back(words(keys.by_eye, {{"count", std::to_string(count[true])}}));
     legend.push_back(plot == Plot::doppler ? words("plot.theory_at", {{"beta", shown_number(beta_of(gamma_beta), 3, words)}})
                                            : words("plot.theory"));

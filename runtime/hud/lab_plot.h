@@ -65,15 +65,15 @@ struct Deviation {
 };
 Deviation deviation_of(const std::vector<PlotPoint>& points, bool by_eye);
 
-/// The keys of a plot's words. by_eye: "" where nothing is seen by eye.
+/// The texts of a plot. by_eye: none where nothing is seen by eye.
 struct PlotWords {
-    const char *title, *x, *y, *read, *by_eye;
+    Key title, x, y, read, by_eye;
 };
 constexpr std::array<PlotWords, plot_names.size()> plot_words = {{
     {},
     {"plot.doppler", "plot.doppler_x", "plot.doppler_y", "plot.doppler_read", "plot.doppler_by_eye"},
     {"plot.length", "plot.beta", "plot.length_y", "plot.length_read", "plot.length_by_eye"},
-    {"plot.clock", "plot.beta", "plot.clock_y", "plot.clock_read", ""},
+    {"plot.clock", "plot.beta", "plot.clock_y", "plot.clock_read", {}},
 }};
 
 /// Height of the plot's panel over its width.

@@ -1,4 +1,5 @@
 #include "presenter_sheet.h"
+#include "config/model/named_words.h"
 #include "hud.h"
 #include <algorithm>
 #include <cmath>
@@ -101,18 +102,18 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
 {
     using namespace keys;
     std::vector<PresenterKey>& keys = sheet.keys;
-    const auto deed = [&](int key, const char* name, const char* label, PresenterDeed deed) -> PresenterKey& {
+    const auto deed = [&](int key, const char* name, Key label, PresenterDeed deed) -> PresenterKey& {
         return keys.emplace_back(PresenterKey{.key = key, .name = name, .label = words(label), .deed = std::move(deed)});
     };
-    const auto toggle = [&](int key, const std::string& label, Command command, bool on) -> PresenterKey& {
+    const auto toggle = [&](int key, Key label, Command command, bool on) -> PresenterKey& {
         const char name[]{char(key), 0};
         command.on = !on;
-        PresenterKey& added = deed(key, name, label.c_str(), std::move(command));
+        PresenterKey& added = deed(key, name, label, std::move(command));
         added.on = on;
-        added.state = words(on ? "hud.on" : "hud.off");
+        added.state = words(on ? "hud.on"_key : "hud.off"_key);
         return added;
     };
-    const auto list = [&](int key, const char* label, PresenterList which) -> PresenterKey& {
+    const auto list = [&](int key, Key label, PresenterList which) -> PresenterKey& {
         const char name[]{char(key), 0};
         return deed(key, name, label, OpenList{which});
     };
@@ -121,7 +122,7 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
         return Command{
             .kind = Order::exposure, .number = std::clamp(steps * exposure_step_ev, -most_exposure_ev, most_exposure_ev)};
     };
-    const auto step = [&](int key, const char* label, Command command, std::string state_text, bool on) -> PresenterKey& {
+    const auto step = [&](int key, Key label, Command command, std::string state_text, bool on) -> PresenterKey& {
         const char name[]{char(key), 0};
         PresenterKey& added = deed(key, name, label, std::move(command));
         added.state = std::move(state_text), added.on = on;
@@ -132,7 +133,7 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
     back.also = page_up, back.usable = toured;
     PresenterKey& next = deed(right, "→", "remote.next", Command{.kind = Order::next});
     next.also = page_down, next.usable = toured;
-    toggle('P', toured ? "remote.pause" : "presenter.freeze", {.kind = Order::pause}, state.paused);
+    toggle('P', toured ? "remote.pause"_key : "presenter.freeze"_key, {.kind = Order::pause}, state.paused);
     toggle('H', "remote.hold", {.kind = Order::hold}, state.hold);
     toggle('B', "remote.fade", {.kind = Order::fade}, state.fade);
 
@@ -142,23 +143,24 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
     list('T', "presenter.tours", PresenterList::tours);
     list('V', "presenter.views", PresenterList::views);
 
+    constexpr auto effect_keys = keys_of_effects("remote.");
     for (const EffectEntry& one : all_effects)
-        toggle(one.letter, "remote." + std::string(one.name), {.kind = Order::effect, .effect = one.which},
+        toggle(one.letter, effect_keys[std::size_t(one.which)], {.kind = Order::effect, .effect = one.which},
             state.effects[one.which])
             .usable
             = state.own_effects;
     toggle('S', "remote.slow_motion", {.kind = Order::slow_motion}, state.slow_motion).usable = state.own_effects;
 
-    constexpr const char* comparisons[]{"remote.none", "remote.galilean", "remote.no_light_delay"};
+    constexpr Key comparisons[]{"remote.none", "remote.galilean", "remote.no_light_delay"};
     const Comparison compared = state.effects.comparison;
     step('C', "remote.comparison", {.kind = Order::comparison, .text = comparison_names[std::size_t(after(compared))]},
         words(comparisons[std::size_t(compared)]), compared != Comparison::none)
         .usable
         = state.own_effects;
     step('X', "presenter.beside", {.kind = Order::beside, .text = name_of(after(state.beside))},
-        words(std::string("beside.") + name_of(state.beside)), state.beside != Beside::none);
+        words(beside_words[std::size_t(state.beside)]), state.beside != Beside::none);
     step('I', "remote.information", {.kind = Order::information, .text = std::string(name_of(after(state.information)))},
-        words("remote.display." + std::string(name_of(state.information))), false);
+        words(display_words[std::size_t(state.information)]), false);
     deed(down, "↓", "presenter.darker", brighter(-exposure_step_ev)).state = exposure_text(state.exposure_ev, words);
     deed(up, "↑", "presenter.brighter", brighter(exposure_step_ev)).state = exposure_text(state.exposure_ev, words);
 
@@ -170,7 +172,7 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
             language.state = text;
     PresenterKey& caption = deed('K', "K", "remote.caption", TypeCaption{});
     caption.on = !state.caption.empty();
-    caption.state = words(caption.on ? "hud.on" : "hud.off");
+    caption.state = words(caption.on ? "hud.on"_key : "hud.off"_key);
     toggle('O', "remote.one_button", {.kind = Order::one_button}, state.one_button);
     toggle('N', "remote.left_handed", {.kind = Order::left_handed}, state.left_handed);
 }

@@ -1,4 +1,5 @@
 #include "visitor_panel.h"
+#include "config/model/named_words.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -118,9 +119,10 @@ std::string guides_numbers(const Typesetter& typesetter, const Readings& r, cons
 std::string switched_off(const Effects& on, const Words& words)
 {
     std::string list;
+    constexpr auto effect_keys = keys_of_usual_effects("hud.");
     for (const EffectEntry& one : all_effects)
         if (one.usual && !on[one.which])
-            list += (list.empty() ? "" : ", ") + words("hud." + std::string(one.name));
+            list += (list.empty() ? "" : ", ") + words(effect_keys[std::size_t(one.which)]);
     return list.empty() ? "" : words("hud.off") + ": " + list;
 }
 
@@ -144,7 +146,7 @@ std::string plain_sentence(const Readings& r, const Words& words)
     const double beta = 1 - r.beta_deficit;
     const Effects& on = r.effects;
     if (on.comparison != Comparison::none)
-        return words(on.comparison == Comparison::galilean ? "say.galilean" : "say.no_light_delay");
+        return words(on.comparison == Comparison::galilean ? "say.galilean"_key : "say.no_light_delay"_key);
     if (on[Effect::false_colours])
         return words("say.false_colours");
     if (r.frozen)
@@ -154,20 +156,20 @@ std::string plain_sentence(const Readings& r, const Words& words)
     if (beta < 0.25)
         return words("say.slow");
     if (!on[Effect::aberration])
-        return words(on[Effect::doppler] && on[Effect::headlight] ? "say.no_aberration"
-                : on[Effect::doppler]                             ? "say.colours_alone"
-                : on[Effect::headlight]                           ? "say.brightness_alone"
-                                                                  : "say.no_effects");
+        return words(on[Effect::doppler] && on[Effect::headlight] ? "say.no_aberration"_key
+                : on[Effect::doppler]                             ? "say.colours_alone"_key
+                : on[Effect::headlight]                           ? "say.brightness_alone"_key
+                                                                  : "say.no_effects"_key);
     const bool colours = on[Effect::doppler] && on[Effect::headlight]; // what is said of them names both
     if (r.looked_cosine < -ahead_cosine)
-        return words(colours ? "say.back_colours" : "say.back");
+        return words(colours ? "say.back_colours"_key : "say.back"_key);
     if (r.looked_cosine < ahead_cosine)
-        return words(colours ? "say.aside_colours" : "say.aside");
+        return words(colours ? "say.aside_colours"_key : "say.aside"_key);
     if (r.beta_deficit < 1e-4)
         return words("say.limit");
     if (beta > 0.94)
         return words("say.beam");
-    return words(beta > 0.7 && colours ? "say.colours" : "say.rain");
+    return words(beta > 0.7 && colours ? "say.colours"_key : "say.rain"_key);
 }
 
 std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings& readings, const Words& words)
@@ -181,7 +183,7 @@ std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings
     middle(words("say.of_light"), dial_middle.x, 0.94, 0.9, least_lettering);
 
     const double times_s[] = {readings.ship_s, readings.world_s};
-    const char* keys[] = {"say.clock_board", "say.clock_world"};
+    constexpr Key keys[] = {"say.clock_board", "say.clock_world"};
     for (int i = 0; i < 2; ++i) {
         const std::string text = words(keys[i], {{"time", shown_duration(times_s[i], words)}});
         const double room = (i == 0 ? clocks[1].x - clock_radius - 0.12 : right_edge) - clocks[i].text_x;

@@ -8,7 +8,7 @@ namespace starbow {
 namespace {
 
 /// The title, the two lines of the sentence, and the formula.
-constexpr std::array<std::array<const char*, 4>, why_names.size()> page_words = {{
+constexpr std::array<std::array<Key, 4>, why_names.size()> page_words = {{
     {},
     {"why.aberration", "why.aberration_rain", "why.aberration_abeam", "why.aberration_formula"},
     {"why.doppler", "why.doppler_waves", "why.doppler_abeam", "why.doppler_formula"},
@@ -39,7 +39,7 @@ struct Formatter {
     /// The name of a wavelength's colour or band.
     std::string wavelength(double nm) const
     {
-        const auto phrase = [&](const char* key, const std::string& number) { return words(key, {{"number", number}}); };
+        const auto phrase = [&](Key key, const std::string& number) { return words(key, {{"number", number}}); };
         return nm < 0.01 ? words("wave.gamma_rays")
             : nm < 10    ? words("wave.x_rays")
             : nm < 380   ? phrase("wave.ultraviolet", shown_number(nm, 0, words))
@@ -82,7 +82,7 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
                       D = shown_number(m.aim.ray.D, words);
     const auto& [title, first, second, formula] = page_words[std::size_t(why)];
     WhyPage page{words(title), {words(first), words(second)}, words(formula), {}};
-    const auto add = [&](const char* key, const std::vector<std::pair<std::string_view, std::string>>& with = {}) {
+    const auto add = [&](Key key, const std::vector<std::pair<std::string_view, std::string>>& with = {}) {
         page.numbers.push_back(words(key, with));
     };
     const SpotReading& aim = m.aim;
@@ -149,7 +149,7 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
             add("why.length_apparent", {{"apparent", format.length(m.pair->apparent_s)}});
         } else {
             const bool far = m.pair && m.marks[0]->distance_s && m.marks[1]->distance_s;
-            add(!m.pair ? "why.length_none" : far ? "why.aberration_off" : "why.length_sky");
+            add(!m.pair ? "why.length_none"_key : far ? "why.aberration_off"_key : "why.length_sky"_key);
         }
     }
     return page;
@@ -165,7 +165,8 @@ std::array<std::pair<std::string, std::string>, 9> reading_fields(const Measured
         {words("lab.wavelength"), format.wavelength(aim.seen_nm)},
         {words("lab.angle"), aim.from_motion_rad ? format.angle(aim.from_motion_rad) : words("lab.at_rest")},
         {words("lab.distance"), aim.distance_s ? format.length(aim.distance_s) : sky},
-        {aim.emitted_s ? words(m.effects.comparison == Comparison::no_light_delay ? "lab.shown_at" : "lab.emitted") : "",
+        {aim.emitted_s ? words(m.effects.comparison == Comparison::no_light_delay ? "lab.shown_at"_key : "lab.emitted"_key)
+                       : "",
             aim.emitted_s ? format.seconds(aim.emitted_s) : ""},
         {words("lab.light"), aim.light ? shown_number(*aim.light, words) : "—"},
         {"", ""},
@@ -175,7 +176,7 @@ std::array<std::pair<std::string, std::string>, 9> reading_fields(const Measured
     if (aim.clock_s)
         fields[5] = {words("lab.clock"), format.seconds(aim.clock_s)};
     if (!m.pair) {
-        fields[6] = {words(m.marks[0] ? "lab.mark_another" : "lab.mark_two"), ""};
+        fields[6] = {words(m.marks[0] ? "lab.mark_another"_key : "lab.mark_two"_key), ""};
         return fields;
     }
     fields[6] = {words("lab.marks_angle"), format.angle(m.pair->angle_rad)};

@@ -34,11 +34,10 @@ SpectralBasis spectral_basis(
 ColourTable response_table(const SpectralBasis& basis, const StandardObserver& observer, int rows)
 {
     double first = -6, last = 10;
-    for (const Emission& own : basis.own)
-        if (const auto* body = std::get_if<BlackBody>(&own)) {
-            const double octaves = std::log2(body->kelvin / sun_K);
-            first = std::min(first, -6 - octaves), last = std::max(last, 10 - octaves);
-        }
+    for (const Emission& own : basis.own) {
+        const double octaves = law_of(own).octaves;
+        first = std::min(first, -6 - octaves), last = std::max(last, 10 - octaves);
+    }
     first = std::floor(first);
     const int per_octave = int(std::floor((rows - 1) / (std::ceil(last) - first)));
     const ColourTable of_spectra = colour_table(basis.spectra, observer, first, per_octave, rows);

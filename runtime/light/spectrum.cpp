@@ -1,5 +1,6 @@
 #include "spectrum.h"
 #include "colour.h"
+#include "config/json/reader.h"
 #include "config/model/angles.h"
 #include "primaries.h"
 #include <algorithm>
@@ -55,6 +56,27 @@ double energy(const SpectralTable& table)
 constexpr double bands[3][2] = {{830, longest_nm}, {360, 830}, {shortest_nm, 360}};
 
 double logistic(double x) { return 1 / (1 + std::exp(-x)); }
+
+EmissionLaw law(const BlackBody& body)
+{
+    return {.name = "a lamp of " + shown(body.kelvin) + " K",
+        .spectrum = black_body(body.kelvin),
+        .sunlit_part = dilution * std::pow(sun_K / body.kelvin, 4),
+        .octaves = std::log2(body.kelvin / sun_K),
+        .smooth = true};
+}
+
+constexpr const char* other_lamp = "a lamp with a spectrum";
+
+EmissionLaw law(const SpectralLine& line) { return {.name = other_lamp, .line_nm = line.nm}; }
+
+EmissionLaw law(const SpectralTable& table)
+{
+    // The table is per wavelength, the result per frequency.
+    const double scale = dilution * energy(sun_K) / energy(table);
+    return {
+        .name = other_lamp, .spectrum = [table, scale](double nm) { return scale * straight(table.points, nm) * nm * nm; }};
+}
 
 } // namespace
 
@@ -150,26 +172,16 @@ glm::dvec3 seen(const StandardObserver& observer, const Spectrum& light, double 
 
 glm::dvec3 seen(const StandardObserver& observer, const Emission& emission, double D)
 {
+    const EmissionLaw law = law_of(emission);
     // A line's radiance per frequency is a narrow peak, which the shift broadens by D at the same height.
-    if (const auto* line = std::get_if<SpectralLine>(&emission))
-        return observer.response(line->nm / D) * (D * dilution * energy(sun_K));
-    return seen(observer, spectrum_of(emission), D);
+    if (law.is_line())
+        return observer.response(law.line_nm / D) * (D * dilution * energy(sun_K));
+    return seen(observer, law.spectrum, D);
 }
 
-double sunlit_part(const Emission& emission)
+EmissionLaw law_of(const Emission& emission)
 {
-    const auto* body = std::get_if<BlackBody>(&emission);
-    return body ? dilution * std::pow(sun_K / body->kelvin, 4) : 1;
-}
-
-Spectrum spectrum_of(const Emission& emission)
-{
-    if (const auto* body = std::get_if<BlackBody>(&emission))
-        return black_body(body->kelvin);
-    // The table is per wavelength, the result per frequency.
-    const SpectralTable& table = std::get<SpectralTable>(emission);
-    const double scale = dilution * energy(sun_K) / energy(table);
-    return [table, scale](double nm) { return scale * straight(table.points, nm) * nm * nm; };
+    return std::visit([](const auto& kind) { return law(kind); }, emission);
 }
 
 glm::dmat3 rec709_from_sunlit_xyz()

@@ -2,6 +2,7 @@
 #include "config/model/emission.h"
 #include <functional>
 #include <glm/glm.hpp>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -58,11 +59,17 @@ glm::dvec3 seen(const StandardObserver& observer, const Spectrum& light, double 
 /// The same for an emission: a black body itself, or a line or a table with the energy of sunlit_white.
 glm::dvec3 seen(const StandardObserver& observer, const Emission& emission, double D);
 
-/// The amount of an emission, in the unit of seen(), that has the energy of sunlit_white.
-double sunlit_part(const Emission& emission);
-
-/// The spectrum of a black body or a table, in the unit of seen(). A line has none.
-Spectrum spectrum_of(const Emission& emission);
+/// What depends on an emission's kind. A new kind does not compile until it has a law.
+struct EmissionLaw {
+    std::string name; ///< of a lamp with it, for people
+    Spectrum spectrum{}; ///< in the unit of seen(); none for a line
+    double line_nm = 0; ///< of a line
+    double sunlit_part = 1; ///< the amount, in the unit of seen(), that has the energy of sunlit_white
+    double octaves = 0; ///< its wavelengths' part of sunlight's: it is seen at D as sunlight at D times 2 to this power
+    bool smooth = false; ///< its colour changes slowly with D, so that it may be interpolated
+    bool is_line() const { return !spectrum; }
+};
+EmissionLaw law_of(const Emission& emission);
 
 /// The eye's XYZ of light that is shifted by D.
 inline glm::dvec3 seen_xyz(const Spectrum& light, double D) { return seen(eye(), light, D); }

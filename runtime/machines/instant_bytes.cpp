@@ -13,9 +13,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// Another order or kind of the fields below is another version.
-constexpr std::uint32_t version = 4;
-
 /// Counts and lengths above these belong to no instant.
 constexpr std::uint32_t most_letters = 3000, most_things = 256;
 
@@ -43,10 +40,25 @@ struct Reader {
     }
 };
 
+/// Reads a state in which every list and every optional has something, and notes the kinds of its numbers in order.
+struct Shape {
+    static constexpr bool reads = true;
+    std::uint64_t kinds = digest(std::string_view());
+
+    void note(bool is_float) { kinds = digest(is_float ? "f" : "i", kinds); }
+    void raw(void* to, std::size_t size)
+    {
+        std::memset(to, 1, size);
+        kinds = digest(std::to_string(size), kinds);
+    }
+};
+
 template <class Part> std::uint32_t length(Part& part, std::size_t of, std::uint32_t most)
 {
     auto count = std::uint32_t(of);
     part.raw(&count, sizeof count);
+    if (std::is_same_v<Part, Shape>)
+        return 1;
     if (Part::reads && count > most)
         throw InputError("a state of the exhibit's machines has a part of " + std::to_string(count) + "; at most "
             + std::to_string(most) + " is right");
@@ -63,6 +75,8 @@ void take(Part& part, Number& number)
         if constexpr (Part::reads)
             number = byte != 0;
     } else {
+        if constexpr (std::is_same_v<Part, Shape>)
+            part.note(std::is_floating_point_v<Number>);
         part.raw(&number, sizeof number);
         if constexpr (Part::reads && std::is_floating_point_v<Number>)
             if (!std::isfinite(number))
@@ -70,12 +84,22 @@ void take(Part& part, Number& number)
     }
 }
 
-/// A choice among `count`.
-template <class Part, class Choice> void take_choice(Part& part, Choice& choice, std::size_t count)
+/// The counts of the choices. Another enum does not compile.
+constexpr std::size_t count_of(Comparison) { return comparison_names.size(); }
+constexpr std::size_t count_of(FlightMode) { return flight_mode_names.size(); }
+constexpr std::size_t count_of(Information) { return information_names.size(); }
+constexpr std::size_t count_of(Beside) { return beside_names.size(); }
+constexpr std::size_t count_of(Overlay) { return overlay_names.size(); }
+constexpr std::size_t count_of(Pattern) { return pattern_names.size(); }
+
+template <class Part, class Choice>
+requires std::is_enum_v<Choice>
+void take(Part& part, Choice& choice)
 {
     auto number = std::uint8_t(choice);
     take(part, number);
     if constexpr (Part::reads) {
+        const std::size_t count = count_of(choice);
         if (number >= count)
             throw InputError(
                 "a state of the exhibit's machines has choice " + std::to_string(number) + " of " + std::to_string(count));
@@ -91,6 +115,19 @@ template <class Part> void take(Part& part, std::string& text)
     part.raw(text.data(), count);
 }
 
+template <class Part> void take(Part& part, EffectSet& on)
+{
+    for (const EffectEntry& one : all_effects) {
+        bool is = on[one.which];
+        take(part, is);
+        on.set(one.which, is);
+    }
+}
+
+template <class Part> void take(Part& part, glm::vec4& v)
+{
+    take(part, v.x), take(part, v.y), take(part, v.z), take(part, v.w);
+}
 template <class Part> void take(Part& part, glm::dvec3& v) { take(part, v.x), take(part, v.y), take(part, v.z); }
 template <class Part> void take(Part& part, glm::dquat& q)
 {
@@ -102,6 +139,12 @@ template <class Part, class Thing> void take(Part& part, std::vector<Thing>& lis
     const std::uint32_t count = length(part, list.size(), most_things);
     if constexpr (Part::reads)
         list.resize(count);
+    for (Thing& thing : list)
+        take(part, thing);
+}
+
+template <class Part, class Thing, std::size_t count> void take(Part& part, std::array<Thing, count>& list)
+{
     for (Thing& thing : list)
         take(part, thing);
 }
@@ -119,103 +162,128 @@ template <class Part, class Thing> void take(Part& part, std::optional<Thing>& t
         take(part, *thing);
 }
 
+// One list of a struct's members serves both directions. A binding names them all, so that a new member does not compile.
+
+template <class Part, class... Members> void take_all(Part& part, Members&... members) { (take(part, members), ...); }
+
 template <class Part> void take(Part& part, Effects& effects)
 {
-    for (const EffectEntry& one : all_effects) {
-        bool on = effects[one.which];
-        take(part, on);
-        effects.on.set(one.which, on);
-    }
-    take_choice(part, effects.comparison, comparison_names.size());
+    auto& [on, comparison] = effects;
+    take_all(part, on, comparison);
 }
 
 template <class Part> void take(Part& part, Shot& shot)
 {
-    take(part, shot.scene), take(part, shot.time), take(part, shot.position), take(part, shot.u);
-    take(part, shot.ship_from_cockpit), take(part, shot.effects), take(part, shot.exposure_ev);
+    auto& [scene, time, position, u, ship_from_cockpit, effects, exposure_ev] = shot;
+    take_all(part, scene, time, position, u, ship_from_cockpit, effects, exposure_ev);
+}
+
+template <class Part> void take(Part& part, Head& head)
+{
+    auto& [moved_m, turned] = head;
+    take_all(part, moved_m, turned);
 }
 
 template <class Part> void take(Part& part, RangeCurve& curve)
 {
-    for (double& knot : curve.shown)
-        take(part, knot);
-    take(part, curve.low), take(part, curve.high);
+    auto& [shown, low, high] = curve;
+    take_all(part, shown, low, high);
+}
+
+template <class Part> void take(Part& part, Vignette& vignette)
+{
+    auto& [elevation_deg, clear_deg, soft_deg, darkness] = vignette;
+    take_all(part, elevation_deg, clear_deg, soft_deg, darkness);
 }
 
 template <class Part> void take(Part& part, Caption& caption)
 {
-    take(part, caption.text), take(part, caption.choices);
-    take(part, caption.chosen), take(part, caption.right);
-    take(part, caption.aside), take(part, caption.flying), take(part, caption.menu);
+    auto& [text, choices, chosen, right, aside, flying, menu] = caption;
+    take_all(part, text, choices, chosen, right, aside, flying, menu);
 }
 
-template <class Part> void take(Part& part, Readings::Range& range) { take(part, range.stops), take(part, range.shown); }
-
-template <class Part> void take(Part& part, Readings& shown)
+template <class Part> void take(Part& part, Readings::Range& range)
 {
-    take(part, shown.beta_deficit), take(part, shown.gamma), take(part, shown.doppler_ahead);
-    take(part, shown.looked_cosine);
-    take(part, shown.ship_s), take(part, shown.world_s), take(part, shown.distance_m);
-    take(part, shown.light_speed_m_s), take(part, shown.frames_per_s), take(part, shown.effects);
-    take_choice(part, shown.mode, flight_modes.size());
-    take(part, shown.frozen), take(part, shown.exposure_ev), take(part, shown.exposure_locked);
-    take(part, shown.range), take(part, shown.lever), take(part, shown.prompt), take(part, shown.caption);
-    take(part, shown.notice);
-    take_choice(part, shown.information, informations.size());
+    auto& [stops, shown] = range;
+    take_all(part, stops, shown);
 }
 
-template <class Part> void take(Part& part, Written& written) { take(part, written.number), take(part, written.readings); }
-template <class Part> void take(Part& part, ShownSign& sign) { take(part, sign.lines), take(part, sign.towards); }
+template <class Part> void take(Part& part, Readings& readings)
+{
+    auto& [beta_deficit, gamma, doppler_ahead, looked_cosine, ship_s, world_s, distance_m, light_speed_m_s, frames_per_s,
+        effects, mode, frozen, exposure_ev, exposure_locked, range, lever, prompt, caption, notice, information]
+        = readings;
+    take_all(part, beta_deficit, gamma, doppler_ahead, looked_cosine, ship_s, world_s, distance_m, light_speed_m_s,
+        frames_per_s, effects, mode, frozen, exposure_ev, exposure_locked, range, lever, prompt, caption, notice,
+        information);
+}
+
+template <class Part> void take(Part& part, Written& written)
+{
+    auto& [number, readings] = written;
+    take_all(part, number, readings);
+}
+
+template <class Part> void take(Part& part, ShownSign& sign)
+{
+    auto& [lines, towards] = sign;
+    take_all(part, lines, towards);
+}
 
 template <class Part> void take(Part& part, SmallPicture& picture)
 {
-    take_choice(part, picture.kind, beside_names.size());
-    take(part, picture.start_ev), take(part, picture.fov_deg), take(part, picture.name);
+    auto& [kind, start_ev, fov_deg, name] = picture;
+    take_all(part, kind, start_ev, fov_deg, name);
 }
 
 template <class Part> void take(Part& part, Spot& spot)
 {
-    take(part, spot.at), take(part, spot.frame), take(part, spot.sky);
-    std::optional<std::uint64_t> clock = spot.clock;
-    take(part, clock);
-    if constexpr (Part::reads)
-        spot.clock = clock;
+    auto& [at, frame, sky, clock] = spot;
+    take_all(part, at, frame, sky, clock);
 }
 
 template <class Part> void take(Part& part, OverlayScale& scale)
 {
-    take(part, scale.nearest_s), take(part, scale.farthest_s), take(part, scale.emission_step_s);
+    auto& [nearest_s, farthest_s, emission_step_s] = scale;
+    take_all(part, nearest_s, farthest_s, emission_step_s);
 }
 
 template <class Part> void take(Part& part, Instruments& on)
 {
-    take_choice(part, on.overlay, overlay_names.size());
-    for (std::optional<Spot>& mark : on.marks)
-        take(part, mark);
-    take(part, on.scale), take(part, on.panel_number);
-    for (int i = 0; i < 4; ++i)
-        take(part, on.scale_place[i]);
+    auto& [overlay, marks, scale, panel, panel_number, scale_place] = on; // the panel's picture is a page's
+    take_all(part, overlay, marks, scale, panel_number, scale_place);
 }
 
 template <class Part> void take(Part& part, Instant& now)
 {
-    take(part, now.shot);
-    take(part, now.head.moved_m), take(part, now.head.turned);
-    take(part, now.range), take(part, now.meters), take(part, now.bloom), take(part, now.black);
-    take(part, now.vignette.elevation_deg), take(part, now.vignette.clear_deg);
-    take(part, now.vignette.soft_deg), take(part, now.vignette.darkness), take(part, now.vignette_part);
-    take_choice(part, now.pattern, pattern_names.size());
-    take(part, now.hud), take(part, now.sign), take(part, now.small_picture), take(part, now.instruments);
+    auto& [shot, head, range, meters, bloom, black, vignette, vignette_part, pattern, hud, sign, small_picture, instruments]
+        = now;
+    take_all(part, shot, head, range, meters, bloom, black, vignette, vignette_part, pattern, hud, sign, small_picture,
+        instruments);
 }
 
-template <class Part> void take(Part& part, TurnedNumber& number) { take(part, number.place), take(part, number.value); }
+template <class Part> void take(Part& part, TurnedNumber& number)
+{
+    auto& [place, value] = number;
+    take_all(part, place, value);
+}
 
 template <class Part> void take(Part& part, SharedInstant& shared)
 {
-    take(part, shared.scene), take(part, shared.coming);
-    take(part, shared.layout), take(part, shared.layout_digest), take(part, shared.turned);
-    take(part, shared.language), take(part, shared.quality), take(part, shared.level);
-    take(part, shared.instant);
+    auto& [scene, coming, layout, layout_digest, turned, language, quality, level, instant] = shared;
+    take_all(part, scene, coming, layout, layout_digest, turned, language, quality, level, instant);
+}
+
+/// Another order or kind of the fields is another version.
+std::uint32_t version()
+{
+    static const std::uint32_t number = [] {
+        Shape shape;
+        SharedInstant all;
+        take(shape, all);
+        return std::uint32_t(shape.kinds ^ (shape.kinds >> 32));
+    }();
+    return number;
 }
 
 } // namespace
@@ -224,7 +292,7 @@ std::vector<std::uint8_t> bytes_of(const SharedInstant& instant)
 {
     Writer writer;
     SharedInstant copy = instant; // one list of fields serves both ways
-    std::uint32_t number = version;
+    std::uint32_t number = version();
     take(writer, number), take(writer, copy);
     if (writer.bytes.size() > most_state_bytes)
         throw InputError("the state of a frame takes " + std::to_string(writer.bytes.size()) + " bytes; at most "
@@ -237,9 +305,9 @@ SharedInstant instant_of(std::span<const std::uint8_t> bytes)
     Reader reader{bytes};
     std::uint32_t number = 0;
     take(reader, number);
-    if (number != version)
+    if (number != version())
         throw InputError("a state of the exhibit's machines has version " + std::to_string(number)
-            + "; the same program, with version " + std::to_string(version) + ", on all machines is right");
+            + "; the same program, with version " + std::to_string(version()) + ", on all machines is right");
     SharedInstant shared;
     take(reader, shared);
     if (!reader.bytes.empty())

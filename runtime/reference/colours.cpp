@@ -11,8 +11,6 @@ const glm::dvec3 luminance(0.2126, 0.7152, 0.0722); // Rec. 709
 
 double mean(const glm::dvec3& v) { return (v.x + v.y + v.z) / 3; }
 
-bool is_line(const std::optional<Emission>& light) { return light && std::holds_alternative<SpectralLine>(*light); }
-
 } // namespace
 
 ByShift::ByShift(int colours, Sum sum, bool kept)
@@ -69,6 +67,7 @@ Colours::Colours(const World& world, const SceneFile& scene, const StandardObser
         if (!material.reflectance.empty())
             material_of_set_.push_back(int(i));
         emissions_.push_back(material.emission ? emission(*material.emission) : nullptr);
+        amounts_.push_back(material.emission ? law_of(*material.emission).sunlit_part : 0);
         glows_.push_back(material.temperature_K > 0 ? emission(BlackBody{material.temperature_K}) : nullptr);
     }
     if (scene.sky.temperature_K > 0)
@@ -80,7 +79,7 @@ std::unique_ptr<ByShift> Colours::emission(const Emission& emission) const
 {
     return std::make_unique<ByShift>(
         1, [this, emission](double D, glm::dvec3* out) { *out = observer_.rec709 * seen(observer_, emission, D); },
-        std::holds_alternative<BlackBody>(emission));
+        law_of(emission).smooth);
 }
 
 /// The number of a surface's reflectances that are summed separately.
@@ -101,16 +100,15 @@ void Colours::sum(const Kind& kind, int material, double D, glm::dvec3* out) con
 {
     // Spectral radiance per frequency: the surface has at a wavelength what the lamp has at D times that, and the eye what
     // the surface has.
-    const double part = kind.light ? sunlit_part(*kind.light) : 1;
+    const EmissionLaw law = kind.light ? law_of(*kind.light) : EmissionLaw{.name = "", .spectrum = sunlit_white()};
     for (int i = 0; i < parts(material); ++i) {
         const auto reflects = reflectance(material, i);
-        if (is_line(kind.light)) {
-            const double nm = std::get<SpectralLine>(*kind.light).nm;
-            out[i] = observer_.rec709 * seen(observer_, *kind.light, kind.D * D) * (part * reflects(nm / kind.D));
+        if (law.is_line()) {
+            out[i] = observer_.rec709 * seen(observer_, *kind.light, kind.D * D)
+                * (law.sunlit_part * reflects(law.line_nm / kind.D));
             continue;
         }
-        const Spectrum light = kind.light ? spectrum_of(*kind.light) : sunlit_white();
-        const Spectrum reflected = [&](double nm) { return part * light(nm * kind.D) * reflects(nm); };
+        const Spectrum reflected = [&](double nm) { return law.sunlit_part * law.spectrum(nm * kind.D) * reflects(nm); };
         out[i] = observer_.rec709 * seen(observer_, reflected, D);
     }
 }
@@ -122,7 +120,7 @@ std::size_t Colours::kind(const Kind& kind)
         return std::size_t(at - kinds_.begin());
     kinds_.push_back(kind);
     seen_.emplace_back();
-    const bool smooth = !kind.light || std::holds_alternative<BlackBody>(*kind.light);
+    const bool smooth = !kind.light || law_of(*kind.light).smooth;
     for (int material : material_of_set_)
         seen_.back().push_back(std::make_unique<ByShift>(
             parts(material), [=, this](double D, glm::dvec3* out) { sum(kind, material, D, out); }, smooth));
@@ -171,7 +169,7 @@ glm::dvec3 Colours::sent(int index, const glm::dvec3& emitted, double D) const
     const Material& material = world_.materials[std::size_t(index)];
     glm::dvec3 all(0);
     if (emissions_[std::size_t(index)])
-        all += emissions_[std::size_t(index)]->at(D) * (sunlit_part(*material.emission) * glm::dot(luminance, emitted));
+        all += emissions_[std::size_t(index)]->at(D) * (amounts_[std::size_t(index)] * glm::dot(luminance, emitted));
     else if (emitted != glm::dvec3(0))
         all += lit(-1, sunlight, emitted, glm::dvec3(1), D);
     if (glows_[std::size_t(index)])

@@ -71,6 +71,7 @@ private:
     std::vector<int> material_of_set_;
     std::vector<std::vector<std::unique_ptr<ByShift>>> seen_; ///< [kind][set]
     std::vector<std::unique_ptr<ByShift>> emissions_, glows_; ///< by material, null where it has none
+    std::vector<double> amounts_; ///< of the emissions, with the energy of sunlit_white
     std::unique_ptr<ByShift> sky_glow_;
 };
 

@@ -90,10 +90,9 @@ GlobeRows globe_rows(const SolarSystem& system, std::span<const glm::dvec4> part
     add(rows, "white", [&](int level) { return through_air(white, air_mass(level)); });
     for (const NamedTable& lamp : system.lamps) {
         const SpectralTable table{lamp.points};
-        const double amount = sunlit_part(table);
+        const EmissionLaw law = law_of(table);
         add(
-            rows, lamp.name,
-            [&](int) { return [light = spectrum_of(table), amount](double nm) { return light(nm) * amount; }; }, 1);
+            rows, lamp.name, [&](int) { return [law](double nm) { return law.spectrum(nm) * law.sunlit_part; }; }, 1);
     }
     for (std::size_t i = 0; i < system.globes.size(); ++i) {
         const Globe& globe = system.globes[i];

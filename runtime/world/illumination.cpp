@@ -118,14 +118,7 @@ std::vector<Emission> own_emissions(const World& world, const SceneFile& scene, 
     return own;
 }
 
-std::string name_of(const std::optional<Emission>& light)
-{
-    if (!light)
-        return "sunlight";
-    if (const auto* body = std::get_if<BlackBody>(&*light))
-        return "a lamp of " + shown(body->kelvin) + " K";
-    return "a lamp with a spectrum";
-}
+std::string name_of(const std::optional<Emission>& light) { return light ? law_of(*light).name : "sunlight"; }
 
 } // namespace
 

@@ -71,13 +71,13 @@ void reject_passing_lines(const World& world, const SceneFile& scene)
 
 } // namespace
 
-SpectralLine shifted_line(const LightKind& kind) { return {std::get<SpectralLine>(*kind.light).nm / kind.D}; }
+SpectralLine shifted_line(const LightKind& kind) { return {law_of(*kind.light).line_nm / kind.D}; }
 
 Spectrum spectrum_of(const LightKind& kind)
 {
-    const double part = kind.light ? sunlit_part(*kind.light) : 1;
-    return [light = kind.light ? spectrum_of(*kind.light) : sunlit_white(), part, D = kind.D](
-               double nm) { return part * light(nm * D); };
+    if (!kind.light)
+        return [light = sunlit_white(), D = kind.D](double nm) { return light(nm * D); };
+    return [law = law_of(*kind.light), D = kind.D](double nm) { return law.sunlit_part * law.spectrum(nm * D); };
 }
 
 LightKinds light_kinds(const World& world, const SceneFile& scene, int most)

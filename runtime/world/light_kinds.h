@@ -11,7 +11,7 @@ struct LightKind {
     std::optional<Emission> light; ///< nullopt: sunlight
     double D = 1;
     bool operator==(const LightKind&) const = default;
-    bool is_line() const { return light && std::holds_alternative<SpectralLine>(*light); }
+    bool is_line() const { return light && law_of(*light).is_line(); }
 };
 
 /// The emission spectrum of a line that arrives shifted.

@@ -53,7 +53,7 @@ void add_surfaces(Spectra& spectra, const World& world, const SceneFile& scene, 
                 "has a reflectance of its own and an emissive colour without a spectrum; an \"emission\" is right");
         if (material.emission) {
             surface.beyond.w = float(index_of(spectra.basis, *material.emission));
-            surface.emission = sunlit_part(*material.emission);
+            surface.emission = law_of(*material.emission).sunlit_part;
             spectra.most = std::max(
                 spectra.most, surface.emission * std::max({material.emissive.x, material.emissive.y, material.emissive.z}));
         }

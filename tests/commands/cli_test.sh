@@ -243,9 +243,12 @@ begins_with '--record excludes --tour' run --tour rainbow --record "$folder/tour
 begins_with 'There is no none.json in config/tours' run --tour none
 begins_with 'There is no xx.json in config/words; there are: de, en' run --tour rainbow --language xx
 
-# Every subcommand's help ends with an example.
-for command in run render check warp import displays doctor tell help; do
-    if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
+# Every subcommand's help ends with an example, and the page of commands has its row.
+commands=$("$program" --help | sed -n 's/^  \([a-z]\+\)  .*/\1/p')
+[ "$(echo "$commands" | wc -l)" -ge 17 ] || fail "only these subcommands are found in --help: $commands"
+for command in $commands; do
+    if "$program" "$command" --help | grep -q "starbow $command"; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
+    if grep -q "^| \`$command\` |" "$(dirname "$0")/../../docs/commands.md"; then passed=$((passed + 1)); else fail "docs/commands.md has no row for $command"; fi
 done
 
 for command in '' 'warp inspect' 'warp convert' 'import sgct'; do

@@ -95,10 +95,10 @@ TEST(WarpFormatsTest, ALayoutMaySayABourkeMeshsAspect)
     const std::string part = "2\n2 2\n-0.5 -1 0 0 1\n1 -1 1 0 1\n-0.5 1 0 1 1\n1 1 1 1 1\n";
     const auto ends = [](const WarpMesh& mesh) { return glm::dvec2(mesh.vertices[0].at.x, mesh.vertices[1].at.x); };
     EXPECT_EQ(ends(read("a.data", part)), glm::dvec2(0.25, 1));
-    EXPECT_EQ(ends(read_warp({"a.data", part}, "", {}, 2.0)), glm::dvec2(0.375, 0.75));
-    EXPECT_EQ(ends(read_warp({"a.data", part + "aspect 4\n"}, "", {}, 2.0)), glm::dvec2(0.375, 0.75));
+    EXPECT_EQ(ends(read_warp({"a.data", part}, {.aspect = 2.0})), glm::dvec2(0.375, 0.75));
+    EXPECT_EQ(ends(read_warp({"a.data", part + "aspect 4\n"}, {.aspect = 2.0})), glm::dvec2(0.375, 0.75));
     EXPECT_NE(complaint([&] {
-        read_warp({"a.obj", "v 0 0 0\n"}, "", {}, 2.0);
+        read_warp({"a.obj", "v 0 0 0\n"}, {.aspect = 2.0});
     }).find("whose aspect it does not need"),
         std::string::npos);
 }
@@ -472,10 +472,23 @@ TEST(WarpFormatsTest, MpcdiPointsAreInTheirFrame)
 
 TEST(WarpFormatsTest, TheContentDecidesTheFormat)
 {
-    for (const auto& [content, format] : {std::pair(bourke, "Bourke"), {csv, "domeprojection"}, {simcad, "SimCAD"},
-             {scalable, "Scalable"}, {skyskan, "SkySkan"}, {obj, "OBJ"}, {headset, "headset"}, {mpcdi_3d(), "MPCDI"},
-             {pfm(2, 2, identity_map(2, 2)), "PFM"}, {sample("channel1_warp_u2.sgc"), "SCISS"}})
-        EXPECT_EQ(read("calibration", content).format.substr(0, std::string(format).size()), format);
+    for (const WarpFormat* format : warp_formats()) {
+        SCOPED_TRACE(format->name);
+        const auto found = small_samples().find(format->name);
+        ASSERT_NE(found, small_samples().end()) << "tests/support/warp_fixture.h has no sample of this format";
+        EXPECT_TRUE(read("calibration", found->second).format.starts_with(format->name));
+    }
+}
+
+/// Under each other format's name, too, unless the content says nothing.
+TEST(WarpFormatsTest, TheNameDecidesWhereTheContentSaysNothing)
+{
+    for (const WarpFormat* format : warp_formats())
+        for (const std::string_view ending : format->endings)
+            if (!ending.empty())
+                EXPECT_TRUE(
+                    read("a" + std::string(ending), small_samples().at(format->name)).format.starts_with(format->name))
+                    << ending;
 }
 
 } // namespace

@@ -143,7 +143,7 @@ WarpMesh read_seed(const Seed& seed, const Parts& parts, const FloatMapForm& for
         return mesh;
     }
     if (parts.size() == 1)
-        return read_warp({seed.name, parts[0].second}, "", form);
+        return read_warp({seed.name, parts[0].second}, {.form = form});
     // Reads the files of an archive without the time that packing takes.
     std::size_t size = 0;
     for (const auto& [name, bytes] : parts)

@@ -304,7 +304,8 @@ TEST(Tours, TheRainbowsCaptionsNameWhatIsInView)
     int checked = 0;
     for (Touring touring = touring_at(show); !touring.over; touring = advance(touring, show, {}, 50'000'000)) {
         const std::string& caption = tour.steps[touring.step()].caption;
-        const bool back = caption == words()("tour.rainbow.back"), front = caption == words()("tour.rainbow.front");
+        const bool back = caption == *words().tour("tour.rainbow.back"),
+                   front = caption == *words().tour("tour.rainbow.front");
         if (!back && !front)
             continue;
         ++checked;

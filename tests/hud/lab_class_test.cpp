@@ -102,8 +102,9 @@ TEST(LabClass, ThePageHasEveryGroupInAColourAndAMarkOfItsOwn)
         EXPECT_GE(count_of(page, "<path class=\"theory\" d=\"M"), 4); // D at its speeds, length, clock, and the legend
         EXPECT_EQ(page.find("nan"), page.npos);
         EXPECT_EQ(page.find("inf"), page.npos);
-        for (const char* key : {"plot.doppler", "plot.length_y", "plot.clock", "class.mean", "class.explain"})
-            EXPECT_NE(page.find(words(language)(key)), page.npos) << key;
+        constexpr Key keys[]{"plot.doppler", "plot.length_y", "plot.clock", "class.mean", "class.explain"};
+        for (const Key key : keys)
+            EXPECT_NE(page.find(words(language)(key)), page.npos) << key.name();
     }
     // As many groups as there are pairs: no two have the same colour and mark.
     LabClass many;

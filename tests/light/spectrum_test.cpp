@@ -76,7 +76,7 @@ TEST(SpectrumTest, AShiftedBlackBodyIsABlackBody)
 TEST(SpectrumTest, ATableOfLightHoldsAtBothOfItsEndsAndIsDarkBeyond)
 {
     // A table per wavelength; the result is per frequency, times the square of the wavelength.
-    const Spectrum light = spectrum_of(SpectralTable{{{400, 3}, {500, 1}, {600, 4}}});
+    const Spectrum light = law_of(SpectralTable{{{400, 3}, {500, 1}, {600, 4}}}).spectrum;
     const double unit = light(500) / (500 * 500);
     for (const auto& [nm, value] : {std::pair(400.0, 3.0), {450.0, 2.0}, {550.0, 2.5}, {600.0, 4.0}})
         EXPECT_NEAR(light(nm) / (nm * nm), value * unit, 1e-12 * unit) << nm;
@@ -284,7 +284,7 @@ TEST(SpectrumTest, ALineIsShiftedAndKeepsItsEnergy)
         double sum = 0;
         for (double nm = 1; nm < 1e7; nm *= 1.001)
             sum += black_body(kelvin)(nm) * 0.001 / nm;
-        EXPECT_NEAR(sum * sunlit_part(BlackBody{kelvin}) / energy, 1, 2e-3) << kelvin;
+        EXPECT_NEAR(sum * law_of(BlackBody{kelvin}).sunlit_part / energy, 1, 2e-3) << kelvin;
     }
 }
 

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>
+#include <regex>
 
 namespace starbow::instant_bytes_test {
 namespace {
@@ -131,9 +132,10 @@ TEST(InstantBytesTest, WhatIsNoInstantIsRefused)
     std::vector<std::uint8_t> longer = bytes, other = bytes;
     longer.push_back(0);
     EXPECT_EQ(complaint(longer), "a state of the exhibit's machines has 1 bytes too many");
-    other[0] = 99;
-    EXPECT_EQ(complaint(other),
-        "a state of the exhibit's machines has version 99; the same program, with version 3, on all machines is right");
+    std::fill_n(other.begin(), 4, std::uint8_t(0));
+    EXPECT_TRUE(std::regex_match(complaint(other),
+        std::regex("a state of the exhibit's machines has version 0; the same program, with version [0-9]+, on all machines "
+                   "is right")));
     SharedInstant none = full();
     none.instant.shot.position.x = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(complaint(bytes_of(none)), "a state of the exhibit's machines has a number that is none");

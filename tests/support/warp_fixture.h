@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <stb/stb_image_write.h>
 #include <zip.h>
 
@@ -17,7 +18,7 @@ inline std::string sample(const std::string& name) { return read_text(sample_pat
 inline WarpMesh read(
     const std::string& name, const std::string& content, const std::string& region = "", const FloatMapForm& form = {})
 {
-    return read_warp({name, content}, region, form);
+    return read_warp({name, content}, {region, form});
 }
 
 /// A zip archive of files, each compressed with deflate.
@@ -129,6 +130,16 @@ inline const std::string obj
       "f 1/1/1 2/2/2 3/3/3\r\nf 1/1 3/3 4/4\r\n";
 inline const std::string headset = "starbow headset mesh 1\n2 2\n0 0 -1 1 -1.1 1.1 -1.2 1.2\n1 0 1 1 1.1 1.1 1.2 1.2\n"
                                    "0 1 -1 -1 -1.1 -1.1 -1.2 -1.2\n1 1 1 -1 1.1 -1.1 1.2 -1.2\n";
+
+/// A small file of each format, by its name.
+inline const std::map<std::string, std::string>& small_samples()
+{
+    static const std::map<std::string, std::string> all{{"Bourke mesh", bourke}, {"MPCDI", mpcdi_3d()},
+        {"PFM", pfm(2, 2, identity_map(2, 2))}, {"domeprojection", csv}, {"SimCAD", simcad},
+        {"SCISS", sample("channel1_warp_u2.sgc")}, {"Scalable", scalable}, {"SkySkan", skyskan}, {"OBJ", obj},
+        {"headset mesh", headset}};
+    return all;
+}
 
 /// Flags the vertices that some triangle uses.
 inline std::vector<char> used(const WarpMesh& mesh)

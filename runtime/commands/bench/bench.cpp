@@ -52,7 +52,7 @@ int bench(const BenchOptions& options)
 
 } // namespace
 
-void add_bench(Subcommand& app, std::function<int()>& chosen)
+static void add_bench(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<BenchOptions>();
     Subcommand* command = app.add_subcommand(bench_tool.name, bench_tool.help);
@@ -88,5 +88,7 @@ void add_bench(Subcommand& app, std::function<int()>& chosen)
     command->footer("Examples:\n  starbow bench --json out/bench.json\n  starbow bench --input --seconds 60");
     command->callback([options, &chosen] { chosen = [options] { return bench(*options); }; });
 }
+
+static const Registered bench_command{10, add_bench};
 
 } // namespace starbow

@@ -170,7 +170,7 @@ void refuse_others(const CheckOptions& options, bool world)
 
 } // namespace
 
-void add_check(Subcommand& app, std::function<int()>& chosen)
+static void add_check(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<CheckOptions>();
     Subcommand* command = app.add_subcommand("check",
@@ -238,5 +238,7 @@ void add_check(Subcommand& app, std::function<int()>& chosen)
         };
     });
 }
+
+static const Registered check_command{3, add_check};
 
 } // namespace starbow

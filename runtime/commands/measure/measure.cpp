@@ -174,7 +174,7 @@ int measure(const MeasureOptions& options)
 
 } // namespace
 
-void add_measure(Subcommand& app, std::function<int()>& chosen)
+static void add_measure(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<MeasureOptions>();
     Subcommand* command = app.add_subcommand(measure_tool.name, measure_tool.help);
@@ -225,5 +225,7 @@ void add_measure(Subcommand& app, std::function<int()>& chosen)
                     "--explain\n  starbow measure --extremes");
     command->callback([options, &chosen] { chosen = [options] { return measure(*options); }; });
 }
+
+static const Registered measure_command{11, add_measure};
 
 } // namespace starbow

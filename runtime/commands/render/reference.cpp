@@ -78,7 +78,7 @@ int render_reference(const ReferencePictures& command)
 
 } // namespace
 
-void add_reference(Subcommand& app, std::function<int()>& chosen)
+static void add_reference(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<ReferencePictures>();
     Subcommand* command = app.add_subcommand(reference_tool.name, reference_tool.help);
@@ -91,5 +91,7 @@ void add_reference(Subcommand& app, std::function<int()>& chosen)
     command->add_flag("--exr", options->exr, "");
     command->callback([options, &chosen] { chosen = [options] { return render_reference(*options); }; });
 }
+
+static const Registered reference_command{18, add_reference};
 
 } // namespace starbow

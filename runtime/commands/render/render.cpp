@@ -132,7 +132,7 @@ int render(const RenderOptions& options)
 
 } // namespace
 
-void add_render(Subcommand& app, std::function<int()>& chosen)
+static void add_render(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<RenderOptions>();
     Subcommand* command = app.add_subcommand(
@@ -242,5 +242,7 @@ void add_render(Subcommand& app, std::function<int()>& chosen)
         "  starbow render --shot clocks-passing --out out/clocks --measure \"400,300; 12deg,0deg\" --overlay ring");
     command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
 }
+
+static const Registered render_command{2, add_render};
 
 } // namespace starbow

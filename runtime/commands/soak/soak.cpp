@@ -281,7 +281,7 @@ int soak(const SoakOptions& options)
 
 } // namespace
 
-void add_soak(Subcommand& app, std::function<int()>& chosen)
+static void add_soak(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<SoakOptions>();
     Subcommand* command = app.add_subcommand(soak_tool.name, soak_tool.help);
@@ -325,5 +325,7 @@ void add_soak(Subcommand& app, std::function<int()>& chosen)
                     "  LP_NUM_THREADS=1 xvfb-run starbow soak --as tour --visits 20000 --log out/tour.csv");
     command->callback([options, &chosen] { chosen = [options] { return soak(*options); }; });
 }
+
+static const Registered soak_command{13, add_soak};
 
 } // namespace starbow

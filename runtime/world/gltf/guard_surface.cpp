@@ -29,20 +29,33 @@ std::vector<std::pair<double, double>> points(const JsonSpot& spot, double most)
     return out;
 }
 
-Emission emission(const JsonSpot& spot)
+Emission read(const JsonSpot& spot, const BlackBody*) { return BlackBody{number(spot, coldest_K, hottest_K)}; }
+Emission read(const JsonSpot& spot, const SpectralLine*) { return SpectralLine{number(spot, shortest_nm, longest_nm)}; }
+Emission read(const JsonSpot& spot, const SpectralTable*)
 {
-    reject_unknown_members(spot, {"black_body_K", "line_nm", "table"});
-    if (spot.size() != 1)
-        spot.fail(
-            "has " + std::to_string(spot.size()) + " members; should have one of \"black_body_K\", \"line_nm\", \"table\"");
-    if (spot.has("black_body_K"))
-        return BlackBody{number(spot["black_body_K"], coldest_K, hottest_K)};
-    if (spot.has("line_nm"))
-        return SpectralLine{number(spot["line_nm"], shortest_nm, longest_nm)};
-    SpectralTable table{points(spot["table"], 1e30)};
+    SpectralTable table{points(spot, 1e30)};
     if (std::ranges::all_of(table.points, [](const auto& point) { return point.second == 0; }))
-        spot["table"].fail("is 0 everywhere; should have a value above 0");
+        spot.fail("is 0 everywhere; should have a value above 0");
     return table;
+}
+
+/// One of the kinds of spectrum, by the name of its one member.
+template <class... Kinds> Emission emission(const JsonSpot& spot, const std::variant<Kinds...>*)
+{
+    reject_unknown_members(spot, {Kinds::gltf_member...});
+    if (spot.size() != 1) {
+        std::string names;
+        for (const char* name : {Kinds::gltf_member...})
+            names.append(names.empty() ? "\"" : ", \"").append(name).append("\"");
+        spot.fail("has " + std::to_string(spot.size()) + " members; should have one of " + names);
+    }
+    Emission found;
+    const auto try_one = [&]<class Kind>(const Kind* kind) {
+        if (spot.has(Kind::gltf_member))
+            found = read(spot[Kind::gltf_member], kind);
+    };
+    (try_one(static_cast<const Kinds*>(nullptr)), ...);
+    return found;
 }
 
 /// Throws if the material can't emit. material: the accepted members of the surface's material.
@@ -97,7 +110,7 @@ void read_surface(const JsonSpot& spot, const tinygltf::Material& material, Mate
         spot["emissivity"].fail(
             "says how well the surface glows but not how warm it is; should stand beside \"temperature_K\"");
     if (spot.has("emission")) {
-        out.emission = emission(spot["emission"]);
+        out.emission = emission(spot["emission"], static_cast<const Emission*>(nullptr));
         check_emits(spot["emission"], material);
     }
     if (spot.has("clock"))

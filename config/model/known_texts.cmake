@@ -1,0 +1,23 @@
+# Writes the keys of the English texts, in order, each with the names in { } of its text, as rows of C++ (words.h includes them). Tours'
+# and goals' texts belong to files of their own and are left out.
+#   known_texts(config/words/en.json HEADER)
+function(known_texts file header)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(READ ${file} text)
+  string(REGEX REPLACE "[][;]" "," text "${text}") # none of them divides a list of CMake's
+  string(REGEX MATCHALL "\n *\"[^\n]*" lines "${text}")
+  set(rows)
+  foreach(line ${lines})
+    string(REGEX REPLACE "\n *\"([^\"]*)\".*" "\\1" key "${line}")
+    if(NOT key MATCHES "^(tour|goal)\\.")
+      string(REGEX MATCHALL "{[^}]*}" names "${line}")
+      string(REGEX REPLACE "[{}]" "" names "${names}")
+      list(SORT names)
+      string(REPLACE ";" " " names "${names}")
+      list(APPEND rows "{\"${key}\", \"${names}\"},\n")
+    endif()
+  endforeach()
+  list(SORT rows)
+  string(CONCAT rows ${rows})
+  file(CONFIGURE OUTPUT ${header} CONTENT "${rows}")
+endfunction()
