@@ -7,7 +7,7 @@
 namespace starbow {
 namespace {
 
-constexpr std::uint64_t version = 10; // another computation has another number
+constexpr std::uint64_t version = 11; // another computation has another number
 constexpr const char* shadows_kind = "shadows2";
 
 /// The numbers of kept shadows, as a part of their file.

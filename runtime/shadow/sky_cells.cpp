@@ -13,7 +13,7 @@ namespace starbow {
 namespace {
 
 constexpr int most_cells = 1'000'000, cells_along = 160; // of the grid; along its longest side
-constexpr int sky_rays = 1024; // from a cell's middle
+constexpr int sky_rays = 1536; // from a cell's middle
 
 /// A cell of the grid, as Shadows::sky has it; `inside`: the cell is within a body.
 struct Cell {
