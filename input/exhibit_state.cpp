@@ -17,25 +17,10 @@ ExhibitState after(ExhibitState state, const Command& command)
 {
     if (apply(state.effects, command))
         return state;
+    for (const SwitchedState& one : switched_states)
+        if (one.kind == command.kind)
+            state.*one.member = command.on;
     switch (command.kind) {
-    case CommandKind::fade:
-        state.fade = command.on;
-        break;
-    case CommandKind::hold:
-        state.hold = command.on;
-        break;
-    case CommandKind::pause:
-        state.paused = command.on;
-        break;
-    case CommandKind::slow_motion:
-        state.slow_motion = command.on;
-        break;
-    case CommandKind::one_button:
-        state.one_button = command.on;
-        break;
-    case CommandKind::left_handed:
-        state.left_handed = command.on;
-        break;
     case CommandKind::information:
         state.information = information_named(command.text);
         break;
@@ -47,9 +32,6 @@ ExhibitState after(ExhibitState state, const Command& command)
         break;
     case CommandKind::exposure:
         state.exposure_ev = command.number;
-        break;
-    case CommandKind::range:
-        state.range = command.on;
         break;
     case CommandKind::language:
         state.language = command.text;

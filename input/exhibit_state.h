@@ -24,6 +24,19 @@ struct ExhibitState {
     std::string caption; ///< a docent's; empty: none
 };
 
+/// The commands that switch something on and off, but for effects: the member, and its name in the remote's state.
+struct SwitchedState {
+    CommandKind kind;
+    bool ExhibitState::*member;
+    const char* name;
+};
+inline constexpr SwitchedState switched_states[]{{CommandKind::fade, &ExhibitState::fade, "fade"},
+    {CommandKind::hold, &ExhibitState::hold, "hold"}, {CommandKind::pause, &ExhibitState::paused, "paused"},
+    {CommandKind::slow_motion, &ExhibitState::slow_motion, "slow-motion"},
+    {CommandKind::one_button, &ExhibitState::one_button, "one-button"},
+    {CommandKind::left_handed, &ExhibitState::left_handed, "left-handed"},
+    {CommandKind::range, &ExhibitState::range, "range"}};
+
 /// Applies a command that switches an effect, or chooses a comparison. Returns false, and changes nothing, for any other.
 /// Throws InputError for an unknown comparison.
 bool apply(Effects& effects, const Command& command);

@@ -1,7 +1,10 @@
 // The pages for readers: docs/README.md leads to every page, and every link leads to a file and a heading that are there.
+#include "config/model/schemas.h"
 #include "input/keyboard.h"
 #include "tests/support/files.h"
 #include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
 #include <set>
@@ -170,6 +173,32 @@ TEST(Docs, EverySwitchStandsOnThePages)
             EXPECT_TRUE(number == keys::none || one.by == Presser::builder || documented.contains(key_text(number)))
                 << key_text(number) << ": " << one.help;
     }
+}
+
+/// Every member of every kind of file stands on some page: `name`, or as a part of `a.name`.
+TEST(Docs, EveryMemberOfAFileStandsOnAPage)
+{
+    std::set<std::string> documented;
+    const std::regex quoted("[`.\"]([A-Za-z_0-9]+)[`\"]");
+    for (const std::string& page : pages()) {
+        const std::string text = read_text(source_dir() / page);
+        for (std::sregex_iterator at(text.begin(), text.end(), quoted), end; at != end; ++at)
+            documented.insert((*at)[1]);
+    }
+    int members = 0;
+    for (const std::string& kind : kinds_with_schema()) {
+        const std::function<void(const nlohmann::json&)> look = [&](const nlohmann::json& at) {
+            if (const auto properties = at.is_object() ? at.find("properties") : at.end();
+                at.is_object() && properties != at.end())
+                for (const auto& [name, shape] : properties->items())
+                    EXPECT_TRUE(name.starts_with("$") || documented.contains(name)) << kind << ": " << name, ++members;
+            if (at.is_structured())
+                for (const nlohmann::json& part : at)
+                    look(part);
+        };
+        look(nlohmann::json::parse(schema_text(kind)));
+    }
+    EXPECT_GT(members, 300);
 }
 
 TEST(Docs, PlantedFaultsAreFound)

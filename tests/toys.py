@@ -87,7 +87,7 @@ TEST(Toy, AnEffectIsSwitchedByItsCommand)
 
 } // namespace toy_test
 """),
-    }, "Toy.*:CalmTest.*:Presence*:Record*:Words.*:Docs.*:Presenter.*:CommandTest.*:SchemaTest.*"),
+    }, "Toy.*:CalmTest.*:Presence*:Words.*:Docs.*:Presenter.*:Describe*"),
     "projection": ({
         "config/model/layout.h": before("using Projection = std::variant<",
             "/// A toy: elevation by Mercator's law.\nstruct Mercator {\n    double width_deg = 180;\n};\n"),
@@ -212,6 +212,20 @@ struct FlatSpectrum {
 """),
         "tests/world/world_material_test.cpp": lambda old: old.replace('\\"line_nm\\", \\"table\\"', '\\"line_nm\\", \\"table\\", \\"flat_to_nm\\"'),
     }, "SpectrumTest.*:SceneFile*:WorldMaterial*:SchemaTest.*"),
+    "command": ({
+        "input/command.h": after("    range, ///< on: everything visible at once; off: one exposure\n", "    toy, ///< on: nothing happens\n"),
+        "input/command.cpp": after('    CommandRule{range, "range", Role::docent, Value::on},', ' CommandRule{toy, "toy", Role::docent, Value::on},'),
+        "input/exhibit_state.h": all_of(
+            after("    bool range = false; ///< everything is visible at once\n", "    bool toy = false;\n"),
+            instead('{CommandKind::range, &ExhibitState::range, "range"}};', '{CommandKind::range, &ExhibitState::range, "range"}, {CommandKind::toy, &ExhibitState::toy, "toy"}};')),
+        "runtime/exhibit/obey.cpp": before("    case CommandKind::range:\n", "    case CommandKind::toy:\n        break;\n"),
+        "runtime/hud/presenter_sheet.cpp": after("    toggle('U', \"remote.range\", {.kind = Order::range}, state.range);\n",
+                                                 "    toggle('Q', \"remote.toy\", {.kind = Order::toy}, state.toy);\n"),
+        "config/words/en.json": after('"remote.range": "Everything at once",\n', '    "remote.toy": "Toy",\n'),
+        "config/words/de.json": after('"remote.range": "Alles auf einmal",\n', '    "remote.toy": "Spielzeug",\n'),
+        "tests/input/command_test.cpp": before('{{"slow-motion", "on"}, {', '{{"toy", "on"}, {CommandKind::toy, true, 0, ""}}, '),
+        "docs/remote.md": after("starbow tell range on                                 # everything visible at once\n", "starbow tell toy on                                   # nothing\n"),
+    }, "Words.*:Presenter.*"),
     "language": ({
         "config/words/eo.json": lambda old: (root / "config/words/en.json").read_text().replace('"decimal_sign": "."', '"decimal_sign": ","'),
     }, "Words.*:TourFile*"),

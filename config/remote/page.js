@@ -288,7 +288,7 @@ async function connect() {
             return;
         }
         lists = await answer.json();
-        addEffects();
+        addSwitches();
     } catch {
         later();
         return;
@@ -370,9 +370,11 @@ function listenToSwitch(button) {
         command(button, button.dataset.switch, button.getAttribute("aria-pressed") === "true" ? "off" : "on"));
 }
 
-// A button for each effect, before the others.
-function addEffects() {
-    find("effects").prepend(...lists.effects.filter((name) => !all(`[data-switch="${name}"]`).length).map((name) => {
+// A button for each switch that has no place of its own: the effects and the like.
+function addSwitches() {
+    const placed = (name) => all(`[data-switch="${name}"]`).length > 0;
+    const switches = Object.keys(lists.commands).filter((name) => lists.commands[name].value === "on" && !placed(name));
+    find("switches").append(...switches.map((name) => {
         const button = document.createElement("button");
         button.type = "button";
         button.dataset.switch = name;

@@ -161,15 +161,15 @@ std::string counted_address(std::string_view address)
 std::string status_text(const Snapshot& now, bool engineer)
 {
     json status{{"scene", now.scene}, {"shot", now.shot}, {"tour", now.tour}, {"step", now.step}, {"steps", now.steps},
-        {"paused", now.paused}, {"language", now.language}, {"slow-motion", now.slow_motion}, {"one-button", now.one_button},
-        {"left-handed", now.left_handed}, {"information", name_of(now.information)},
+        {"language", now.language}, {"information", name_of(now.information)},
         {"comparison", comparison_names[std::size_t(now.effects.comparison)]}, {"speed", finite(now.speed)},
         {"gamma", finite(now.gamma)}, {"max-gamma", finite(now.max_gamma)}, {"exposure", finite(now.exposure_ev)},
-        {"range", now.range}, {"fade", now.fade}, {"hold", now.hold}, {"visit", now.visit}, {"caption", now.caption},
-        {"frames-per-s", std::round(finite(now.frames_per_s) * 10) / 10},
+        {"visit", now.visit}, {"caption", now.caption}, {"frames-per-s", std::round(finite(now.frames_per_s) * 10) / 10},
         {"frame-ms", std::round(finite(now.frame_ms) * 10) / 10}, {"uptime-s", std::floor(finite(now.uptime_s))}};
     for (const EffectEntry& one : all_effects)
         status[dashed(one.name)] = now.effects[one.which];
+    for (const SwitchedState& one : switched_states)
+        status[one.name] = now.*one.member;
     if (engineer) {
         status["layout"] = now.layout;
         status["pattern"] = now.pattern.empty() ? "none" : now.pattern;
@@ -199,12 +199,11 @@ std::string lists_text(const std::vector<std::string>& patterns)
 {
     constexpr std::array<const char*, 5> values{"none", "on", "number", "name", "text"};
     json commands = json::object();
-    for (const CommandRule& rule : command_rules())
-        commands[std::string(rule.name)]
-            = {{"role", role_names[std::size_t(rule.role)]}, {"value", values[std::size_t(rule.value)]}};
-    json effects = json::array();
-    for (const EffectEntry& one : all_effects)
-        effects.push_back(dashed(one.name));
+    for (const bool effects : {true, false}) // the page shows switches in this order
+        for (const CommandRule& rule : command_rules())
+            if (effects == (rule.kind == CommandKind::effect))
+                commands[std::string(rule.name)]
+                    = {{"role", role_names[std::size_t(rule.role)]}, {"value", values[std::size_t(rule.value)]}};
     json names = json::object();
     for (const auto& [command, folder] : {std::pair{"tour", "tours"}, {"scene", "scenes"}, {"shot", "shots"},
              {"layout", "layouts"}, {"quality", "qualities"}, {"language", "words"}})
@@ -213,7 +212,7 @@ std::string lists_text(const std::vector<std::string>& patterns)
     names["comparison"] = comparison_names;
     names["information"] = names_of(informations);
     names["pattern"] = patterns;
-    return dump({{"commands", commands}, {"effects", effects}, {"names", names}});
+    return dump({{"commands", commands}, {"names", names}});
 }
 
 std::string words_text()

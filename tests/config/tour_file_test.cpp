@@ -95,7 +95,8 @@ TEST(TourFile, TextsFitTheDisplay)
                 EXPECT_LE(lines(step.caption), 3u) << step.caption;
                 if (step.question) {
                     EXPECT_LE(lines(step.question->ask), 2u) << step.question->ask;
-                    for (const char* prefix : {"touring.right", "touring.wrong", "touring.answer"})
+                    constexpr Key prefixes[]{"touring.right", "touring.wrong", "touring.answer"};
+                    for (const Key prefix : prefixes)
                         EXPECT_LE(lines(texts(prefix) + " " + step.question->explanation), 3u) << step.question->explanation;
                 }
             }
@@ -143,8 +144,8 @@ TEST(TourFile, EveryMemberIsRead)
     EXPECT_EQ(thrust.rapidity_per_s, 0.25);
     EXPECT_EQ(thrust.towards, glm::dvec3(0, 1, 0));
     EXPECT_EQ(tour.steps[2].ease_s, glm::dvec2(0.5, 1));
-    EXPECT_FALSE(tour.steps[2].effects->doppler);
-    EXPECT_TRUE(tour.steps[2].effects->headlight);
+    EXPECT_FALSE(tour.steps[2].effects->on[Effect::doppler]);
+    EXPECT_TRUE(tour.steps[2].effects->on[Effect::headlight]);
     EXPECT_EQ(std::get<Turning>(tour.steps[3].motion).ship_from_cockpit, orientation({1, 0, 0}, {0, 1, 0}));
     const auto& choices = std::get<std::vector<Choice>>(tour.steps[4].question->answer);
     ASSERT_EQ(choices.size(), 2u);

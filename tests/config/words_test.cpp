@@ -1,6 +1,7 @@
 // Every language has the same texts with the same placeholders, and no text is unused.
 #include "config/model/effects.h"
 #include "config/model/words.h"
+#include "input/command.h"
 #include "tests/support/files.h"
 #include <functional>
 #include <gtest/gtest.h>
@@ -89,6 +90,16 @@ TEST(Words, EveryKeyInTheSourcesExists)
                 }
         }
     EXPECT_GT(count, 120);
+}
+
+/// The remote's page makes a button for each command that switches something, and takes its word by the command's name.
+TEST(Words, EverySwitchOfTheRemoteHasAWord)
+{
+    for (const CommandRule& rule : command_rules()) {
+        std::string name(rule.name);
+        std::ranges::replace(name, '-', '_');
+        EXPECT_TRUE(rule.value != CommandValue::on || words().texts.contains("remote." + name)) << name;
+    }
 }
 
 TEST(Words, WrongFilesAreRefused)

@@ -271,8 +271,9 @@ TEST(VisitorPanel, AllLinesFitBesideEachOther)
             }
 }
 
-// A calm exhibit lets through the switches that change words alone (input/switches.h). By WCAG 2.3.1 what fills less than
-// 0.006 sr of any field of 10 degrees is no flash. All that differs counts, on the widest display of the shipped layouts.
+// A calm exhibit lets through the switches that change words alone (config/model/switches.h). By WCAG 2.3.1 what fills less
+// than 0.006 sr of any field of 10 degrees is no flash. All that differs counts, on the widest display of the shipped
+// layouts.
 TEST(VisitorPanel, TheWordsThatASwitchChangesAreTooSmallAnAreaToFlash)
 {
     const Typesetter typesetter;

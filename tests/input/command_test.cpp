@@ -12,6 +12,8 @@ namespace {
 
 Command read(std::vector<std::string> words) { return command_of(words); }
 
+Command effect_command(Effect which, bool on) { return {.kind = CommandKind::effect, .on = on, .effect = which}; }
+
 } // namespace
 
 TEST(Command, EveryKindComesBackFromItsWords)
@@ -23,9 +25,12 @@ TEST(Command, EveryKindComesBackFromItsWords)
         {{"back"}, {CommandKind::back}}, {{"pause", "off"}, {CommandKind::pause}},
         {{"scene", "warm-wall"}, {CommandKind::scene, false, 0, "warm-wall"}},
         {{"shot", "chart-0.5"}, {CommandKind::shot, false, 0, "chart-0.5"}},
-        {{"speed-limit", "2.5"}, {CommandKind::speed_limit, false, 2.5}}, {{"aberration", "off"}, {CommandKind::aberration}},
-        {{"doppler", "on"}, {CommandKind::doppler, true}}, {{"headlight", "on"}, {CommandKind::headlight, true}},
-        {{"false-colours", "on"}, {CommandKind::false_colours, true}}, {{"unlock"}, {CommandKind::unlock, false, 0, ""}},
+        {{"speed-limit", "2.5"}, {CommandKind::speed_limit, false, 2.5}},
+        {{"aberration", "off"}, effect_command(Effect::aberration, false)},
+        {{"doppler", "on"}, effect_command(Effect::doppler, true)},
+        {{"headlight", "on"}, effect_command(Effect::headlight, true)},
+        {{"false-colours", "on"}, effect_command(Effect::false_colours, true)},
+        {{"unlock"}, {CommandKind::unlock, false, 0, ""}},
         {{"beside", "at-rest"}, {CommandKind::beside, false, 0, "at-rest"}},
         {{"information", "guide"}, {CommandKind::information, false, 0, "guide"}},
         {{"exposure", "-1.5"}, {CommandKind::exposure, false, -1.5}}, {{"range", "on"}, {CommandKind::range, true, 0, ""}},
@@ -43,7 +48,7 @@ TEST(Command, EveryKindComesBackFromItsWords)
     for (const auto& [words, command] : typed) {
         EXPECT_EQ(read(words), command) << words[0];
         EXPECT_EQ(words_of(command), words);
-        met[std::size_t(command.kind)] = true;
+        met[std::size_t(&rule_of(command) - command_rules().data())] = true;
     }
     for (std::size_t i = 0; i < met.size(); ++i)
         EXPECT_TRUE(met[i]) << command_rules()[i].name << " has no case here";

@@ -153,9 +153,9 @@ TEST(ProfileTest, AStickMovesTheShipAsTheHandMoves)
     // A press counts once, the hat looks around, and fields without a value do nothing.
     state.presses.resize(descriptor.fields.size());
     state.presses[field(descriptor, {9, 1})] = {1};
-    EXPECT_TRUE(controls_now().stop);
+    EXPECT_TRUE(controls_now()[Switch::stop]);
     state.presses.clear();
-    EXPECT_FALSE(controls_now().stop);
+    EXPECT_FALSE(controls_now()[Switch::stop]);
     state = at_rest(descriptor);
     state.raw[field(descriptor, {1, 0x39})] = 2;
     EXPECT_LT(controls_now().look_rad.x, -0.1);
@@ -194,10 +194,10 @@ TEST(ProfileTest, ALeftHandHasTheOtherSideOfAPad)
         }
     EXPECT_EQ(does(left, {1, 50}, 255).turn, glm::dvec3(0, -1, 0));
     EXPECT_EQ(does(left, {1, 53}, 255).turn, glm::dvec3(1, 0, 0)) << "pulled back, the nose goes up";
-    EXPECT_TRUE(does(right, {9, 5}, 1).look_ahead);
-    EXPECT_TRUE(does(left, {9, 6}, 1).look_ahead);
-    EXPECT_TRUE(does(left, {9, 5}, 1).aberration);
-    EXPECT_TRUE(does(left, {9, 2}, 1).stop) << "the other buttons stay";
+    EXPECT_TRUE(does(right, {9, 5}, 1)[Switch::look_ahead]);
+    EXPECT_TRUE(does(left, {9, 6}, 1)[Switch::look_ahead]);
+    EXPECT_TRUE(does(left, {9, 5}, 1)[Switch::aberration]);
+    EXPECT_TRUE(does(left, {9, 2}, 1)[Switch::stop]) << "the other buttons stay";
     EXPECT_TRUE(does(left, {9, 2}, 1).held);
     EXPECT_FALSE(does(left, {9, 2}, 0).held);
     const Profile again = left_handed(left);
@@ -295,7 +295,7 @@ TEST(ProfileTest, WrittenProfilesReadBackTheSame)
     full.vendor = 0x044f, full.product = 0xfffe, full.serial = "A/1 2";
     full.axes = {{2, 0xbb, 3, AxisRole::throttle, true, 0.123, 2.5, std::array{4294967295.0, 0.5, -2147483648.0}, {0.1, 1}},
         {1, 0x30, 0, AxisRole::none, false, 0, 1, std::array{-0.25, 1.0 / 3, 1e9}}};
-    full.buttons = {{128, HeldRole::darker}, {1, ButtonRole::none}};
+    full.buttons = {{128, HeldRole::darker}, {1, ButtonRole()}};
     full.mirrored_buttons = {{1, 128}, {7, 8}};
     full.hat.y = AxisRole::push_back;
     all.push_back(full);

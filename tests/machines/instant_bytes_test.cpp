@@ -30,7 +30,7 @@ SharedInstant full()
         .instant = {}};
     Instant& now = shared.instant;
     now.shot = {"gamow", 1.25, {1, 2, 3}, {0.1, -7, 1e5}, {0.5, 0.5, -0.5, 0.5},
-        {false, false, false, Comparison::galilean, true}, -2.5};
+        {{Effect::false_colours}, Comparison::galilean}, -2.5};
     now.head = {{0.1, 0.2, -0.3}, {0.6, 0, 0.8, 0}};
     RangeCurve& curve = now.range.emplace();
     for (std::size_t i = 0; i < curve.shown.size(); ++i)
@@ -42,8 +42,8 @@ SharedInstant full()
     Written& hud = now.hud.emplace();
     hud.number = 12345678901;
     Readings& shown = hud.readings;
-    shown = {0.25, 4, 7.8, 0.3, 10, 40, 1e9, 299792458, 59.9, {true, false, true, Comparison::no_light_delay, false},
-        FlightMode::newtonian, true, 1.5, true};
+    shown = {0.25, 4, 7.8, 0.3, 10, 40, 1e9, 299792458, 59.9,
+        {{Effect::aberration, Effect::headlight}, Comparison::no_light_delay}, FlightMode::newtonian, true, 1.5, true};
     shown.range = {20, 8}, shown.lever = 0.3, shown.prompt = "Schieben Sie den Hebel vor";
     shown.caption = Caption{"Wohin zuerst?", {"Sonne", "Mond"}, 1, 0, "noch 5 s", true, true};
     shown.notice = "kein Kopf", shown.information = Information::visitor;

@@ -6,7 +6,8 @@
 namespace starbow::testing {
 
 /// Hands of chance: they press every switch and every step of the controls, and move every number of them, from still to as
-/// fast as they can. What a new control does, the lists of input/switches.h say, and these hands use it without being told.
+/// fast as they can. What a new control does, the lists of config/model/switches.h and input/channels.h say, and these hands
+/// use it without being told.
 class ChanceHands {
 public:
     explicit ChanceHands(unsigned int seed)
