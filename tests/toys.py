@@ -139,7 +139,7 @@ private:
             "            [&](const Mercator& mercator) -> Rays { return MercatorRays(mercator, size); },\n"),
         "displays/check/floor_plan_table.cpp": before("std::string words(const Cylinder& cylinder)",
             'std::string words(const Mercator& mercator) { return "Mercator, " + degrees(mercator.width_deg) + " across"; }\n\n'),
-        "tests/displays/picture_test.cpp": before('        {"part of a cylinder",', '        {"mercator", {Mercator{}, {800, 600}}},\n'),
+        "tests/displays/picture_test.cpp": before('        {"part of a cylinder",', '        {"mercator", {Mercator{}, {800, 600}}, 1e-6 + step2(180, 800)},\n'),
     }, "PictureTest.*:Adjust.*:DescribeTest.*:SchemaTest.*:LayoutTest.*"),
     "format": ({
         "displays/warp/toy.cpp": whole("""#include "parts.h"
