@@ -89,8 +89,9 @@ TEST(Toy, AnEffectIsSwitchedByItsCommand)
 """),
     }, "Toy.*:CalmTest.*:Presence*:Words.*:Docs.*:Presenter.*:Describe*"),
     "projection": ({
-        "config/model/layout.h": before("using Projection = std::variant<",
-            "/// A toy: elevation by Mercator's law.\nstruct Mercator {\n    double width_deg = 180;\n};\n"),
+        "config/model/layout.h": all_of(
+            before("using Projection = std::variant<", "/// A toy: elevation by Mercator's law.\nstruct Mercator {\n    double width_deg = 180;\n};\n"),
+            instead("SphericalMirror, Lens>;", "SphericalMirror, Lens, Mercator>;")),
         "config/model/describe_layout.h": after("static_assert(is_complete<Cylinder>());\n", """template <>
 inline constexpr auto description<Mercator> = describe<Mercator>("mercator", "A toy: a map by Mercator's law.",
     field("width_deg", Number{{1, 360}, 1, "width"}, "The angle across the picture, degrees.", &Mercator::width_deg));
@@ -277,22 +278,30 @@ def main():
             print(f"{name}: {len(files)} files\n  " + "\n  ".join(files))
         return 0
     folder = pathlib.Path(arguments.copy or tempfile.mkdtemp()).resolve()
+    changed = {file for files, _ in TOYS.values() for file in files}
+    head = subprocess.check_output(["git", "rev-parse", "HEAD"], cwd=root, text=True).strip()
     if not (folder / ".git").exists():
-        subprocess.run(["git", "worktree", "add", "--detach", "--quiet", str(folder), "HEAD"], cwd=root, check=True)
-    else:
-        subprocess.run(["git", "checkout", "--quiet", "--force", "--detach", subprocess.check_output(["git", "rev-parse", "HEAD"], cwd=root, text=True).strip()],
-                       cwd=folder, check=True)
+        subprocess.run(["git", "worktree", "add", "--detach", "--quiet", str(folder), head], cwd=root, check=True)
+    else:  # files that stay as they are keep their times, and need no building
+        subprocess.run(["git", "reset", "--quiet", head], cwd=folder, check=True)
+        subprocess.run(["git", "checkout", "--force", "--", ".", *(":!" + file for file in changed)], cwd=folder, check=True)
     failed = False
     try:
+        texts = {}
         for name, (files, _) in TOYS.items():
             for file, change in files.items():
-                path = folder / file
-                old = path.read_text() if path.exists() else ""
+                if file not in texts:
+                    found = subprocess.run(["git", "show", f"{head}:{file}"], cwd=root, capture_output=True, text=True)
+                    texts[file] = found.stdout if found.returncode == 0 else ""
                 try:
-                    path.write_text(change(old))
+                    texts[file] = change(texts[file])
                 except LookupError as error:
                     print(f"{name}: {file}: {error}; mend the list in tests/toys.py", file=sys.stderr)
                     failed = True
+        for file, text in texts.items():
+            path = folder / file
+            if not path.exists() or path.read_text() != text:
+                path.write_text(text)
         if failed:
             return 1
         build = folder / "build/toys"
