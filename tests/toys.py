@@ -50,6 +50,8 @@ def whole(content):
     return lambda old: content
 
 
+TEXTS = {}  # the changed files' texts by now
+
 # Name; files with their changes; tests that know the toy (of starbow_test), and shell commands in the copy.
 TOYS = {
     "effect": ({
@@ -67,6 +69,7 @@ TOYS = {
         "shaders/received_light.glsl": after("    if (HEADLIGHT)\n        light *= headlight(D);\n", "    if (DUSK)\n        light *= 0.5;\n"),
         "runtime/render/view_constants.cpp": instead("&WarpVariant::headlight, nullptr}", "&WarpVariant::headlight, nullptr, &WarpVariant::dusk}"),
         "runtime/reference/eye.cpp": before("    out.light = ray.light + ray.left * out.light;\n", "    if (effects[Effect::dusk])\n        out.light *= 0.5;\n"),
+        "tests/input/calm_test.cpp": instead('"menu", "full_screen", "freeze"};', '"menu", "full_screen", "freeze", "dusk"};'),
         "docs/flying.md": after("| button 7 | back | H | head-up display |\n", "| | | J | half of the light |\n"),
         "docs/sticks.md": instead("`headlight`, `false-colours`,", "`headlight`, `false-colours`, `dusk`,"),
         "tests/reference/toy_test.cpp": whole("""// A toy effect: half of the light, by rays.
@@ -120,9 +123,10 @@ public:
     }
     std::optional<glm::dvec2> pixel(const glm::dvec3& d) const
     {
-        if (std::abs(d.y) >= 1)
+        const double up = d.y / glm::length(d);
+        if (std::abs(up) >= 1)
             return {};
-        return middle_ + glm::dvec2(std::atan2(d.x, -d.z), -std::atanh(d.y)) / step_;
+        return middle_ + glm::dvec2(std::atan2(d.x, -d.z), -std::atanh(up)) / step_;
     }
     double pixel_angle(glm::dvec2 pixel) const { return step_ / std::cosh((middle_.y - pixel.y) * step_); }
 
@@ -141,6 +145,9 @@ private:
         "displays/check/floor_plan_table.cpp": before("std::string words(const Cylinder& cylinder)",
             'std::string words(const Mercator& mercator) { return "Mercator, " + degrees(mercator.width_deg) + " across"; }\n\n'),
         "tests/displays/picture_test.cpp": before('        {"part of a cylinder",', '        {"mercator", {Mercator{}, {800, 600}}, 1e-6 + step2(180, 800)},\n'),
+        "tests/config/schema_test.cpp": before("        {cylinder, projection_at, \"/definitions/cylinder\"},\n",
+            "        {around(R\"({ \"type\": \"mercator\" })\"), projection_at, \"/definitions/mercator\"},\n"),
+        "docs/displays.md": after("| another program that wants a cube map | | `cube`", ", `mercator`"),
     }, "PictureTest.*:Adjust.*:DescribeTest.*:SchemaTest.*:LayoutTest.*"),
     "format": ({
         "displays/warp/toy.cpp": whole("""#include "parts.h"
@@ -212,6 +219,7 @@ struct FlatSpectrum {
 
 """),
         "tests/world/world_material_test.cpp": lambda old: old.replace('\\"line_nm\\", \\"table\\"', '\\"line_nm\\", \\"table\\", \\"flat_to_nm\\"'),
+        "docs/scenes.md": before("| `spectrum` | a table:", "| `flat_to_nm` | a toy | nm | |\n"),
     }, "SpectrumTest.*:SceneFile*:WorldMaterial*:SchemaTest.*"),
     "command": ({
         "input/command.h": after("    range, ///< on: everything visible at once; off: one exposure\n", "    toy, ///< on: nothing happens\n"),
@@ -228,7 +236,7 @@ struct FlatSpectrum {
         "docs/remote.md": after("starbow tell range on                                 # everything visible at once\n", "starbow tell toy on                                   # nothing\n"),
     }, "Words.*:Presenter.*"),
     "language": ({
-        "config/words/eo.json": lambda old: (root / "config/words/en.json").read_text().replace('"decimal_sign": "."', '"decimal_sign": ","'),
+        "config/words/eo.json": lambda old: TEXTS["config/words/en.json"].replace('"decimal_sign": "."', '"decimal_sign": ","'),
     }, "Words.*:TourFile*"),
     "subcommand": ({
         "runtime/commands/toy.cpp": whole("""#include "commands.h"
@@ -287,7 +295,7 @@ def main():
         subprocess.run(["git", "checkout", "--force", "--", ".", *(":!" + file for file in changed)], cwd=folder, check=True)
     failed = False
     try:
-        texts = {}
+        texts = TEXTS
         for name, (files, _) in TOYS.items():
             for file, change in files.items():
                 if file not in texts:
@@ -308,7 +316,7 @@ def main():
         print("builds the copy with all toys", flush=True)
         subprocess.run(["cmake", "-S", folder, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON"],
                        check=True, stdout=subprocess.DEVNULL)
-        subprocess.run(["ninja", "-C", build, "starbow_test", "starbow"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["ninja", "-C", build, "starbow_test", "starbow", "starbow-tools"], check=True, stdout=subprocess.DEVNULL)
         for name, (files, tests) in TOYS.items():
             passed = subprocess.run([build / "starbow_test", "--gtest_brief=1", "--gtest_filter=" + tests], cwd=folder).returncode == 0
             failed |= not passed
