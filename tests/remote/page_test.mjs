@@ -199,7 +199,7 @@ async function testCommands(browser) {
     await page.waitForFunction(() => !document.getElementById("caption-clear").disabled);
     await page.fill("#caption", "x".repeat(500));
     await page.click("#caption-show");
-    await page.waitForFunction(() => document.getElementById("said").textContent.includes("is refused"));
+    await page.waitForFunction(() => document.getElementById("said").textContent.includes(" refused: "));
     await page.click('[data-do="reset"]');
     await shows("scene", "Avenue");
     const bright = await page.evaluate(() => {
@@ -259,9 +259,9 @@ async function testReconnection(browser) {
     const { context, page } = await open(browser, sizes[0], "en-GB");
     await logIn(page, "docent");
     await stopStage();
-    await page.waitForFunction(() => document.getElementById("link").textContent.includes("comes back"));
+    await page.waitForFunction(() => document.getElementById("link").textContent.includes("reconnecting"));
     await page.click('[data-do="stop"]');
-    check((await page.textContent("#said")).includes("no connection"), "a press without a connection is not lost in silence");
+    check((await page.textContent("#said")).includes("No connection"), "a press without a connection is not lost in silence");
     await page.waitForTimeout(3000);
     await startStage();
     await page.waitForFunction(() => document.getElementById("link").textContent === "Connected", undefined, { timeout: 16000 });
