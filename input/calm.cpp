@@ -55,10 +55,9 @@ void CalmHands::hold_leaps(Controls& controls, bool by_steps)
 {
     constexpr double nearly_at_rest = 0.5; // a ship that turns by steps rests there
     const bool steps = by_steps && glm::length(controls.turn) > nearly_at_rest;
-    bool any = steps;
     Switches& waiting = waiting_;
     waiting = ((waiting ^ controls) & toggles) | ((waiting | controls) & (leaps - toggles));
-    any |= waiting.any();
+    bool any = steps || waiting.any();
     for (const auto step : all_steps) {
         waiting_.*step += controls.*step;
         any |= waiting_.*step != 0;

@@ -30,14 +30,7 @@ constexpr std::array kinds{CommandRule{fade, "fade", Role::docent, Value::on},
     CommandRule{quality, "quality", Role::engineer, Value::name}, CommandRule{unlock, "unlock", Role::engineer, Value::none},
     CommandRule{restart, "restart", Role::engineer, Value::none}};
 
-constexpr bool in_order()
-{
-    for (std::size_t i = 0; i < kinds.size(); ++i)
-        if (std::size_t(kinds[i].kind) != i)
-            return false;
-    return kinds.size() == std::size_t(effect);
-}
-static_assert(in_order());
+static_assert(has_each_in_order(kinds, &CommandRule::kind, effect));
 
 /// The shortest digits that mean this number.
 std::string digits_of(double number)

@@ -25,7 +25,7 @@ struct Scan {
     std::size_t page = 0, passed = 0; ///< in a menu: its page, counted from 1, and the items that went by; 0: in no menu
 };
 
-/// The hands that a one button stands for.
+/// The controls of a frame of one-button flying.
 struct ScannedHands : Steering, Switches { };
 
 /// A button that is held longer than that, ns, acts no more: it is stuck.

@@ -9,10 +9,9 @@ namespace starbow {
 // A struct that a file can hold is described once: a name, a form, a meaning and its members for each value of the file. Its
 // reader, its writer and its JSON schema follow from that. A form is how one value stands in a file. It has
 //
-// - read(const Place&, const Folder&), which returns the value, or throws InputError for a wrong one. The form of a value
-// that
-//   sets several members has read_into(const Place&, Owner&, const Folder&) instead. The form of a value that `check` reads
-//   has neither.
+// - read(const Place&, const Folder&), which returns the value, or throws InputError for a wrong one. A form that sets
+//   several members has read_into(const Place&, Owner&, const Folder&) instead. The form of a value that `check` reads has
+//   neither.
 // - written(const Value&), the value as the file has it. A kind of file that is only read does not need it.
 // - schema(Json& definitions), the JSON schema of the value without its meaning and its default.
 //

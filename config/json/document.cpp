@@ -1,3 +1,4 @@
+#include "file_name.h"
 #include "reader.h"
 #include "whole_file.h"
 #include <algorithm>
@@ -19,8 +20,7 @@ constexpr std::array<std::pair<std::string_view, const char*>, 10> models{
 
 std::string contents(const std::filesystem::path& path, const std::string& file)
 {
-    std::string ending = path.extension().string();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string ending = ending_of(path);
     std::error_code error;
     for (const auto& [model, name] : models)
         if (ending == model && std::filesystem::is_regular_file(path, error))

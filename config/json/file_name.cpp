@@ -3,6 +3,7 @@
 #include "error.h"
 #include "reader.h"
 #include <algorithm>
+#include <cctype>
 #include <utf8proc.h>
 #include <vector>
 
@@ -85,6 +86,13 @@ std::string nearest_names(const std::filesystem::path& file)
     return list.empty()
         ? ""
         : (near.size() > 1 ? ", and the nearest names there are " : ", and the nearest name there is ") + list;
+}
+
+std::string ending_of(const std::filesystem::path& file)
+{
+    std::string ending = file.extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return ending;
 }
 
 } // namespace starbow

@@ -12,4 +12,7 @@ std::filesystem::path as_stored(const std::filesystem::path& file);
 /// where nothing in its folder has a name like it.
 std::string nearest_names(const std::filesystem::path& file);
 
+/// The end of a file's name in small letters, with its dot: ".glb" of "Hall.GLB".
+std::string ending_of(const std::filesystem::path& file);
+
 } // namespace starbow

@@ -32,11 +32,11 @@ inline Shot beside(Shot shot, Beside beside, double start_ev)
         shot.ship_from_cockpit = towards_flight(shot);
         return shot;
     }
-    shot.effects = {.on = {}};
-    if (beside == Beside::aberration || beside == Beside::doppler || beside == Beside::headlight)
-        shot.effects.on.set(beside == Beside::aberration ? Effect::aberration
-                : beside == Beside::doppler              ? Effect::doppler
-                                                         : Effect::headlight);
+    EffectSet alone;
+    alone.set(Effect::aberration, beside == Beside::aberration);
+    alone.set(Effect::doppler, beside == Beside::doppler);
+    alone.set(Effect::headlight, beside == Beside::headlight);
+    shot.effects = {.on = alone};
     if (beside == Beside::at_rest) {
         shot.effects = {};
         shot.u = glm::dvec3(0);

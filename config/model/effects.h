@@ -36,14 +36,7 @@ inline constexpr std::array all_effects{
     EffectEntry{Effect::false_colours, "false_colours", Switch::false_colours, false, 'F',
         "true: infrared is shown as red, the visible as green, ultraviolet as blue."},
 };
-consteval bool each_effect_once()
-{
-    for (std::size_t i = 0; i < all_effects.size(); ++i)
-        if (std::size_t(all_effects[i].which) != i || all_effects[i].name.empty() || all_effects[i].letter == 0)
-            return false;
-    return all_effects.size() == std::size_t(Effect::count);
-}
-static_assert(each_effect_once(), "a new effect belongs in the list above");
+static_assert(has_each_in_order(all_effects, &EffectEntry::which, Effect::count), "a new effect belongs in the list above");
 
 constexpr const EffectEntry& entry_of(Effect which) { return all_effects[std::size_t(which)]; }
 inline constexpr EffectSet usual_effects = [] {

@@ -39,4 +39,14 @@ private:
     std::uint64_t bits_ = 0;
 };
 
+/// True if a table has a row for each of an enum's first `count` values, in their order. which: the row's value.
+template <class Table, class Row, class Enum>
+consteval bool has_each_in_order(const Table& table, Enum Row::*which, Enum count)
+{
+    for (std::size_t i = 0; i < table.size(); ++i)
+        if (std::size_t(table[i].*which) != i)
+            return false;
+    return table.size() == std::size_t(count);
+}
+
 } // namespace starbow

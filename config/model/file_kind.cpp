@@ -1,4 +1,5 @@
 #include "file_kind.h"
+#include "config/json/file_name.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include <array>
@@ -14,14 +15,6 @@ struct KindName {
 constexpr std::array<KindName, 8> kinds{{{"a glTF world", "run --scene "}, {"a scene", "run --scene "},
     {"a layout", "run --layout "}, {"a tour", "run --tour "}, {"a shot", "run --shot "}, {"an exhibit", "run --exhibit "},
     {"a quality", "run --quality "}, {"a language's words", "run --language "}}};
-
-std::string ending(const std::filesystem::path& file)
-{
-    std::string text = file.extension().string();
-    for (char& c : text)
-        c = char(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
 
 std::optional<FileKind> kind_of(const nlohmann::json& root)
 {
@@ -54,7 +47,7 @@ std::optional<FileKind> kind_of(const nlohmann::json& root)
 
 std::optional<FileKind> kind_of_file(const std::filesystem::path& path)
 {
-    const bool named_gltf = ending(path) == ".gltf" || ending(path) == ".glb";
+    const bool named_gltf = ending_of(path) == ".gltf" || ending_of(path) == ".glb";
     const std::optional<FileKind> by_name = named_gltf ? std::optional(FileKind::gltf) : std::nullopt;
     RegularFile file(path);
     std::string begin(4, '\0');

@@ -25,7 +25,7 @@ enum class AxisRole {
     push_up,
     push_back
 };
-/// What a button does while it is held.
+/// The rate that a button gives while it is held.
 enum class HeldRole : std::uint8_t { faster, slower, brighter, darker };
 /// The role of a button: none, a switch that it presses, or a rate while it is held.
 using ButtonRole = std::variant<std::monostate, Switch, HeldRole>;

@@ -1,5 +1,6 @@
 #pragma once
 #include "enum_set.h"
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -8,7 +9,7 @@
 
 namespace starbow {
 
-/// What people press: true in the one frame in which it is pressed. In the order of records.
+/// A switch of a visitor, a guide or a builder: true in the one frame in which it is pressed. In the order of records.
 enum class Switch : std::uint8_t {
     look_ahead,
     stop,
@@ -42,15 +43,15 @@ enum class Switch : std::uint8_t {
 };
 using Switches = EnumSet<Switch>;
 
-/// What a press does to the picture. A calm exhibit holds back every press that changes it at once (input/calm.h). No value
-/// is 0, so that no row can leave it out.
+/// The change of the picture by a press. A calm exhibit holds back every press that changes it at once (input/calm.h). No
+/// value is 0, so that no row can leave it out.
 enum class Leap : std::uint8_t {
     none = 1, ///< nothing at once, or some words: letters alone are too small an area to flash
     press, ///< it changes at once; a second press adds nothing while the first one waits
     toggle, ///< it changes at once; a second press undoes the first
 };
 
-/// Who presses it. No value is 0, so that no row can leave it out.
+/// The person who presses it. No value is 0, so that no row can leave it out.
 enum class Presser : std::uint8_t {
     pilot = 1, ///< a visitor who flies: neither while a menu is open nor while a docent holds the exhibit
     visitor, ///< not while a docent holds the exhibit
@@ -81,7 +82,7 @@ enum class PadButton : std::int8_t {
     right_stick
 };
 
-/// A switch: its key, and whatever else depends on which switch it is.
+/// The properties of a switch.
 struct SwitchEntry {
     Switch which;
     std::string_view name; ///< in records; a button's role has - for _
@@ -145,18 +146,12 @@ inline constexpr std::array all_switches{
     SwitchEntry{Switch::save, "save", Leap::none, Presser::builder, "for builders: save the changes in the layout's file",
         {keys::f5}},
 };
-/// In the enum's order, and whole.
-consteval bool each_switch_once()
-{
-    for (std::size_t i = 0; i < all_switches.size(); ++i) {
-        const SwitchEntry& one = all_switches[i];
-        if (std::size_t(one.which) != i || one.name.empty() || one.leap == Leap{} || one.by == Presser{}
-            || one.help.empty() != (one.keys[0] == keys::none))
-            return false;
-    }
-    return all_switches.size() == std::size_t(Switch::count);
-}
-static_assert(each_switch_once(), "a new switch belongs in the list above");
+static_assert(has_each_in_order(all_switches, &SwitchEntry::which, Switch::count), "a new switch belongs in the list above");
+static_assert(std::ranges::all_of(all_switches,
+                  [](const SwitchEntry& one) {
+                      return one.leap != Leap{} && one.by != Presser{} && one.help.empty() == (one.keys[0] == keys::none);
+                  }),
+    "a switch says its leap and who presses it, and one with a key has help");
 
 constexpr const SwitchEntry& entry_of(Switch which) { return all_switches[std::size_t(which)]; }
 /// The switches of which something is true.

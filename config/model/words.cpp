@@ -1,8 +1,6 @@
 #include "words.h"
 #include "config/json/reader.h"
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 namespace starbow {
 namespace {

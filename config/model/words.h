@@ -10,7 +10,7 @@
 
 namespace starbow {
 
-/// A text of the program, with the names in { } that it needs, parted by spaces.
+/// A text of the program, with the names in { } that it needs, separated by spaces.
 struct KnownText {
     std::string_view key, placeholders;
     constexpr auto operator<=>(const KnownText&) const = default;
@@ -29,7 +29,7 @@ public:
         : Key("", name)
     {
     }
-    /// Of the text whose name has two parts.
+    /// The key of a prefix and a name, as of "hud." and "speed".
     consteval Key(std::string_view prefix, std::string_view name)
     {
         for (const KnownText& one : known_texts)
@@ -45,7 +45,7 @@ public:
 private:
     const KnownText* text_ = nullptr;
 };
-/// The same where the compiler does not expect one, as on one side of a condition.
+/// A key in an expression, as on one side of a condition.
 consteval Key operator""_key(const char* name, std::size_t) { return Key(name); }
 /// The texts of several names, such as those of an enum's values: keys_of("beside.", beside_names).
 template <class Name, std::size_t count>

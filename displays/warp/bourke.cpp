@@ -65,10 +65,8 @@ static WarpMesh read_bourke(const WarpFile& file, std::optional<double> wanted)
     return mesh;
 }
 
-extern const WarpFormat bourke_format;
-const WarpFormat bourke_format{.name = "Bourke mesh",
+extern const WarpFormat bourke_format{.name = "Bourke mesh",
     .endings = {".data", ".map"},
-    .begins = nullptr,
     .read = [](const WarpFile& file, const WarpReading& reading) { return read_bourke(file, reading.aspect); },
     .seems = [](const WarpStart& start) { return start.line == "2"; },
     .has_aspect = true};

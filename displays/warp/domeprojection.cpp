@@ -87,8 +87,7 @@ WarpFrustum read_frustum(const WarpFile& file)
     return frustum;
 }
 
-extern const WarpFormat domeprojection_format;
-const WarpFormat domeprojection_format{.name = "domeprojection",
+extern const WarpFormat domeprojection_format{.name = "domeprojection",
     .endings = {".csv"},
     .begins = [](const WarpStart& start) { return start.line.starts_with("x;y;"); },
     .read = [](const WarpFile& file, const WarpReading&) { return read_domeprojection(file); }};

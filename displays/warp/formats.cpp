@@ -1,6 +1,6 @@
+#include "config/json/file_name.h"
 #include "parts.h"
 #include <algorithm>
-#include <cctype>
 
 namespace starbow {
 
@@ -30,8 +30,7 @@ WarpStart start_of(std::string_view bytes)
 const WarpFormat* format_of(const WarpFile& file)
 {
     const WarpStart start = start_of(file.content);
-    std::string extension = std::filesystem::path(file.name).extension();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string ending = ending_of(file.name);
     const auto first = [](auto&& is) -> const WarpFormat* {
         const auto found = std::ranges::find_if(warp_formats(), is);
         return found == warp_formats().end() ? nullptr : *found;
@@ -39,7 +38,7 @@ const WarpFormat* format_of(const WarpFile& file)
     if (const auto* sure = first([&](const WarpFormat* one) { return one->begins && one->begins(start); }))
         return sure;
     if (const auto* named = first([&](const WarpFormat* one) {
-            return !extension.empty() && std::ranges::find(one->endings, extension) != one->endings.end();
+            return !ending.empty() && std::ranges::find(one->endings, ending) != one->endings.end();
         }))
         return named;
     return first([&](const WarpFormat* one) { return one->seems && one->seems(start); });

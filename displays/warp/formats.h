@@ -12,7 +12,7 @@ struct WarpFile {
     std::string_view content;
 };
 
-/// What a layout says about a file's content.
+/// A layout's members about the content of a calibration file.
 struct WarpReading {
     std::string region{}; ///< of MPCDI; empty: the only one
     FloatMapForm form{};
@@ -31,7 +31,7 @@ struct WarpStart {
 struct WarpFormat {
     const char* name; ///< the beginning of WarpMesh::format
     std::array<std::string_view, 2> endings; ///< of files' names; empty: fewer
-    bool (*begins)(const WarpStart&); ///< true if the first bytes say that it is this format; null: they never do
+    bool (*begins)(const WarpStart&) = nullptr; ///< true if the first bytes say that it is this format; null: never
     WarpMesh (*read)(const WarpFile&, const WarpReading&);
     bool (*seems)(const WarpStart&) = nullptr; ///< the same, less surely, where neither bytes nor a name say a format
     bool has_regions = false, has_form = false, has_aspect = false; ///< what a layout may say about it

@@ -40,8 +40,7 @@ static WarpMesh read_headset(const WarpFile& file)
     return mesh;
 }
 
-extern const WarpFormat headset_format;
-const WarpFormat headset_format{.name = "headset mesh",
+extern const WarpFormat headset_format{.name = "headset mesh",
     .endings = {},
     .begins = [](const WarpStart& start) { return start.line.starts_with("starbow headset"); },
     .read = [](const WarpFile& file, const WarpReading&) { return read_headset(file); }};

@@ -335,8 +335,7 @@ static WarpMesh read_mpcdi(const WarpFile& file, const std::string& region, cons
     return mesh_of_mpcdi(file, one_line(candidates[0], 100), xml, contents, region, form);
 }
 
-extern const WarpFormat mpcdi_format;
-const WarpFormat mpcdi_format{.name = "MPCDI",
+extern const WarpFormat mpcdi_format{.name = "MPCDI",
     .endings = {".mpcdi"},
     .begins = [](const WarpStart& start) { return start.bytes.starts_with("PK\x03\x04"); },
     .read = [](const WarpFile& file, const WarpReading& reading) { return read_mpcdi(file, reading.region, reading.form); },

@@ -101,10 +101,8 @@ static WarpMesh read_obj(const WarpFile& file)
     return mesh;
 }
 
-extern const WarpFormat obj_format;
-const WarpFormat obj_format{.name = "OBJ",
+extern const WarpFormat obj_format{.name = "OBJ",
     .endings = {".obj"},
-    .begins = nullptr,
     .read = [](const WarpFile& file, const WarpReading&) { return read_obj(file); },
     .seems = [](const WarpStart& start) { return start.line.starts_with("v ") || start.line.starts_with("#"); }};
 

@@ -220,8 +220,7 @@ WarpMesh read_pfm(const WarpFile& file, const FloatMapForm& form)
     return mesh;
 }
 
-extern const WarpFormat pfm_format;
-const WarpFormat pfm_format{.name = "PFM",
+extern const WarpFormat pfm_format{.name = "PFM",
     .endings = {".pfm"},
     .begins =
         [](const WarpStart& start) {

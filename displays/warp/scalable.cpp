@@ -191,8 +191,7 @@ static WarpMesh read_scalable(const WarpFile& file)
     return mesh;
 }
 
-extern const WarpFormat scalable_format;
-const WarpFormat scalable_format{.name = "Scalable",
+extern const WarpFormat scalable_format{.name = "Scalable",
     .endings = {".ol"},
     .begins = [](const WarpStart& start) { return start.line.starts_with("OPENMESH"); },
     .read = [](const WarpFile& file, const WarpReading&) { return read_scalable(file); }};

@@ -215,8 +215,7 @@ static WarpMesh read_sciss(const WarpFile& file)
     return mesh;
 }
 
-extern const WarpFormat sciss_format;
-const WarpFormat sciss_format{.name = "SCISS",
+extern const WarpFormat sciss_format{.name = "SCISS",
     .endings = {".sgc"},
     .begins = [](const WarpStart& start) { return start.bytes.starts_with("SGC"); },
     .read = [](const WarpFile& file, const WarpReading&) { return read_sciss(file); }};

@@ -69,8 +69,7 @@ static WarpMesh read_simcad(const WarpFile& file)
     return mesh;
 }
 
-extern const WarpFormat simcad_format;
-const WarpFormat simcad_format{.name = "SimCAD",
+extern const WarpFormat simcad_format{.name = "SimCAD",
     .endings = {".simcad"},
     .begins =
         [](const WarpStart& start) {

@@ -76,8 +76,7 @@ static WarpMesh read_skyskan(const WarpFile& file)
     return mesh;
 }
 
-extern const WarpFormat skyskan_format;
-const WarpFormat skyskan_format{.name = "SkySkan",
+extern const WarpFormat skyskan_format{.name = "SkySkan",
     .endings = {".txt"},
     .begins
     = [](const WarpStart& start) { return start.line.starts_with("Dome ") || start.line.starts_with("Horizontal FOV="); },

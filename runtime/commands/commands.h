@@ -9,7 +9,7 @@ class Subcommand;
 using AddCommand = void (*)(Subcommand& app, std::function<int()>& chosen);
 
 /// A subcommand registers itself by a constant in its own file, and belongs to the program into which that file is compiled:
-/// starbow, or starbow-tools, which is built when one of its commands is first asked for, as few people measure.
+/// starbow, or starbow-tools, which is built when one of its commands is first requested, because few people measure.
 struct Registered {
     int place; ///< in --help, counted from 1
     AddCommand add;

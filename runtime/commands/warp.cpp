@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "config/json/file_name.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include "displays/warp/formats.h"
@@ -160,9 +161,7 @@ std::vector<std::string> losses(const WarpMesh& original, const WarpMesh& mesh, 
 
 int convert(const WarpOptions& options)
 {
-    std::string extension = std::filesystem::path(options.out).extension();
-    std::transform(
-        extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string extension = ending_of(options.out);
     if (extension != ".data" && extension != ".map" && extension != ".pfm" && extension != ".csv")
         throw InputError(
             options.out, "", "names no format that can be written; a name that ends in .data, .pfm or .csv is right");

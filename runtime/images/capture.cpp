@@ -1,5 +1,6 @@
 #include "capture.h"
 #include "config/json/error.h"
+#include "config/json/file_name.h"
 #include "config/json/whole_file.h"
 #include "exr_check.h"
 #include <algorithm>
@@ -66,10 +67,7 @@ void check_free(const std::filesystem::path& file, bool force)
 
 void check_ending(const std::filesystem::path& file, const std::string& ending)
 {
-    std::string extension = file.extension();
-    std::transform(
-        extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    if (extension != ending)
+    if (ending_of(file) != ending)
         throw InputError(file.string(), "", "does not end in " + ending + "; a name that does is right");
 }
 

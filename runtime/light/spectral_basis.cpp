@@ -34,8 +34,9 @@ SpectralBasis spectral_basis(
 ColourTable response_table(const SpectralBasis& basis, const StandardObserver& observer, int rows)
 {
     double first = -6, last = 10;
+    std::vector<EmissionLaw> laws;
     for (const Emission& own : basis.own) {
-        const double octaves = law_of(own).octaves;
+        const double octaves = laws.emplace_back(law_of(own)).octaves;
         first = std::min(first, -6 - octaves), last = std::max(last, 10 - octaves);
     }
     first = std::floor(first);
@@ -50,7 +51,7 @@ ColourTable response_table(const SpectralBasis& basis, const StandardObserver& o
                 {of_spectra.row(row), std::size_t(of_spectra.spectra)}, basis.importance, basis.columns, basis.reflected);
         table.seen.insert(table.seen.end(), fitted.begin(), fitted.end());
         const double D = std::exp2(first + double(row) / per_octave);
-        for (const Emission& own : basis.own)
+        for (const EmissionLaw& own : laws)
             table.seen.push_back(seen(observer, own, D));
     }
     return table;

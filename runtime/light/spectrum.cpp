@@ -59,24 +59,22 @@ double logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
 EmissionLaw law(const BlackBody& body)
 {
-    return {.name = "a lamp of " + shown(body.kelvin) + " K",
-        .spectrum = black_body(body.kelvin),
+    return {.spectrum = black_body(body.kelvin),
         .sunlit_part = dilution * std::pow(sun_K / body.kelvin, 4),
         .octaves = std::log2(body.kelvin / sun_K),
         .smooth = true};
 }
-
-constexpr const char* other_lamp = "a lamp with a spectrum";
-
-EmissionLaw law(const SpectralLine& line) { return {.name = other_lamp, .line_nm = line.nm}; }
-
+EmissionLaw law(const SpectralLine& line) { return {.line_nm = line.nm}; }
 EmissionLaw law(const SpectralTable& table)
 {
     // The table is per wavelength, the result per frequency.
     const double scale = dilution * energy(sun_K) / energy(table);
-    return {
-        .name = other_lamp, .spectrum = [table, scale](double nm) { return scale * straight(table.points, nm) * nm * nm; }};
+    return {.spectrum = [table, scale](double nm) { return scale * straight(table.points, nm) * nm * nm; }};
 }
+
+std::string name(const BlackBody& body) { return "a lamp of " + shown(body.kelvin) + " K"; }
+std::string name(const SpectralLine&) { return "a lamp with a spectrum"; }
+std::string name(const SpectralTable&) { return "a lamp with a spectrum"; }
 
 } // namespace
 
@@ -170,18 +168,22 @@ const StandardObserver& false_colours()
 
 glm::dvec3 seen(const StandardObserver& observer, const Spectrum& light, double D) { return sum(observer, light, D); }
 
-glm::dvec3 seen(const StandardObserver& observer, const Emission& emission, double D)
+EmissionLaw law_of(const Emission& emission)
 {
-    const EmissionLaw law = law_of(emission);
+    return std::visit([](const auto& kind) { return law(kind); }, emission);
+}
+
+std::string lamp_name(const Emission& emission)
+{
+    return std::visit([](const auto& kind) { return name(kind); }, emission);
+}
+
+glm::dvec3 seen(const StandardObserver& observer, const EmissionLaw& law, double D)
+{
     // A line's radiance per frequency is a narrow peak, which the shift broadens by D at the same height.
     if (law.is_line())
         return observer.response(law.line_nm / D) * (D * dilution * energy(sun_K));
     return seen(observer, law.spectrum, D);
-}
-
-EmissionLaw law_of(const Emission& emission)
-{
-    return std::visit([](const auto& kind) { return law(kind); }, emission);
 }
 
 glm::dmat3 rec709_from_sunlit_xyz()

@@ -56,12 +56,8 @@ const StandardObserver& false_colours();
 /// applies the headlight effect's D^3. The sum takes every nanometre, for the false colours steps of 1 %.
 glm::dvec3 seen(const StandardObserver& observer, const Spectrum& light, double D);
 
-/// The same for an emission: a black body itself, or a line or a table with the energy of sunlit_white.
-glm::dvec3 seen(const StandardObserver& observer, const Emission& emission, double D);
-
-/// What depends on an emission's kind. A new kind does not compile until it has a law.
+/// The properties of an emission that differ by its kind. A new kind does not compile until it has a law and a name.
 struct EmissionLaw {
-    std::string name; ///< of a lamp with it, for people
     Spectrum spectrum{}; ///< in the unit of seen(); none for a line
     double line_nm = 0; ///< of a line
     double sunlit_part = 1; ///< the amount, in the unit of seen(), that has the energy of sunlit_white
@@ -70,6 +66,12 @@ struct EmissionLaw {
     bool is_line() const { return !spectrum; }
 };
 EmissionLaw law_of(const Emission& emission);
+/// The name of a lamp with this spectrum, for people.
+std::string lamp_name(const Emission& emission);
+
+/// The colour of an emission, as of a spectrum above: of a black body itself, or of a line or a table with the energy of
+/// sunlit_white.
+glm::dvec3 seen(const StandardObserver& observer, const EmissionLaw& law, double D);
 
 /// The eye's XYZ of light that is shifted by D.
 inline glm::dvec3 seen_xyz(const Spectrum& light, double D) { return seen(eye(), light, D); }

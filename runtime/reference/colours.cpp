@@ -77,9 +77,9 @@ Colours::Colours(const World& world, const SceneFile& scene, const StandardObser
 
 std::unique_ptr<ByShift> Colours::emission(const Emission& emission) const
 {
+    const EmissionLaw law = law_of(emission);
     return std::make_unique<ByShift>(
-        1, [this, emission](double D, glm::dvec3* out) { *out = observer_.rec709 * seen(observer_, emission, D); },
-        law_of(emission).smooth);
+        1, [this, law](double D, glm::dvec3* out) { *out = observer_.rec709 * seen(observer_, law, D); }, law.smooth);
 }
 
 /// The number of a surface's reflectances that are summed separately.
@@ -100,12 +100,12 @@ void Colours::sum(const Kind& kind, int material, double D, glm::dvec3* out) con
 {
     // Spectral radiance per frequency: the surface has at a wavelength what the lamp has at D times that, and the eye what
     // the surface has.
-    const EmissionLaw law = kind.light ? law_of(*kind.light) : EmissionLaw{.name = "", .spectrum = sunlit_white()};
+    const EmissionLaw law = kind.light ? law_of(*kind.light) : EmissionLaw{.spectrum = sunlit_white()};
     for (int i = 0; i < parts(material); ++i) {
         const auto reflects = reflectance(material, i);
         if (law.is_line()) {
-            out[i] = observer_.rec709 * seen(observer_, *kind.light, kind.D * D)
-                * (law.sunlit_part * reflects(law.line_nm / kind.D));
+            out[i]
+                = observer_.rec709 * seen(observer_, law, kind.D * D) * (law.sunlit_part * reflects(law.line_nm / kind.D));
             continue;
         }
         const Spectrum reflected = [&](double nm) { return law.sunlit_part * law.spectrum(nm * kind.D) * reflects(nm); };

@@ -118,7 +118,7 @@ std::vector<Emission> own_emissions(const World& world, const SceneFile& scene, 
     return own;
 }
 
-std::string name_of(const std::optional<Emission>& light) { return light ? law_of(*light).name : "sunlight"; }
+std::string name_of(const std::optional<Emission>& light) { return light ? lamp_name(*light) : "sunlight"; }
 
 } // namespace
 

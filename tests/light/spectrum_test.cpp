@@ -264,7 +264,7 @@ TEST(SpectrumTest, ALineIsShiftedAndKeepsItsEnergy)
         glm::dvec3 sum(0);
         for (double nm = 449.505; nm < 450.5; nm += 0.01)
             sum += eye().response(nm / D) * (energy * nm * nm * 0.01 / (nm * nm)) * D; // d nm' / nm'^2 = D d nm / nm^2
-        const glm::dvec3 line = seen(eye(), Emission(SpectralLine{450}), D);
+        const glm::dvec3 line = seen(eye(), law_of(SpectralLine{450}), D);
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(line[c], sum[c], 5e-3 * sum[c] + 1e-9) << D; // the eye's response is curved within the nanometre
     }
@@ -274,8 +274,8 @@ TEST(SpectrumTest, ALineIsShiftedAndKeepsItsEnergy)
     for (double nm = 40; nm <= 12000; nm *= 1.005)
         points.push_back({nm, planck(nm, 5772)});
     for (double D : {0.7, 1.0, 1.3}) {
-        const glm::dvec3 a = seen(eye(), Emission(needle), D), b = seen(eye(), Emission(SpectralLine{450}), D);
-        const glm::dvec3 c = seen(eye(), Emission(SpectralTable{points}), D), d = seen(eye(), sunlit_white(), D);
+        const glm::dvec3 a = seen(eye(), law_of(needle), D), b = seen(eye(), law_of(SpectralLine{450}), D);
+        const glm::dvec3 c = seen(eye(), law_of(SpectralTable{points}), D), d = seen(eye(), sunlit_white(), D);
         EXPECT_LE(glm::distance(a, b), 0.03 * glm::length(b)) << D; // two nanometres are two steps of the sum
         EXPECT_LT(glm::distance(c, d), 0.002 * glm::length(d)) << D; // the table ends at 12 um
     }

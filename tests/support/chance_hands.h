@@ -6,8 +6,7 @@
 namespace starbow::testing {
 
 /// Hands of chance: they press every switch and every step of the controls, and move every number of them, from still to as
-/// fast as they can. What a new control does, the lists of config/model/switches.h and input/channels.h say, and these hands
-/// use it without being told.
+/// fast as they can. The lists of config/model/switches.h and input/channels.h describe a new control for these hands, too.
 class ChanceHands {
 public:
     explicit ChanceHands(unsigned int seed)

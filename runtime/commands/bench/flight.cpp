@@ -43,7 +43,7 @@ std::vector<Manoeuvre> manoeuvres(const Layout& layout)
     all.push_back({"no light delay", 2, 4, 4, effects({.comparison = Comparison::no_light_delay})});
     for (const EffectEntry& one : all_effects)
         if (!one.usual)
-            all.push_back({std::string(one.name), 2, 4, 4, effects(Effects{}.with(one.which))});
+            all.push_back({dashed(one.name), 2, 4, 4, effects(Effects{}.with(one.which))});
     all.push_back({"all on", 2, 4, 4, effects({})});
     for (Overlay which : {Overlay::aim, Overlay::grid, Overlay::ring, Overlay::distance, Overlay::emission})
         all.push_back({"overlay", 2, 4, 4, overlay(which)});
