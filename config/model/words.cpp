@@ -5,6 +5,8 @@
 namespace starbow {
 namespace {
 
+static_assert(std::ranges::is_sorted(known_texts), "Key looks them up by halves");
+
 /// The prefix of the tours' keys, which the tours define.
 constexpr std::string_view of_tours = "tour.";
 /// The prefix of the goals' keys, which the scenes define.

@@ -19,7 +19,6 @@ struct KnownText {
 inline constexpr KnownText known_texts[] = {
 #include <known_texts.inc>
 };
-static_assert(std::ranges::is_sorted(known_texts));
 
 /// The key of a text that exists: another one does not compile.
 class Key {
@@ -32,10 +31,11 @@ public:
     /// The key of a prefix and a name, as of "hud." and "speed".
     consteval Key(std::string_view prefix, std::string_view name)
     {
-        for (const KnownText& one : known_texts)
-            if (one.key.size() == prefix.size() + name.size() && one.key.starts_with(prefix) && one.key.ends_with(name))
-                text_ = &one;
-        if (!text_)
+        text_ = std::ranges::partition_point(known_texts, [&](const KnownText& one) {
+            const std::string_view begin = one.key.substr(0, prefix.size());
+            return begin != prefix ? begin < prefix : one.key.substr(prefix.size()) < name;
+        });
+        if (text_ == std::end(known_texts) || !text_->key.starts_with(prefix) || text_->key.substr(prefix.size()) != name)
             throw "config/words/en.json has no text with this key";
     }
     constexpr std::string_view name() const { return text_ ? text_->key : std::string_view(); }

@@ -243,11 +243,14 @@ begins_with '--record excludes --tour' run --tour rainbow --record "$folder/tour
 begins_with 'There is no none.json in config/tours' run --tour none
 begins_with 'There is no xx.json in config/words; there are: de, en' run --tour rainbow --language xx
 
-# Every subcommand's help ends with an example, and the page of commands has its row.
+# Every subcommand's help ends with an example, and the page of commands has its row. The help of starbow-tools' commands is
+# tools_test.sh's: the quick form builds starbow alone.
 commands=$("$program" --help | sed -n 's/^  \([a-z]\+\)  .*/\1/p')
 [ "$(echo "$commands" | wc -l)" -ge 17 ] || fail "only these subcommands are found in --help: $commands"
 for command in $commands; do
-    if "$program" "$command" --help | grep -q "starbow $command"; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
+    case $command in bench | measure | soak) ;; *)
+        if "$program" "$command" --help | grep -q "starbow $command"; then passed=$((passed + 1)); else fail "$command --help has no example"; fi ;;
+    esac
     if grep -q "^| \`$command\` |" "$(dirname "$0")/../../docs/commands.md"; then passed=$((passed + 1)); else fail "docs/commands.md has no row for $command"; fi
 done
 
