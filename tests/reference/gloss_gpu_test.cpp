@@ -130,7 +130,8 @@ TEST(Gloss, EqualsTheReferenceUnderASunAndASky)
     compare({"balls", balls(false), {{"lights", {sun}}, {"sky", sky}}, {}, {}, 0.01, 38});
     compare({"balls at gamma 2", balls(false), {{"lights", {sun}}, {"sky", sky}}, {0.3, 0.2, -1.7}, {}, 0.02, 33});
     compare({"balls in the dark", balls(false), {{"lights", {sun}}}, {}, {}, 0.01, 33});
-    compare({"without Doppler", balls(true), {{"lights", {sun}}, {"sky", sky}}, {0, 0, -1}, {true, false, false}, 0.02, 33});
+    compare({"without Doppler", balls(true), {{"lights", {sun}}, {"sky", sky}}, {0, 0, -1}, effects_of(true, false, false),
+        0.02, 33});
 }
 
 TEST(Gloss, MapsEqualTheReference)

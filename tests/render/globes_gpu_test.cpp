@@ -371,11 +371,12 @@ TEST(Globes, LightIsThatOfTheRaysWithOtherEffects)
         const char* name;
         Effects effects;
     };
-    Effects galilean{true, true, true}, now{true, true, true}, false_colours{true, true, true};
+    Effects galilean, now, false_colours;
     galilean.comparison = Comparison::galilean, now.comparison = Comparison::no_light_delay,
     false_colours.on.set(Effect::false_colours);
     for (const Case& one : {Case{"galilean", galilean}, {"without light delay", now}, {"in false colours", false_colours},
-             {"without aberration", {false, true, true}}, {"without headlight effect", {true, true, false}}}) {
+             {"without aberration", Effects().without(Effect::aberration)},
+             {"without headlight effect", Effects().without(Effect::headlight)}}) {
         const std::string name = std::string("Jupiter at 0.5 c ") + one.name;
         Taken taken = shot_of(*subject, speeds[1]);
         taken.shot.effects = one.effects;

@@ -135,9 +135,9 @@ TEST(Lab, EveryMeasurementGivesTheTheorysValue)
         const GpuWorld& world = contexts[shot.scene]->world;
         Shot pressed = shot;
         for (char key : row.cells[2]) {
-            pressed.effects[Effect::aberration] ^= key == '1';
-            pressed.effects[Effect::doppler] ^= key == '2';
-            pressed.effects[Effect::headlight] ^= key == '3';
+            pressed.effects.on.set(Effect::aberration, pressed.effects[Effect::aberration] != (key == '1'));
+            pressed.effects.on.set(Effect::doppler, pressed.effects[Effect::doppler] != (key == '2'));
+            pressed.effects.on.set(Effect::headlight, pressed.effects[Effect::headlight] != (key == '3'));
         }
         const std::vector<Point> points = parse_points(row.cells[3], desk);
         for (const auto& [right, up] : {std::pair(0.0, 0.0), std::pair(0.1, 0.06), std::pair(-0.08, -0.1)}) {

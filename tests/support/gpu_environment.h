@@ -2,6 +2,7 @@
 // Shared by all tests that need a GPU: one device with the validation layers on for the whole run, worlds on it, and the
 // channels of pictures by name.
 #include "config/model/one_view.h"
+#include "effects.h"
 #include "files.h"
 #include "runtime/render/offscreen.h"
 #include "runtime/render/render_context.h"
@@ -44,7 +45,7 @@ Quality test_quality();
 
 OffscreenRenderer renderer(const GpuWorld& world, const Layout& layout, bool measured = true);
 
-using starbow::testing::shot_at, starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
+using starbow::testing::effects_of, starbow::testing::shot_at, starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
 
 /// One output's EXR channels by name.
 struct Numbers {
