@@ -44,13 +44,14 @@ float reached_from_afar(ShadowEntry map, vec3 place, vec3 above)
     float area = x.x * y.y - x.y * y.x;
     vec2 slope = vec2(x.z * y.y - y.z * x.y, y.z * x.x - x.z * y.x) / (abs(area) > 0.0 ? area : 1e-30);
     slope = clamp(slope, vec2(-map.map.z), vec2(map.map.z));
-    float half_ = 0.5 / map.map.y;
-    bool fine = all(lessThan(abs(at.xy - half_), vec2(half_ - 2.0)));
+    // The outer two texels are for the look-ups of places further in: nothing that hides light lies there.
+    float half_ = 0.5 / map.map.y, inside = half_ - 2.0;
+    bool fine = all(lessThan(abs(at.xy - half_), vec2(inside)));
     vec4 scale = fine ? vec4(1.0, 1.0, 0.0, 0.0) : map.coarse;
     vec2 texel = at.xy * scale.xy + scale.zw;
     slope /= scale.xy;
     float lit = reached_smoothly(map, texel, map.map.x + (fine ? 0.0 : 1.0), at.z, slope);
-    return all(lessThan(abs(texel - half_), vec2(half_))) ? lit : 1.0;
+    return all(lessThan(abs(texel - half_), vec2(inside))) ? lit : 1.0;
 }
 
 // The direction of a place on a face of the cube around a point light.
