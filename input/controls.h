@@ -1,5 +1,4 @@
 #pragma once
-#include "command.h"
 #include "config/model/switches.h"
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -46,12 +45,7 @@ struct Touches {
     bool held = false; ///< one of them is down
 };
 
-/// From a remote; applied before the frame's other controls.
-struct RemoteCommands {
-    std::vector<Command> commands;
-};
-
 /// The visitor's controls at a time. Each member belongs to one of the parts, so that a reader names only its part.
-struct Controls : ControlTimes, Steering, Looking, Switches, AlignmentSteps, Touches, RemoteCommands { };
+struct Controls : ControlTimes, Steering, Looking, Switches, AlignmentSteps, Touches { };
 
 } // namespace starbow

@@ -15,34 +15,18 @@ bool apply(Effects& effects, const Command& command)
 
 ExhibitState after(ExhibitState state, const Command& command)
 {
-    if (apply(state.effects, command))
+    if (apply(state.effects, command) || apply(static_cast<Choices&>(state), command))
         return state;
     for (const SwitchedState& one : switched_states)
         if (one.kind == command.kind)
             state.*one.member = command.on;
-    switch (command.kind) {
-    case CommandKind::information:
-        state.information = information_named(command.text);
-        break;
-    case CommandKind::beside:
-        state.beside = beside_named(command.text);
-        break;
-    case CommandKind::speed_limit:
+    if (command.kind == CommandKind::speed_limit)
         state.max_gamma = command.number;
-        break;
-    case CommandKind::exposure:
+    else if (command.kind == CommandKind::exposure)
         state.exposure_ev = command.number;
-        break;
-    case CommandKind::language:
-        state.language = command.text;
-        break;
-    case CommandKind::caption:
+    else if (command.kind == CommandKind::caption)
         state.caption = command.text;
-        break;
-    default:
-        break; // it depends on the exhibit
-    }
-    return state;
+    return state; // anything else depends on the exhibit
 }
 
 } // namespace starbow

@@ -1,26 +1,21 @@
 #pragma once
-#include "command.h"
-#include "config/model/beside.h"
-#include "config/model/information.h"
+#include "choices.h"
 #include "config/model/shot.h"
 #include <string>
 
 namespace starbow {
 
 /// The state of a running exhibit that commands change and that remotes and the guide's window show.
-struct ExhibitState {
-    std::string scene, shot, tour, language; ///< names of files, without folder and .json; empty: none
+struct ExhibitState : Choices {
+    std::string scene, shot, tour; ///< names of files, without folder and .json; empty: none
     bool paused = false; ///< the tour, or else the world
     bool fade = false, hold = false;
     Effects effects{};
-    bool slow_motion = false, one_button = false, left_handed = false;
-    Information information = Information::laboratory;
-    Beside beside = Beside::none;
+    bool slow_motion = false;
     double speed = 0; ///< v/c
     double gamma = 1;
     double max_gamma = 1; ///< at full throttle
     double exposure_ev = 0; ///< a docent's change
-    bool range = false; ///< everything is visible at once
     std::string caption; ///< a docent's; empty: none
 };
 

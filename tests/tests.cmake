@@ -45,7 +45,7 @@ if(NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
 endif()
 add_executable(starbow_test ${TESTS} ${SUPPORT})
 add_dependencies(starbow_test schemas)
-target_link_libraries(starbow_test PRIVATE starbow_operation starbow_remote starbow_machines starbow_plan starbow_images GTest::gtest_main pugixml::pugixml valijson quadmath ${ZIP_LIBRARY} ${MESHOPTIMIZER_LIBRARY} ${DRACO_LIBRARY} ${WEBP_LIBRARY})
+target_link_libraries(starbow_test PRIVATE starbow_visit starbow_operation starbow_remote starbow_machines starbow_plan starbow_images GTest::gtest_main pugixml::pugixml valijson quadmath ${ZIP_LIBRARY} ${MESHOPTIMIZER_LIBRARY} ${DRACO_LIBRARY} ${WEBP_LIBRARY})
 if(STARBOW_ALL_TESTS OR NOT STARBOW_SANITIZE) # what reads foreign bytes needs no rays
   target_link_libraries(starbow_test PRIVATE starbow_reference)
 endif()

@@ -91,10 +91,10 @@ private:
 /// Prints the closing lines: the flight's last readings and the skew of the screens.
 void print_summary(const Session& session, const SceneFile& scene)
 {
-    Readings last = readings(session.flight.ship, scene, session.flight.effects);
-    last.mode = session.flight.mode;
-    last.exposure_ev = ev_of(session);
-    last.exposure_locked = session.exposure.locked;
+    Readings last = readings(session.flight().ship, scene, session.flight().effects);
+    last.mode = session.flight().mode;
+    last.exposure_ev = session.light.ev();
+    last.exposure_locked = session.light.locked();
     std::string line;
     for (const auto& [label, value] : hud_fields(last, words_in("en")))
         line += label + " " + value + "  ";
@@ -123,7 +123,7 @@ int fly_exhibit(const ExhibitOptions& options)
     const WaitWatch watch(wait_limit_s(session.service));
     const LastWork last([&] {
         session.service.stops();
-        session.record_replay.end(session.flight, print_message);
+        session.record_replay.end(session.flight(), print_message);
         session.record_replay.close();
         session.diary.close();
     });
@@ -153,7 +153,7 @@ int fly_exhibit(const ExhibitOptions& options)
                 work.emplace("the end of the exhibit's closing", loading_limit_s);
             }
             print_summary(session, context->world.scene);
-            const bool same = session.record_replay.end(session.flight, print_message);
+            const bool same = session.record_replay.end(session.flight(), print_message);
             return !same || session.complaints || !context->device.complaints.empty() ? 1 : 0;
         } catch (const std::exception& error) {
             coarser = context && leaves_level(session, error); // else the world itself has no room
@@ -174,7 +174,7 @@ int fly_exhibit(const ExhibitOptions& options)
         if (!losses.survives(loss))
             return 1;
         if (is_over(session))
-            return session.record_replay.end(session.flight, print_message) && !session.complaints ? 0 : 1;
+            return session.record_replay.end(session.flight(), print_message) && !session.complaints ? 0 : 1;
     }
 }
 

@@ -93,8 +93,8 @@ bool FrameLoop::fly_frame()
     RecordEntry entry{.shown = visible};
     if (!read_controls(session_, screens_.handles(), entry) || screens_.closed())
         return false;
-    remote_.read(entry.controls);
-    presenter_.read(entry.controls);
+    remote_.read(entry.commands);
+    presenter_.read(entry.commands);
     if (entry.controls[Switch::full_screen])
         screens_.switch_full_screen();
     if (session_.record_replay.replays() && !visible)
@@ -103,14 +103,16 @@ bool FrameLoop::fly_frame()
     // Follow the visit, carry out a docent's commands, and step the flight. From here on the controls may be a replay's.
     if (!session_.record_replay.play(entry))
         return false;
+    Requests requests;
     if (!session_.record_replay.replays()) {
-        choose_in_menu(entry);
-        await_worlds(entry.controls);
+        choose_in_menu(entry, requests);
+        await_worlds(entry.commands);
     }
-    attend(entry);
-    for (const Command& command : entry.controls.commands)
-        carry_out(command, entry.controls);
-    step(session_, entry, metered, context_.world.scene.seconds_per_time_unit());
+    requests.add(attend(requested(entry.controls, requests), entry.dt_ns));
+    for (const Command& command : entry.commands)
+        carry_out(command, requests);
+    entry.controls = requested(entry.controls, requests);
+    step(session_, entry, metered);
     seek_goals(session_, context_.world.scene, entry.dt_ns);
     speak(session_, context_.world.scene);
     const Controls& controls = entry.controls;
@@ -126,7 +128,7 @@ bool FrameLoop::fly_frame()
     if (!visible) {
         remote_.shown(session_); // there is no picture to wait for
         if (master_) { // but the other machines have some
-            master_->send(shared(next_instant(controls.head)), session_.leapt);
+            master_->send(shared(next_instant(controls.head)), session_.light.leapt());
             let_go();
         }
         guide_.show(session_, screens_.monitors());
@@ -140,7 +142,7 @@ bool FrameLoop::fly_frame()
     fit_outputs();
     const Instant instant = next_instant(controls.head);
     if (master_)
-        master_->send(shared(instant), session_.leapt);
+        master_->send(shared(instant), session_.light.leapt());
     const Panel* panel = pictures_.set_up(instant, session_.words, *frame_);
     const std::size_t pipelines = context_.pipelines.count();
     begin_commands();
@@ -327,8 +329,8 @@ void FrameLoop::warm_up()
 void FrameLoop::gather_lacks()
 {
     session_.lacks.clear();
-    for (const std::string& lack :
-        {master_ ? master_->lack() : "", session_.tracker ? session_.tracker->lack() : "", remote_.lack()})
+    for (const std::string& lack : {master_ ? master_->lack() : "",
+             session_.devices.tracker() ? session_.devices.tracker()->lack() : "", remote_.lack()})
         if (!lack.empty())
             session_.lacks += (session_.lacks.empty() ? "" : "; ") + lack;
 }
@@ -354,18 +356,19 @@ void FrameLoop::fit_outputs()
 
 Instant FrameLoop::next_instant(const Head& head)
 {
-    const bool by_hand = visitor_flies(session_); // a tour's own motion may roll
-    const Flight& flight = session_.flight;
+    const bool by_hand = session_.source->by_hand(); // a tour's own motion may roll
+    const Flight& flight = session_.flight();
+    const ShownLight& light = session_.light;
     Instant now{.shot = shot_of(flight, session_.programme.start.scene, by_hand ? session_.rules.comfort : Comfort()),
         .head = head,
-        .range = curve_of(session_),
-        .meters = session_.options.exposure.automatic || session_.range || session_.options.exposure.calm,
+        .range = light.curve(),
+        .meters = session_.options.exposure.automatic || session_.choices.range || session_.options.exposure.calm,
         .bloom = bloom_of(session_.options.exposure, device_.on_processor()),
-        .black = 1 - (1 - glm::smoothstep(0.0, 1.0, session_.black)) * session_.calm_light,
+        .black = light.black(),
         .vignette = session_.rules.comfort.vignette.value_or(Vignette()),
         .vignette_part = by_hand ? flight.vignette : 0,
         .pattern = session_.alignment.pattern()};
-    now.shot.exposure_ev = ev_of(session_);
+    now.shot.exposure_ev = light.ev();
     now.instruments = session_.lab.request(frame_->views(), now.shot, flight, context_.world, pictures_.typesetter);
     now.hud = hud_.update(session_, context_.world.scene, now.shot.exposure_ev);
     placards_.choose(session_, context_.world, now);
@@ -499,13 +502,9 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
     std::optional<PreparedLayout> prepared;
     if (changes(loaded.layout, layout).empty()) // else a builder has turned something meanwhile
         prepared = std::move(loaded.prepared);
-    const bool same_tracker = session_.layout.head_tracker == layout.head_tracker;
     frame_ = exhibit_renderer(context_, layout, quality_of(session_, device_), session_.options.node, std::move(prepared));
     forget_drawn();
-    if (!same_tracker) {
-        session_.tracker.reset(); // its port may be the next one's
-        session_.tracker = tracker_of(layout);
-    }
+    session_.devices.track(layout.head_tracker);
     session_.layout = std::move(layout);
     session_.kept = std::move(loaded.fresh);
     if (master_) {

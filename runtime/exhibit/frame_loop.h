@@ -56,22 +56,22 @@ private:
     void apply_file_changes();
     void apply(LayoutLoader::Loaded loaded);
     /// Advances the visitors' menu; its choice is a command of this frame.
-    void choose_in_menu(RecordEntry& entry);
+    void choose_in_menu(RecordEntry& entry, Requests& requests);
     /// Takes those of the frame's commands out that lead to another world, until it is read, and brings them back then. So a
     /// record has a command in the frame in which it is carried out.
-    void await_worlds(Controls& controls);
+    void await_worlds(std::vector<Command>& commands);
     /// Another state is wanted than the world that is being read.
     void forget_coming();
     /// visitors: false where nobody is there to fly.
     void show_programme(Programme programme, bool visitors = true);
     void show_attraction(std::size_t number);
     void record_visit();
-    /// Follows the visit by the frame's signs of somebody, and carries out what it asks for.
-    void attend(RecordEntry& entry);
-    void change_visitors(const VisitEvents& events, Controls& controls);
+    /// Follows the visit by the frame's signs of somebody, and carries out what it asks for. hands: this frame's.
+    Requests attend(const Controls& hands, std::int64_t dt_ns);
+    void change_visitors(const VisitEvents& events);
     void show_quality(const std::string& name);
     /// Carries out a remote's command; a refused one is logged with its reason and changes nothing.
-    void carry_out(const Command& command, Controls& controls);
+    void carry_out(const Command& command, Requests& requests);
     /// Applies a builder's change by keyboard, or undoes it if it can't be drawn.
     void apply_alignment(const Controls& controls);
     /// Gives the outputs their windows' sizes.

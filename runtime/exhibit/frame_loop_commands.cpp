@@ -1,36 +1,36 @@
-// The commands of a docent that need the device; obey.h has the others.
+// The commands of a docent that need the device; session_commands.h has the others.
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/model/shipped.h"
 #include "exhibit_renderer.h"
 #include "frame_loop.h"
 #include "menu_pages.h"
-#include "obey.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/vitals.h"
 #include "runtime/operation/waits.h"
+#include "session_commands.h"
 #include <utility>
 
 namespace starbow {
 
-void FrameLoop::choose_in_menu(RecordEntry& entry)
+void FrameLoop::choose_in_menu(RecordEntry& entry, Requests& requests)
 {
-    if (!in_hand(session_.visit)) {
+    if (!session_.attendance.in_hand()) {
         session_.menu = {};
         return;
     }
     if (entry.controls[Switch::menu] && !session_.menu.open) // a site's own words may be wrong; the remote's page says so
         session_.languages = languages_here([](const std::string&) {});
     if (session_.menu.open || entry.controls[Switch::menu])
-        if (std::optional<Command> chosen = advance(session_.menu, menu_of(session_), entry.controls, entry.dt_ns))
-            entry.controls.commands.push_back(std::move(*chosen));
+        if (std::optional<Command> chosen = advance(session_.menu, menu_of(session_), entry.controls, entry.dt_ns, requests))
+            entry.commands.push_back(std::move(*chosen));
 }
 
-void FrameLoop::await_worlds(Controls& controls)
+void FrameLoop::await_worlds(std::vector<Command>& commands)
 {
     // Frames that follow no clock have nobody who watches meanwhile.
-    for (std::size_t i = 0; session_.options.paced && i < controls.commands.size();) {
-        const Command& command = controls.commands[i];
+    for (std::size_t i = 0; session_.options.paced && i < commands.size();) {
+        const Command& command = commands[i];
         const bool leads
             = command.kind == CommandKind::scene || command.kind == CommandKind::shot || command.kind == CommandKind::tour;
         std::filesystem::path scene;
@@ -46,11 +46,11 @@ void FrameLoop::await_worlds(Controls& controls)
         coming_ = command;
         session_.coming = title_of(session_.words, "scene", scene.stem());
         remote_.defer(i);
-        controls.commands.erase(controls.commands.begin() + std::ptrdiff_t(i));
+        commands.erase(commands.begin() + std::ptrdiff_t(i));
     }
     if (!coming_ || !worlds_.ready())
         return;
-    controls.commands.push_back(std::move(*coming_));
+    commands.push_back(std::move(*coming_));
     coming_.reset();
     session_.coming.clear();
     remote_.resume();
@@ -93,7 +93,7 @@ void FrameLoop::show_quality(const std::string& name)
     session_.governor.reset();
 }
 
-void FrameLoop::carry_out(const Command& command, Controls& controls)
+void FrameLoop::carry_out(const Command& command, Requests& requests)
 {
     const std::string words = text_of(command);
     try {
@@ -104,17 +104,17 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
             frame_->adopt(quality_of(session_, device_));
             show_programme(session_.options.programme);
             session_.lab.reset();
-            controls.set(Switch::reset); // the switches' own states, too
-            if (session_.visit.touched_ns > 0)
-                count_visit(session_, 1e-9 * double(session_.visit.touched_ns));
-            session_.visit = begun(session_.visit);
+            session_.alignment.show_first();
+            if (const std::int64_t touched_ns = session_.attendance.visit().touched_ns; touched_ns > 0)
+                count_visit(session_, 1e-9 * double(touched_ns));
+            session_.attendance.begin();
             break;
         case CommandKind::scene:
         case CommandKind::shot:
         case CommandKind::tour:
             show_programme(programme_after(session_, command));
-            if (!in_hand(session_.visit))
-                session_.visit = begun(session_.visit); // by the docent
+            if (!session_.attendance.in_hand())
+                session_.attendance.begin(); // by the docent
             break;
         case CommandKind::layout:
             session_.loader.open(load_layout(shipped_file("layouts", command.text)).file);
@@ -123,7 +123,7 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
             show_quality(command.text);
             break;
         default:
-            obey(session_, command, controls);
+            starbow::carry_out(session_, command, requests);
         }
         session_.diary.count([](Tally& tally) { ++tally.commands; });
         remote_.note("");
@@ -134,10 +134,10 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
         throw; // a loss; a lack of memory is none, and a NoRoom
     } catch (const std::exception& error) {
         session_.diary.count([](Tally& tally) { ++tally.refused_commands; });
-        session_.directions.refusal = one_line(error.what());
-        remote_.note(session_.directions.refusal);
-        presenter_.note(command, session_.directions.refusal, session_.words);
-        write_log(LogKind::command_failed, words + ": " + session_.directions.refusal + "; the exhibit stays as it was");
+        session_.docent.refusal = one_line(error.what());
+        remote_.note(session_.docent.refusal);
+        presenter_.note(command, session_.docent.refusal, session_.words);
+        write_log(LogKind::command_failed, words + ": " + session_.docent.refusal + "; the exhibit stays as it was");
     }
 }
 

@@ -44,13 +44,13 @@ MenuItem next_of(const Words& words, Key key, Key value, CommandKind kind, std::
 MenuPage switches_of(const Session& session)
 {
     const Words& words = session.words;
-    const Effects& on = session.flight.effects;
+    const Effects& on = session.flight().effects;
     MenuPage page{.title = words("menu.show"),
-        .items = {switch_of(words, "menu.range", {.kind = CommandKind::range}, session.range),
-            next_of(words, "menu.beside", beside_words[std::size_t(session.beside)], CommandKind::beside,
-                name_of(after(session.beside))),
-            next_of(words, "menu.information", display_words[std::size_t(session.information)], CommandKind::information,
-                name_of(after(session.information)))},
+        .items = {switch_of(words, "menu.range", {.kind = CommandKind::range}, session.choices.range),
+            next_of(words, "menu.beside", beside_words[std::size_t(session.choices.beside)], CommandKind::beside,
+                name_of(after(session.choices.beside))),
+            next_of(words, "menu.information", display_words[std::size_t(session.choices.information)],
+                CommandKind::information, name_of(after(session.choices.information)))},
         .stays = true};
     constexpr auto effect_keys = keys_of_usual_effects("menu.");
     std::vector<MenuItem> effects;
@@ -61,7 +61,7 @@ MenuPage switches_of(const Session& session)
     page.items.insert(page.items.begin(), effects.begin(), effects.end());
     if (session.options.log.empty())
         page.items.push_back(
-            switch_of(words, "menu.slow_motion", {.kind = CommandKind::slow_motion}, session.flight.slowness > 0));
+            switch_of(words, "menu.slow_motion", {.kind = CommandKind::slow_motion}, session.flight().slowness > 0));
     return page;
 }
 
@@ -69,8 +69,8 @@ MenuPage hands_of(const Session& session)
 {
     const Words& words = session.words;
     return {.title = words("menu.hands"),
-        .items = {switch_of(words, "menu.one_button", {.kind = CommandKind::one_button}, session.one_button),
-            switch_of(words, "menu.left_handed", {.kind = CommandKind::left_handed}, session.left_handed)},
+        .items = {switch_of(words, "menu.one_button", {.kind = CommandKind::one_button}, session.choices.one_button),
+            switch_of(words, "menu.left_handed", {.kind = CommandKind::left_handed}, session.choices.left_handed)},
         .stays = true};
 }
 
@@ -90,7 +90,7 @@ std::vector<MenuPage> menu_of(const Session& session)
         page_of(words, words("menu.tours"), CommandKind::tour, "tour", session.options.menu_tours), switches_of(session),
         hands_of(session), languages_of(session)};
     for (std::size_t page = worlds; page < pages.size(); ++page)
-        if (!pages[page].items.empty() && (page != switches || visitor_flies(session))) // a tour shows its own effects
+        if (!pages[page].items.empty() && (page != switches || session.source->by_hand())) // a tour shows its own effects
             pages[beginning].items.push_back({pages[page].title, page});
     return pages;
 }

@@ -10,8 +10,8 @@ namespace {
 /// Signs are for visitors and guides in free flight: a tour says itself what is to be seen.
 bool wants_signs(const Session& session)
 {
-    return session.information != Information::laboratory && session.flight.hud && !session.menu.open
-        && in_hand(session.visit) && visitor_flies(session);
+    return session.choices.information != Information::laboratory && session.flight().hud && !session.menu.open
+        && session.attendance.in_hand() && session.source->by_hand();
 }
 
 /// The distance between two eyes whose baseline does not turn with the look, scene units; 0 where a layout has none.
@@ -34,9 +34,9 @@ void Placards::choose(const Session& session, const GpuWorld& world, Instant& no
         sign_.reset();
     if (sign_)
         now.sign = {lines_of(*sign_, session.words), sign_->towards};
-    if (session.beside != Beside::none)
-        now.small_picture
-            = small_picture(session.beside, now.shot, session.programme.start.exposure_ev, telescope_deg_, session.words);
+    if (session.choices.beside != Beside::none)
+        now.small_picture = small_picture(
+            session.choices.beside, now.shot, session.programme.start.exposure_ev, telescope_deg_, session.words);
 }
 
 /// The boxes of the world's things. The rules of a flight with a pace hold them; without one they are read at their first

@@ -11,10 +11,10 @@
 namespace starbow {
 namespace {
 
-std::vector<Cue> cues_of(const Tour& tour)
+std::vector<Cue> cues_of(const std::vector<Step>& steps)
 {
     std::vector<Cue> cues;
-    for (const Step& step : tour.steps) {
+    for (const Step& step : steps) {
         std::string text = step.question ? step.question->ask : step.caption;
         text = filled(text, {{"measured", "…"}}); // known only when the step is shown
         cues.push_back({text.empty() ? "–" : std::move(text), step.seconds});
@@ -26,13 +26,13 @@ std::vector<Cue> cues_of(const Tour& tour)
 std::string visitors_of(const Session& session)
 {
     const Words& words = session.words;
-    if (session.directions.fades)
+    if (session.docent.fades())
         return words("remote.dark");
-    if (session.visit.phase == VisitPhase::asking)
+    if (session.attendance.visit().phase == VisitPhase::asking)
         return words("presenter.asking");
-    if (session.options.visiting && !in_hand(session.visit))
+    if (session.attendance.attends() && !session.attendance.in_hand())
         return words("presenter.watches");
-    return words(!knows_visitor(session) ? "presenter.nobody"_key : "presenter.somebody"_key);
+    return words(!session.attendance.knows_visitor() ? "presenter.nobody"_key : "presenter.somebody"_key);
 }
 
 std::vector<std::pair<std::string, std::string>> titled(
@@ -51,11 +51,11 @@ PresenterState state_of(const Session& session)
     describe(session, state);
     state.visitors = visitors_of(session);
     state.world = title_of(words, "scene", state.scene), state.coming = session.coming;
-    state.own_effects = visitor_flies(session);
-    if (session.guide && !session.guide->over()) {
+    state.own_effects = session.source->by_hand();
+    if (const Guide* tour = session.tour(); tour && !tour->over()) {
         state.tour_title = title_of(words, "tour", state.tour);
-        state.cues = cues_of(*session.programme.tour);
-        state.step = session.guide->step(), state.left_s = session.guide->left_s();
+        state.cues = cues_of(tour->steps());
+        state.step = tour->step(), state.left_s = tour->left_s();
     } else {
         state.tour.clear();
     }
@@ -128,11 +128,11 @@ void Presenter::close()
         "the guide's window was closed; the exhibit goes on, and its next start opens the window again");
 }
 
-void Presenter::read(Controls& controls)
+void Presenter::read(std::vector<Command>& commands)
 {
     for (Command& command : given_) {
         write_log(LogKind::command_taken, text_of(command) + " from the guide's window");
-        controls.commands.push_back(std::move(command));
+        commands.push_back(std::move(command));
     }
     given_.clear();
 }

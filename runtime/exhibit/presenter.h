@@ -51,8 +51,8 @@ public:
     /// The guide has closed the window: it stays away until the exhibit starts anew.
     void close();
 
-    /// Adds the commands that were given since the last call to the frame's controls.
-    void read(Controls& controls);
+    /// Adds the commands that were given since the last call to the frame's.
+    void read(std::vector<Command>& commands);
     /// Notes a command's end, whoever gave it. refusal: the reason; empty: it is carried out.
     void note(const Command& command, const std::string& refusal, const Words& words);
 

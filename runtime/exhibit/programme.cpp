@@ -1,8 +1,8 @@
 #include "programme.h"
 #include "config/model/scene_file.h"
 #include "config/model/shipped.h"
-#include "runtime/flight/shown_record.h"
 #include "runtime/operation/record_files.h"
+#include "runtime/visit/shown_record.h"
 #include "runtime/world/open_scene.h"
 
 namespace starbow {

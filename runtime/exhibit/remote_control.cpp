@@ -10,13 +10,15 @@ void describe(const Session& session, Snapshot& out)
     out.layout = command_name_of(session.layout.file);
     out.quality = session.quality_name;
     out.pattern = pattern_names[std::size_t(session.alignment.pattern())];
-    out.step = session.guide ? int(session.guide->step()) + 1 : 0;
-    out.steps = session.programme.tour ? int(session.programme.tour->steps.size()) : 0;
-    out.visit = session.options.visiting || knows_visitor(session) ? visit_phase_names[std::size_t(session.visit.phase)]
-                                                                   : visit_phase_names[std::size_t(VisitPhase::attract)];
+    out.step = session.tour() ? int(session.tour()->step()) + 1 : 0;
+    out.steps = session.tour() ? int(session.tour()->steps().size()) : 0;
+    const Attendance& attendance = session.attendance;
+    const VisitPhase phase
+        = attendance.attends() || attendance.knows_visitor() ? attendance.visit().phase : VisitPhase::attract;
+    out.visit = visit_phase_names[std::size_t(phase)];
     out.frame_ms = 1e3 * session.frame_s;
     out.frames_per_s = session.frame_s > 0 ? 1 / session.frame_s : 0;
-    out.error = session.refused.empty() ? session.directions.refusal : session.refused;
+    out.error = session.refused.empty() ? session.docent.refusal : session.refused;
     out.machines = line_of(session.machines);
     if (out.error.empty())
         out.error = session.lacks.empty() ? steps_of(session) : session.lacks;
@@ -34,13 +36,13 @@ RemoteControl::RemoteControl(const ExhibitOptions& options)
     remote_ = std::make_unique<Remote>(std::move(remote));
 }
 
-void RemoteControl::read(Controls& controls)
+void RemoteControl::read(std::vector<Command>& commands)
 {
     if (!remote_)
         return;
     for (NumberedCommand arrived; remote_->take(arrived);) {
         pending_.push_back({arrived.number, {}});
-        controls.commands.push_back(std::move(arrived.command));
+        commands.push_back(std::move(arrived.command));
     }
 }
 

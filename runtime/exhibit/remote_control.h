@@ -14,8 +14,8 @@ public:
     /// Opens the remote that the exhibit's file describes. Throws InputError as Remote does.
     explicit RemoteControl(const ExhibitOptions& options);
 
-    /// Adds the commands that have arrived to the frame's controls.
-    void read(Controls& controls);
+    /// Adds the commands that have arrived to the frame's.
+    void read(std::vector<Command>& commands);
     /// Notes a command's end, in the order of read. refusal: the reason; empty: it is carried out.
     void note(const std::string& refusal);
     /// The command at an index of those that are read and not noted waits for a world; one that waits already is refused.

@@ -9,8 +9,11 @@
 #include "runtime/operation/record_files.h"
 #include "runtime/operation/vitals.h"
 #include "runtime/render/render_context.h"
+#include "runtime/visit/hand_flight.h"
+#include "runtime/visit/shown_record.h"
 #include "runtime/world/open_scene.h"
 #include "runtime/world/surroundings.h"
+#include "session_commands.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,62 +31,33 @@ RecordReplay record_replay_of(const ExhibitOptions& options, const Flying& rules
         options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
 }
 
-/// A visitor's hands do nothing while a docent holds the exhibit. Devices and the head tracker are read as always. taken:
-/// the docent has the stick, and the ship comes to coasting.
-void hold(Controls& controls, bool taken)
+/// The place in which one-button flying is used; none: the visitor flies with all controls.
+std::optional<OneButtonPlace> one_button_place(const Session& session)
 {
-    static_cast<Steering&>(controls) = {.lever = controls.lever, .taken = taken};
-    const Head head = controls.head;
-    static_cast<Looking&>(controls) = {};
-    controls.head = head;
-    static_cast<Switches&>(controls)
-        = controls - switches_of(Presser::pilot) - switches_of(Presser::visitor) - switches_of(Presser::student);
-}
-
-/// The steering of a visitor with one button, which is any but those of the window and of builders.
-void scan(Session& session, Controls& controls, std::int64_t dt_ns)
-{
-    const bool other = (controls & switches_of(Presser::builder)).any() || controls.choose != 0 || controls.turn_by != 0;
-    const AnyButton button{.pressed = controls.pressed && !other, .held = controls.held};
-    hold(controls, false);
-    controls.lever.reset();
-    ScannedHands hands;
-    const OneButton rules = session.options.one_button.value_or(OneButton());
+    using Kind = OneButtonPlace::Kind;
+    if (!by_one_button(session))
+        return {};
     if (session.menu.open) {
-        const std::vector<MenuPage> pages = menu_of(session);
         const std::size_t page = session.menu.page;
-        hands = advance_in_menu(session.scan, rules, button, page, pages[page].items.size(), dt_ns);
-    } else if (session.guide && session.guide->asks()) {
-        constexpr std::size_t question = 0, no_end = std::size_t(-1); // after the last answer comes the first one
-        hands = advance_in_menu(session.scan, rules, button, question, no_end, dt_ns);
-    } else if (!visitor_flies(session)) {
-        session.scan = {};
-        hands.set(Switch::home, button.pressed); // the tour's next step
-    } else {
-        hands = advance(session.scan, rules, button, dt_ns);
+        return OneButtonPlace{Kind::list, page, menu_of(session)[page].items.size()};
     }
-    static_cast<Steering&>(controls) = hands;
-    static_cast<Switches&>(controls) = (controls & switches_of(Presser::builder)) | hands;
+    if (session.tour() && session.tour()->asks()) {
+        constexpr std::size_t no_end = std::size_t(-1); // after the last answer comes the first one
+        return OneButtonPlace{Kind::list, 0, no_end};
+    }
+    return OneButtonPlace{session.source->by_hand() ? Kind::flight : Kind::tour};
 }
 
-/// In an exhibit that nobody attends to, visitors press every key there is.
-void lock_builders_keys(Session& session, Controls& controls)
+HandsRules hands_rules_of(const ExhibitOptions& options)
 {
-    if (session.keyboard.typed(session.options.visiting->unlock))
-        unlock_builders_keys(session);
-    if (session.last < session.locked_from)
-        return;
-    static_cast<AlignmentSteps&>(controls) = {};
-    static_cast<Switches&>(controls) = controls - switches_of(Presser::builder) - switches_of(Presser::student);
+    return {.locks = options.visiting.has_value(),
+        .laboratory = !options.log.empty(),
+        .calm = options.exposure.calm,
+        .turns_by_steps = options.rules.comfort.turn_steps_deg > 0,
+        .one_button = options.one_button.value_or(OneButton())};
 }
 
 } // namespace
-
-void unlock_builders_keys(Session& session)
-{
-    session.locked_from = session.last + std::chrono::minutes(10);
-    session.alignment.say("The builder's keys are unlocked for ten minutes");
-}
 
 Visiting counted_by(const Programme& programme)
 {
@@ -100,35 +74,36 @@ void describe(const Session& session, ExhibitState& out)
     const Programme& programme = session.programme;
     out.scene = command_name_of(programme.scene), out.shot = command_name_of(programme.shot);
     out.tour = command_name_of(programme.tour_name);
-    out.language = session.words.language;
-    out.paused = visitor_flies(session) ? session.flight.frozen : session.guide->paused();
-    out.fade = session.directions.fades, out.hold = session.directions.holds;
-    out.effects = session.flight.effects, out.slow_motion = session.flight.slowness > 0;
-    out.information = session.information, out.beside = session.beside;
-    out.one_button = session.one_button, out.left_handed = session.left_handed;
-    const double rapidity = rapidity_of(session.flight.ship);
+    static_cast<Choices&>(out) = session.choices;
+    const Flight& flight = session.flight();
+    out.paused = session.source->paused();
+    out.fade = session.docent.fades(), out.hold = session.docent.holds();
+    out.effects = flight.effects, out.slow_motion = flight.slowness > 0;
+    const double rapidity = rapidity_of(flight.ship);
     out.speed = std::tanh(rapidity), out.gamma = std::cosh(rapidity);
     out.max_gamma = session.rules.max_gamma;
-    out.exposure_ev = session.directions.exposure_ev;
-    out.range = session.range;
-    out.caption = session.directions.caption;
+    out.exposure_ev = session.docent.exposure_ev();
+    out.caption = session.docent.caption();
 }
 
-bool visitor_flies(const Session& session) { return !session.guide || session.guide->flies(); }
+Choices first_choices(const ExhibitOptions& options)
+{
+    return {.language = options.words.language,
+        .information = options.information,
+        .range = options.exposure.mode == ExposureMode::range,
+        .one_button = options.one_button.has_value(),
+        .left_handed = options.left_handed};
+}
 
 bool by_one_button(const Session& session)
 {
-    return session.one_button && in_hand(session.visit) && !session.record_replay.replays() && !session.directions.holds;
+    return session.choices.one_button && session.attendance.in_hand() && !session.record_replay.replays()
+        && !session.docent.holds();
 }
 
 bool seeks_goals(const Session& session)
 {
-    return session.information != Information::laboratory && in_hand(session.visit) && !session.guide;
-}
-
-bool knows_visitor(const Session& session)
-{
-    return in_hand(session.visit) && (session.options.visiting || session.visit.touched_ns > 0);
+    return session.choices.information != Information::laboratory && session.attendance.in_hand() && !session.tour();
 }
 
 void count_visit(Session& session, double length_s)
@@ -147,13 +122,14 @@ Programme attraction_of(const ExhibitOptions& options, const Words& words, std::
 
 std::uint64_t digest(const Session& session)
 {
-    std::string text = session.programme.scene.string() + '\n' + session.programme.tour_name + '\n'
-        + session.words("hud.speed") + '\n' + std::to_string(int(session.alignment.pattern()))
-        + std::to_string(session.tutorial.lesson) + std::to_string(session.exposure.locked) + std::to_string(session.range)
-        + std::to_string(session.history.empty()) + std::to_string(session.lab.shows_anything())
-        + std::to_string(session.menu.open) + std::to_string(int(session.information)) + std::to_string(int(session.beside))
-        + std::to_string(session.goals.current) + std::to_string(session.one_button) + std::to_string(session.left_handed);
-    return digest(text, digest(session.flight));
+    const auto& [language, information, beside, range, one_button, left_handed] = session.choices;
+    std::string text = session.programme.scene.string() + '\n' + session.programme.tour_name + '\n' + language + '\n'
+        + session.words("hud.speed") + '\n';
+    for (const int number : {int(session.alignment.pattern()), session.tutorial.lesson, int(session.light.locked()),
+             int(session.lab.shows_anything()), int(session.menu.open), int(information), int(beside), int(range),
+             int(one_button), int(left_handed), int(session.goals.current)})
+        text += std::to_string(number) + ' ';
+    return digest(text, digest(session.flight()));
 }
 
 Flying rules_in(const ExhibitOptions& options, Flying rules, const Programme& programme)
@@ -183,40 +159,38 @@ std::unique_ptr<Recorder> recorder_of(const ExhibitOptions& options, const Flyin
 
 Session::Session(const ExhibitOptions& given)
     : options(given)
-    , visiting(given.visiting.value_or(counted_by(given.programme)))
-    , visit(given.visiting ? Visit{} : begun({}))
-    , one_button(given.one_button.has_value())
-    , left_handed(given.left_handed)
-    , programme(given.visiting ? attraction_of(given, given.words, 0) : given.programme)
+    , attendance(given.visiting.value_or(counted_by(given.programme)), given.visiting.has_value())
+    , choices(first_choices(given))
     , words(given.words)
-    , information(given.information)
+    , programme(given.visiting ? attraction_of(given, given.words, 0) : given.programme)
     , rules(given.replay.empty() ? rules_in(given, given.rules, programme) : given.rules)
+    , source(source_of(programme, rules, !given.visiting))
+    , tutorial(tutorial_at(flight()))
+    , record_replay(record_replay_of(given, rules))
+    , devices(given.profiles, given.layout.head_tracker, write_log)
+    , hands(hands_rules_of(given))
+    , light(given.exposure)
     , quality(given.quality)
     , quality_name(given.quality_name)
+    , governor(governor_of(given))
     , layout(given.layout)
     , kept(layout)
     , loader(layout)
-    , guide(guide_of(programme, rules, !given.visiting))
-    , shown_record(programme.record.empty() ? nullptr : std::make_unique<ShownRecord>(programme.record))
-    , flight(flight_at(programme.start, rules))
-    , range(given.exposure.mode == ExposureMode::range)
-    , tutorial(tutorial_at(flight))
-    , record_replay(record_replay_of(given, rules))
-    , hid(given.profiles, write_log)
-    , tracker(tracker_of(layout))
     , alignment(given.pattern)
     , lab(given.log, given.log_every_s, words)
     , speaker(given.speech ? std::make_unique<Speaker>() : nullptr)
     , diary(given.state, given.textfile)
-    , governor(governor_of(given))
 {
 }
 
-std::optional<Guide> guide_of(const Programme& programme, const Flying& rules, bool visitors)
+std::unique_ptr<FlightSource> source_of(const Programme& programme, const Flying& rules, bool visitors)
 {
-    if (!programme.tour)
-        return {};
-    return Guide(*programme.tour, rules, open_scene(programme.scene).seconds_per_time_unit(), visitors);
+    if (!programme.record.empty() && !visitors)
+        return std::make_unique<ShownRecord>(programme.record);
+    const double unit_s = open_scene(programme.scene).seconds_per_time_unit();
+    if (programme.tour)
+        return std::make_unique<Guide>(*programme.tour, rules, unit_s, visitors);
+    return std::make_unique<HandFlight>(programme.start, rules, unit_s);
 }
 
 std::optional<Governor> governor_of(const ExhibitOptions& options)
@@ -224,11 +198,6 @@ std::optional<Governor> governor_of(const ExhibitOptions& options)
     if (options.frame_budget_ms <= 0)
         return {};
     return Governor(options.ladder, options.frame_budget_ms);
-}
-
-std::unique_ptr<HeadTracker> tracker_of(const Layout& layout)
-{
-    return layout.head_tracker ? std::make_unique<HeadTracker>(*layout.head_tracker, write_log) : nullptr;
 }
 
 std::string describe(const Skew& skew)
@@ -320,71 +289,25 @@ std::string notice_of(const Session& session)
         return session.alignment.says();
     if (!session.refused.empty())
         return session.refused;
-    if (const std::string trouble = session.hid.trouble(); !trouble.empty())
+    if (const std::string trouble = session.devices.hid().trouble(); !trouble.empty())
         return trouble;
     if (!session.lacks.empty())
         return session.lacks;
     if (const std::string steps = steps_of(session); !steps.empty())
         return steps;
-    if (session.tracker && !session.tracker->heard(Session::Clock::now()))
-        return "no head tracker is heard on port " + std::to_string(session.tracker->tracking().port);
+    if (const HeadTracker* tracker = session.devices.tracker(); tracker && !tracker->heard(Session::Clock::now()))
+        return "no head tracker is heard on port " + std::to_string(tracker->tracking().port);
     if (session.governor)
         return describe(*session.governor);
     return session.skew.frames() > 0 ? describe(session.skew) : "";
 }
 
-const std::optional<RangeCurve>& curve_of(const Session& session) { return session.range_mode.follower.shown; }
-
-/// The visitor's change of the exposure, EV.
-static double visitors_ev(const Session& session)
-{
-    return session.guide ? session.guide->brighter_ev() : session.flight.exposure_ev - session.programme.start.exposure_ev;
-}
-
-/// The exposure without a docent's change, EV.
-static double undirected_ev(const Session& session)
-{
-    const Exposing& rules = session.options.exposure;
-    return session.guide
-        ? session.guide->shown_ev(session.exposure, rules)
-        : shown_ev(session.exposure, rules, session.flight.exposure_ev, session.programme.start.exposure_ev);
-}
-
-double ev_of(const Session& session)
-{
-    if (session.calm_ev.value)
-        return *session.calm_ev.value;
-    return (curve_of(session) ? visitors_ev(session) : undirected_ev(session)) + session.directions.exposure_ev;
-}
-
-/// Steps the curve that shows everything at once. The record's entry holds what it follows.
-static void follow_range(Session& session, RecordEntry& entry, const Metered& metered, double dt_s)
-{
-    session.range ^= entry.controls[Switch::range];
-    if (session.record_replay.replays())
-        session.range = entry.ranged;
-    entry.ranged = session.range;
-    if (!session.range) {
-        session.range_mode = {};
-        return;
-    }
-    const bool locked = session.exposure.locked;
-    if (!session.record_replay.replays() && (!locked || !session.range_mode.wanted) && wants_goal(session.range_mode, dt_s))
-        entry.range_goal = range_goal(metered.surfaces, metered.stars, undirected_ev(session) - visitors_ev(session));
-    session.range_mode = advance(std::move(session.range_mode), entry.range_goal, dt_s, locked);
-}
-
 bool is_over(const Session& session)
 {
     const ExhibitOptions& options = session.options;
-    return session.directions.restarts || (options.frames > 0 && session.shown >= options.frames)
+    return session.docent.restarts() || (options.frames > 0 && session.shown >= options.frames)
         || (options.over && options.over());
 }
-
-/// Duration of a fade to black, s.
-constexpr double to_black_s = 1.5;
-/// A calm exhibit's fastest way to black and back, its part in a second.
-constexpr double black_per_s = 2;
 
 bool read_controls(Session& session, std::span<GLFWwindow* const> windows, RecordEntry& entry)
 {
@@ -396,28 +319,20 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     entry.skipped_ns = passed.count() - entry.dt_ns;
     const double dt_s = 1e-9 * double(entry.dt_ns);
     session.desktop_saver.keep_away();
-    controls = session.keyboard.read(windows, session.display.keyboard_grabbed(windows),
-        std::chrono::nanoseconds(now - session.began).count(), dt_s, session.hid.kinds(), session.left_handed);
-    session.hid.left_handed(session.left_handed);
-    session.hid.add(dt_s, controls);
-    if (session.tracker)
-        controls.head = session.tracker->read(now);
+    controls = session.devices.read(windows, session.display.keyboard_grabbed(windows),
+        std::chrono::nanoseconds(now - session.began).count(), dt_s, session.choices.left_handed, now);
     session.last = now;
     if (session.options.visitor)
         session.options.visitor(entry);
-    session.somebody = session.presence.take(controls, dt_s);
-    if (session.options.visiting)
-        lock_builders_keys(session, controls);
-    if (!session.options.log.empty())
-        controls.set(Switch::slow_motion, false); // a laboratory's seconds are the ship's
-    const bool quits = controls[Switch::quit];
-    if (session.directions.holds || (session.options.visiting && !in_hand(session.visit)))
-        hold(controls, session.directions.holds);
-    else if (by_one_button(session))
-        scan(session, controls, entry.dt_ns);
-    if (session.options.exposure.calm)
-        controls = session.calm_hands.let_through(controls, dt_s, session.rules.comfort.turn_steps_deg > 0);
-    return !quits;
+    const bool attends = session.attendance.attends();
+    if (attends && session.devices.typed(session.options.visiting->unlock))
+        unlock_builders_keys(session);
+    controls = session.hands.advance({.devices = controls,
+        .dt_ns = entry.dt_ns,
+        .in_hand = !attends || session.attendance.in_hand(),
+        .held = session.docent.holds(),
+        .one_button = one_button_place(session)});
+    return !controls[Switch::quit];
 }
 
 void count_frame(Session& session, double frame_s, double refresh_hz)
@@ -434,23 +349,24 @@ bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelin
     session.turned = now;
     const Vitals own = vitals();
     const double skew_s = session.skew.take_worst_s();
-    const std::size_t unplugged = session.hid.unplugged();
+    const Hid& hid = session.devices.hid();
+    const std::size_t unplugged = hid.unplugged();
+    const double visited_s = session.attendance.take_visited_s();
     session.diary.count([&](Tally& tally) {
         tally.resident_bytes = std::max<std::uint64_t>(tally.resident_bytes, own.resident_bytes);
         tally.worst_skew_s = std::max(tally.worst_skew_s, skew_s);
         tally.unplugged += unplugged - session.unplugged;
-        if (session.visited_s > 0)
-            tally.scenes_s[session.programme.scene.stem()] += session.visited_s;
+        if (visited_s > 0)
+            tally.scenes_s[session.programme.scene.stem()] += visited_s;
     });
-    session.visited_s = 0;
     session.unplugged = unplugged;
     return session.diary.turn(std::time(nullptr),
         {.uptime_s = seconds(now - session.began),
             .resident_bytes = own.resident_bytes,
             .files = own.files,
             .threads = own.threads,
-            .devices = session.hid.kinds().size(),
-            .worn_axes = session.hid.ignored_axes(),
+            .devices = hid.kinds().size(),
+            .worn_axes = hid.ignored_axes(),
             .outputs_shown = outputs_shown,
             .outputs = session.layout.outputs.size(),
             .pipelines = pipelines,
@@ -458,95 +374,36 @@ bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelin
             .version = session.options.version});
 }
 
-/// Dims a calm exhibit's picture where it would flash. before: of the picture before.
-static void guard_light(Session& session, RecordEntry& entry, const Metered& before, double dt_s)
-{
-    if (session.record_replay.replays()) {
-        session.calm_light = entry.light;
-        return;
-    }
-    const std::optional<RangeCurve>& curve = curve_of(session);
-    const double gain = std::exp2(session.drawn_ev);
-    session.flash_guard.take(
-        before.surfaces, before.across,
-        [&](double luminance) { return gain * (curve ? std::exp2(curve->at(std::log2(luminance))) : luminance); }, dt_s);
-    entry.light = session.calm_light = session.flash_guard.light();
-}
-
-/// Limits the turns of a calm exhibit's exposure and of its way to black.
-void keep_calm(Session& session, double dt_s)
-{
-    session.calm_black = followed(session.calm_black, session.black, dt_s, black_per_s, 0);
-    session.black = *session.calm_black.value;
-    SlowTurns before = std::exchange(session.calm_ev, {});
-    const bool ranged = curve_of(session).has_value();
-    if (std::exchange(session.calm_range, ranged) != ranged)
-        before = {}; // a leap, as each switch is
-    // A tour shows its own exposures; the first view of a world is exposed at once.
-    if ((session.exposure.ev || !session.options.exposure.automatic) && visitor_flies(session))
-        session.calm_ev = calmed_ev(before, ev_of(session), dt_s);
-}
-
 void seek_goals(Session& session, const SceneFile& scene, std::int64_t dt_ns)
 {
-    if (seeks_goals(session) && !session.flight.frozen)
-        session.goals = advance(session.goals, scene.goals, session.flight.ship, ship_at(session.programme.start),
+    if (seeks_goals(session) && !session.flight().frozen)
+        session.goals = advance(session.goals, scene.goals, session.flight().ship, ship_at(session.programme.start),
             scene.seconds_per_time_unit(), dt_ns);
 }
 
-/// Adapts at once where the picture has leapt. Returns true if it has: what was metered then belongs to another picture.
-static bool follow_leap(Session& session)
+void step(Session& session, RecordEntry& entry, const Metered& metered)
 {
-    const Leaps leaps = session.flight.leaps;
-    const std::optional<Leaps> before = std::exchange(session.leaps, leaps);
-    if (before == leaps)
-        return false;
-    if (before && before->begun == leaps.begun) {
-        session.exposure.leapt = true;
-        return true;
-    }
-    session.exposure = {}, session.calm_ev = {};
-    session.begun_ev = session.guide ? session.flight.exposure_ev : session.programme.start.exposure_ev;
-    session.range_mode.follows_at_once = true;
-    return true;
-}
-
-void step(Session& session, RecordEntry& entry, const Metered& before, double seconds_per_time_unit)
-{
-    const Exposing& exposing = session.options.exposure;
-    const Shot& start = session.programme.start;
     const Controls& controls = entry.controls;
     const double dt_s = 1e-9 * double(entry.dt_ns);
-    if (exposing.calm)
-        guard_light(session, entry, before, dt_s);
-    const bool toured = session.guide && !session.guide->over();
-    session.flight = session.guide ? session.guide->flown(controls, entry.dt_ns)
-        : session.shown_record
-        ? session.shown_record->flown(entry.dt_ns)
-        : flown(session.flight, session.history, controls, entry.dt_ns, session.rules, seconds_per_time_unit, start);
-    session.leapt = follow_leap(session);
-    const Metered metered = session.leapt ? Metered() : before;
-    session.exposure.locked ^= controls[Switch::lock_exposure];
-    if (controls[Switch::information])
-        session.information = after(session.information);
-    if (controls[Switch::beside])
-        session.beside = after(session.beside);
-    if (session.record_replay.replays())
-        session.exposure = adapted_to(session.exposure, entry.exposure_ev, exposing, session.begun_ev);
-    else
-        session.exposure = adapted(session.exposure, metered.ev, dt_s, exposing, session.begun_ev);
-    entry.exposure_ev = session.exposure.ev;
-    follow_range(session, entry, metered, dt_s);
-    session.record_replay.keep(entry, session.flight);
-    session.tutorial = advance(session.tutorial, controls, session.flight, dt_s);
-    if (toured && session.guide->over() && in_hand(session.visit))
+    const bool over = session.source->over();
+    session.source->advance(controls, entry.dt_ns);
+    if (session.tour() && session.source->over() && !over && session.attendance.in_hand())
         session.diary.count([](Tally& tally) { ++tally.tours_finished; });
-    Directions& directions = session.directions;
-    directions.fade = std::clamp(directions.fade + (directions.fades ? dt_s : -dt_s) / to_black_s, 0.0, 1.0);
-    session.black = std::max({directions.fade, session.home_black, blackness(session.visit, session.visiting)});
-    if (exposing.calm)
-        keep_calm(session, dt_s);
-    session.drawn_ev = ev_of(session);
+    apply(session.choices, controls);
+    const bool replays = session.record_replay.replays();
+    entry.ranged = session.choices.range = replays ? entry.ranged : session.choices.range;
+    session.docent.advance(dt_s);
+    session.light.advance(entry,
+        {.source = *session.source,
+            .metered = metered,
+            .range = session.choices.range,
+            .locks = controls[Switch::lock_exposure],
+            .replays = replays,
+            .black = std::max(session.docent.black(), session.attendance.black()),
+            .directed_ev = session.docent.exposure_ev(),
+            .dt_s = dt_s});
+    session.record_replay.keep(entry, session.flight());
+    session.tutorial = advance(session.tutorial, controls, session.flight(), dt_s);
 }
 
 } // namespace starbow

@@ -3,17 +3,15 @@
 namespace starbow {
 namespace {
 
-bool shows_tour(const Session& session) { return session.guide && !session.guide->over(); }
-
 /// The moment in a tour. It changes when a text shall begin.
-std::string moment_of(const Session& session)
+std::string moment_of(const Session& session, const Guide& tour)
 {
-    return session.programme.tour_name + "/" + std::to_string(session.guide->step()) + (session.guide->answered() ? "a" : "")
-        + "/" + session.words.language;
+    return session.programme.tour_name + "/" + std::to_string(tour.step()) + (tour.answered() ? "a" : "") + "/"
+        + session.words.language;
 }
 
 /// A tour's text: sentence after sentence.
-std::string text_of_tour(const Session& session)
+std::string text_of_tour(const Session& session, const Guide& tour)
 {
     std::string all;
     const auto add = [&](const std::string& text) {
@@ -22,9 +20,9 @@ std::string text_of_tour(const Session& session)
         const bool ends = text.ends_with('.') || text.ends_with('!') || text.ends_with('?');
         all += (all.empty() ? "" : " ") + text + (ends ? "" : ".");
     };
-    if (!session.guide->answered())
-        add(session.guide->description());
-    if (const auto caption = session.guide->caption(session.words, session.hid.capabilities())) {
+    if (!tour.answered())
+        add(tour.description());
+    if (const auto caption = tour.caption(session.words, session.devices.hid().capabilities())) {
         add(caption->text);
         if (caption->right < 0)
             for (const std::string& choice : caption->choices)
@@ -39,13 +37,13 @@ void speak(Session& session, const SceneFile& scene)
 {
     if (!session.speaker)
         return;
-    const bool tour = shows_tour(session);
-    std::string moment = tour  ? moment_of(session)
+    const Guide* tour = session.source->over() ? nullptr : session.tour();
+    std::string moment = tour  ? moment_of(session, *tour)
         : seeks_goals(session) ? goal_text(session.goals, scene.goals, session.words)
                                : "";
     if (moment == session.spoken)
         return;
-    session.speaker->say(tour ? text_of_tour(session) : moment, session.words.language);
+    session.speaker->say(tour ? text_of_tour(session, *tour) : moment, session.words.language);
     session.spoken = std::move(moment);
 }
 

@@ -54,21 +54,20 @@ std::optional<Command> take(MenuState& menu, const MenuPage& page)
 
 } // namespace
 
-std::optional<Command> advance(MenuState& menu, std::span<const MenuPage> pages, Controls& controls, std::int64_t dt_ns)
+std::optional<Command> advance(
+    MenuState& menu, std::span<const MenuPage> pages, const Controls& hands, std::int64_t dt_ns, Requests& requests)
 {
+    Switches pressed = hands & switches_of(Presser::pilot);
     if (!menu.open) {
-        menu.open = controls[Switch::menu];
+        menu.open = pressed[Switch::menu];
         if (!menu.open)
             return {};
-        controls.set(Switch::menu, false);
+        pressed.set(Switch::menu, false);
     }
-    const Steering hands
-        = std::exchange(static_cast<Steering&>(controls), Steering{.lever = controls.lever, .taken = controls.taken});
-    const Switches pressed = controls & switches_of(Presser::pilot);
-    static_cast<Switches&>(controls) = controls - pressed;
+    requests.hands_in_menu = true;
     const int by = nudge(menu, hands, 1e-9 * double(dt_ns));
     constexpr Switches used{Switch::stop, Switch::home, Switch::undo, Switch::menu};
-    const bool touched = by != 0 || (pressed & used).any() || controls.pressed;
+    const bool touched = by != 0 || (pressed & used).any() || hands.pressed;
     menu.idle_ns = touched ? 0 : menu.idle_ns + dt_ns;
     const MenuPage& page = pages[menu.page];
     if (page.items.empty()) { // its last choice has gone meanwhile

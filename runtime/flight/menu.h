@@ -1,6 +1,6 @@
 #pragma once
 #include "input/command.h"
-#include "input/controls.h"
+#include "input/requests.h"
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -34,8 +34,9 @@ struct MenuState {
 };
 
 /// Advances a menu by a frame. While it is open, the stick or the arrows choose, the stop button takes, home and undo lead
-/// back, and none of them reaches the ship, whose lever stays. Returns the chosen command. A menu that nobody touches for
-/// twenty seconds closes.
-std::optional<Command> advance(MenuState& menu, std::span<const MenuPage> pages, Controls& controls, std::int64_t dt_ns);
+/// back, and by the requests none of them reaches the ship, whose lever stays. Returns the chosen command. A menu that
+/// nobody touches for twenty seconds closes.
+std::optional<Command> advance(
+    MenuState& menu, std::span<const MenuPage> pages, const Controls& hands, std::int64_t dt_ns, Requests& requests);
 
 } // namespace starbow

@@ -17,8 +17,7 @@ template <class... Parts> constexpr bool controls_have(Parts...)
     return requires { Controls{Parts{}...}; }
     &&!requires { Controls{Parts{}..., {}}; };
 }
-static_assert(
-    controls_have(ControlTimes{}, Steering{}, Looking{}, Switches{}, AlignmentSteps{}, Touches{}, RemoteCommands{}));
+static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, Switches{}, AlignmentSteps{}, Touches{}));
 
 /// Compiles only while these structs have exactly the members named here, whatever their sizes. A new member belongs in
 /// the record, or in the digest, as well.
@@ -29,7 +28,6 @@ static_assert(
     [[maybe_unused]] const auto& [look_rad, head, exposure] = static_cast<const Looking&>(c);
     [[maybe_unused]] const auto& [choose, turn_by] = static_cast<const AlignmentSteps&>(c);
     [[maybe_unused]] const auto& [key_pressed, key_held] = static_cast<const Touches&>(c); // not kept: a record is one visit
-    [[maybe_unused]] const auto& [commands] = static_cast<const RemoteCommands&>(c);
     [[maybe_unused]] const auto& [mode, max_gamma, turn_deg_per_s, roll_deg_per_s, turn_jerk_deg_per_s3, rapidity_per_s,
         rapidity_jerk_per_s2, boundary, pace, solids, comfort, paced]
         = f;
@@ -243,7 +241,7 @@ RecordEntry read_entry(const Place& top)
     take(top, "taken", controls.taken);
     if (auto p = find_member(top, "commands"))
         for (const Place& command : items(*p, 1, 1000, "commands"))
-            controls.commands.push_back(read_command(command));
+            entry.commands.push_back(read_command(command));
     return entry;
 }
 
@@ -359,7 +357,7 @@ std::string text_of(const RecordEntry& entry)
             json[std::string(one.name)] = true;
     if (controls.taken)
         json["taken"] = true;
-    for (const Command& command : controls.commands)
+    for (const Command& command : entry.commands)
         json["commands"].push_back(words_of(command));
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -3,6 +3,7 @@
 #include "config/model/flying.h"
 #include "config/model/shot.h"
 #include "flight.h"
+#include "input/command.h"
 #include "input/controls.h"
 #include <cstdint>
 #include <string>
@@ -38,6 +39,7 @@ struct RecordEntry {
     bool ranged = false; ///< a curve shows everything at once
     std::vector<double> range_goal; ///< the curve that it follows from this frame on, as range_curve.h has it; empty: the
                                     ///< same as before
+    std::vector<Command> commands; ///< of a remote, the guide's window and the menu, carried out before the step
     Controls controls; ///< time_ns: the sum of all dt_ns and skipped_ns so far
 };
 

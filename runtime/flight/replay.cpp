@@ -115,7 +115,7 @@ std::string Replay::verdict() const
 
 const Command* exhibits_command(const RecordEntry& entry)
 {
-    const std::vector<Command>& commands = entry.controls.commands;
+    const std::vector<Command>& commands = entry.commands;
     const auto at = std::ranges::find_if_not(commands, kept_in_frames);
     return at == commands.end() ? nullptr : &*at;
 }

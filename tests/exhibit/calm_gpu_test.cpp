@@ -2,7 +2,6 @@
 #include "config/model/shipped.h"
 #include "displays/check/eye_fields.h"
 #include "input/calm.h"
-#include "runtime/exhibit/obey.h"
 #include "runtime/exhibit/replay_renderer.h"
 #include "runtime/exhibit/session.h"
 #include "runtime/images/flashes.h"
@@ -40,7 +39,6 @@ public:
         options_.exposure.calm = calm;
         options_.rules = rules;
         options_.paced = false;
-        unit_s_ = context.world.scene.seconds_per_time_unit();
         const std::vector<EyeField> fields = eye_fields(layout_);
         for (const EyePixel& pixel : fields[0].pixels) {
             at_.push_back(pixel.at);
@@ -52,6 +50,7 @@ public:
     int flashes(const std::function<Controls(double)>& hands, double seconds)
     {
         Session session(options_);
+        CalmHands calm_hands;
         const Shot& start = options_.programme.start;
         ReplayRenderer pictures(renderer_, Pattern::none, options_.exposure, start.exposure_ev, options_.words);
         pictures.meter(true);
@@ -65,12 +64,11 @@ public:
             entry.controls.set(Switch::range, false),
                 entry.controls.set(Switch::quit, false); // its curve needs samples, and its own test has them
             if (options_.exposure.calm)
-                entry.controls = session.calm_hands.let_through(entry.controls, dt_s);
-            step(session, entry, {metered, renderer_.frame().surface_samples(), {}, renderer_.frame().samples_across()},
-                unit_s_);
+                entry.controls = calm_hands.let_through(entry.controls, dt_s);
+            step(session, entry, {metered, renderer_.frame().surface_samples(), {}, renderer_.frame().samples_across()});
             dimmest_ = std::min(dimmest_, entry.light), mean_ += entry.light * dt_s / seconds;
-            pictures.take(entry, session.flight);
-            const auto picture = pictures.picture(session.flight, start.scene, nullptr);
+            pictures.take(entry, session.flight());
+            const auto picture = pictures.picture(session.flight(), start.scene, nullptr);
             metered = renderer_.frame().metered();
             for (std::size_t i = 0; i < at_.size(); ++i) {
                 const std::uint8_t* rgb = &picture[0][4
@@ -97,7 +95,6 @@ private:
     Layout layout_;
     OffscreenRenderer renderer_;
     ExhibitOptions options_;
-    double unit_s_ = 1;
     std::vector<ivec2> at_;
     std::vector<SeenPixel> pixels_;
 };

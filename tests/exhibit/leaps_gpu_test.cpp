@@ -2,9 +2,9 @@
 // still of this state, from the first picture on.
 #include "config/model/exhibit_file.h"
 #include "config/model/shipped.h"
-#include "runtime/exhibit/obey.h"
 #include "runtime/exhibit/open_exhibit.h"
 #include "runtime/exhibit/session.h"
+#include "runtime/exhibit/session_commands.h"
 #include "tests/support/controls.h"
 #include "tests/support/files.h"
 #include <cmath>
@@ -21,7 +21,7 @@ using starbow::testing::controls_with;
 double metered_in(const Session& session)
 {
     double sum = double(session.programme.scene.string().size() % 7);
-    const glm::dvec3 at = session.flight.ship.position.total(), u = session.flight.ship.u.total();
+    const glm::dvec3 at = session.flight().ship.position.total(), u = session.flight().ship.u.total();
     for (int i = 0; i < 3; ++i)
         sum += 2 * std::sin(at[i] / 3 + i) - std::log1p(std::abs(u[i]));
     return sum - 4;
@@ -39,7 +39,7 @@ struct Live {
     {
         RecordEntry entry{.dt_ns = std::int64_t(1e9 * dt_s)};
         entry.controls = std::move(controls);
-        step(session, entry, {drawn, {}, {}}, 1);
+        step(session, entry, {drawn, {}, {}});
         drawn = metered_in(session);
     }
 
@@ -106,9 +106,9 @@ double first_ev(const std::string& kind, const std::string& name)
 /// The exposure of the picture of the leap and of the next ones is that of the still. It may follow the light meanwhile.
 void expect_still(Live& live, double still_ev, const std::string& what)
 {
-    const double at_first = live.session.flight.exposure_ev;
+    const double at_first = live.session.flight().exposure_ev;
     for (int i = 0; i < 4; ++i) {
-        EXPECT_NEAR(ev_of(live.session), still_ev + live.session.flight.exposure_ev - at_first, 0.05)
+        EXPECT_NEAR(live.session.light.ev(), still_ev + live.session.flight().exposure_ev - at_first, 0.05)
             << what << ", picture " << i << " after the leap";
         live.frame({}, 1e-3);
     }
@@ -190,18 +190,18 @@ TEST(Leaps, ToursHandOverWithTheirOwnExposure)
             live.frame();
             std::size_t step = 0;
             bool flew = false;
-            for (int presses = 0; presses < 60 && !live.session.guide->over(); ++presses) {
+            for (int presses = 0; presses < 60 && !live.session.tour()->over(); ++presses) {
                 for (double t = 0; t < rest_s; t += 0.1)
                     live.frame(controls_with(Steering{.lever = flew ? 0.7 : 0.}), 0.1);
                 live.frame(controls_with(Switches{Switch::home}), 1e-3);
-                const bool flies = visitor_flies(live.session),
-                           cut = file["steps"][live.session.guide->step()].contains("cut");
-                const std::string what = name + ", step " + std::to_string(live.session.guide->step());
-                if (live.session.guide->step() != step && cut)
-                    ++cuts, expect_still(live, live.session.flight.exposure_ev, what + ", a cut");
+                const bool flies = live.session.source->by_hand(),
+                           cut = file["steps"][live.session.tour()->step()].contains("cut");
+                const std::string what = name + ", step " + std::to_string(live.session.tour()->step());
+                if (live.session.tour()->step() != step && cut)
+                    ++cuts, expect_still(live, live.session.flight().exposure_ev, what + ", a cut");
                 else if (flies && !flew)
-                    ++hand_overs, expect_still(live, live.session.flight.exposure_ev, what + ", handed over");
-                step = live.session.guide->step(), flew = flies;
+                    ++hand_overs, expect_still(live, live.session.flight().exposure_ev, what + ", handed over");
+                step = live.session.tour()->step(), flew = flies;
             }
             live.fly_away();
             live.frame(controls_with(Switches{Switch::reset}), 1e-3);
@@ -222,7 +222,7 @@ TEST(Leaps, TenSecondsBackAndAStopAreAdaptedToAtOnce)
             live.frame(controls_with(Steering{.lever = 0.9}), 0.1);
         live.frame(controls_with(Switches{stops ? Switch::stop : Switch::undo}), 1e-3);
         live.frame({}, 1e-3);
-        EXPECT_NEAR(ev_of(live.session), metered_in(live.session) + offset, 0.05) << stops;
+        EXPECT_NEAR(live.session.light.ev(), metered_in(live.session) + offset, 0.05) << stops;
     }
 }
 
@@ -239,9 +239,9 @@ TEST(Leaps, AReplayHasTheFlightsExposures)
             hands.set(Switch::stop, i % 60 == 59), hands.set(Switch::undo, i % 50 == 49);
             hands.set(Switch::reset, i % 77 == 76);
             live.frame(hands);
-            shown.push_back(ev_of(live.session));
+            shown.push_back(live.session.light.ev());
         }
-        live.session.record_replay.end(live.session.flight, [](const std::string&) {});
+        live.session.record_replay.end(live.session.flight(), [](const std::string&) {});
         live.session.record_replay.close();
     }
     options.replay = std::exchange(options.record, {});
@@ -249,8 +249,8 @@ TEST(Leaps, AReplayHasTheFlightsExposures)
     RecordEntry entry;
     for (std::size_t i = 0; i < shown.size(); ++i) {
         ASSERT_TRUE(again.session.record_replay.play(entry));
-        step(again.session, entry, {}, 1);
-        EXPECT_NEAR(ev_of(again.session), shown[i], 1e-9) << i;
+        step(again.session, entry, {});
+        EXPECT_NEAR(again.session.light.ev(), shown[i], 1e-9) << i;
     }
 }
 

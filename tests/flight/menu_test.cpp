@@ -28,10 +28,17 @@ struct Visitor {
 
     std::optional<Command> does(const Controls& hands)
     {
-        left = hands;
-        const std::optional<Command> chosen = advance(menu, pages, left, frame_ns);
-        Controls rest; // the hand lets go
-        advance(menu, pages, rest, frame_ns);
+        std::optional<Command> chosen = holds(hands);
+        const Controls after = left;
+        holds({}); // the hand lets go
+        left = after;
+        return chosen;
+    }
+    std::optional<Command> holds(const Controls& hands)
+    {
+        Requests requests;
+        std::optional<Command> chosen = advance(menu, pages, hands, frame_ns, requests);
+        left = requested(hands, requests);
         return chosen;
     }
 };
@@ -85,8 +92,7 @@ TEST(MenuTest, TheChoiceGoesAroundAndRepeatsWhileTheStickIsHeld)
     int steps = 0;
     std::size_t before = visitor.menu.item;
     for (int i = 0; i < 63; ++i) { // one second: at once, after half of it, and each fifth then
-        Controls held = controls_with(right);
-        advance(visitor.menu, visitor.pages, held, frame_ns);
+        visitor.holds(right);
         steps += visitor.menu.item != before;
         before = visitor.menu.item;
     }
@@ -128,13 +134,11 @@ TEST(MenuTest, AMenuThatNobodyTouchesCloses)
     Visitor visitor;
     visitor.does(opens);
     for (int i = 0; i < 19 * 1000 / 16; ++i) {
-        Controls nothing = controls_with(Steering{.lever = 0.7});
-        advance(visitor.menu, visitor.pages, nothing, frame_ns);
+        visitor.holds(controls_with(Steering{.lever = 0.7}));
     }
     EXPECT_TRUE(visitor.menu.open);
     for (int i = 0; i < 2 * 1000 / 16; ++i) {
-        Controls nothing;
-        advance(visitor.menu, visitor.pages, nothing, frame_ns);
+        visitor.holds({});
     }
     EXPECT_FALSE(visitor.menu.open);
 }
@@ -146,9 +150,8 @@ TEST(MenuTest, APageWithoutChoicesClosesTheMenu)
     visitor.does(opens);
     visitor.does(takes);
     EXPECT_FALSE(visitor.menu.open);
-    Controls flies = controls_with(Steering{.turn = {0, 1, 0}});
-    advance(visitor.menu, visitor.pages, flies, frame_ns);
-    EXPECT_EQ(flies.turn.y, 1) << "the hands reach the ship again";
+    visitor.holds(left_hand);
+    EXPECT_EQ(visitor.left.turn.y, 1) << "the hands reach the ship again";
 }
 
 TEST(MenuTest, RandomHandsNeverLeaveTheMenusPages)
@@ -166,7 +169,7 @@ TEST(MenuTest, RandomHandsNeverLeaveTheMenusPages)
             hands.set(which, once_in(frames));
         if (i % 5000 == 0)
             visitor.pages[1].items.resize(random() % 3, world); // a world goes, or comes
-        chosen += advance(visitor.menu, visitor.pages, hands, frame_ns).has_value();
+        chosen += visitor.holds(hands).has_value();
         ASSERT_LT(visitor.menu.page, visitor.pages.size());
     }
     EXPECT_GT(chosen, 1000);

@@ -4,8 +4,8 @@
 #include "runtime/flight/record_replay.h"
 #include "runtime/flight/recorder.h"
 #include "runtime/flight/replay.h"
-#include "runtime/flight/shown_record.h"
 #include "runtime/operation/record_files.h"
+#include "runtime/visit/shown_record.h"
 #include "tests/support/controls.h"
 #include "tests/support/files.h"
 #include "tests/support/waiting.h"
@@ -89,7 +89,7 @@ RecordEntry some_entry(std::mt19937_64& random)
     if (random() % 5 == 0)
         entry.range_goal = {-31.25, 4.5, double(random() % 80), some_double(random, -9, 2), 0.001, 0.517, 1};
     if (random() % 4 == 0)
-        c.commands = {{.kind = CommandKind::scene, .text = "train"},
+        entry.commands = {{.kind = CommandKind::scene, .text = "train"},
             {.kind = CommandKind::effect, .on = random() % 2 == 0, .effect = Effect::doppler},
             {.kind = CommandKind::speed_limit, .number = 1 + std::uniform_real_distribution<double>(0, 9)(random)},
             {.kind = CommandKind::caption, .text = "\"Grüße\" \\ γ"}, {.kind = CommandKind::stop}};
@@ -121,7 +121,7 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
     all.push_back(c.taken);
     all.push_back(std::uint64_t(c.choose));
     all.push_back(std::uint64_t(c.turn_by));
-    for (const Command& command : c.commands) {
+    for (const Command& command : e.commands) {
         all.insert(all.end(),
             {std::uint64_t(command.kind), command.on, std::uint64_t(command.effect),
                 std::bit_cast<std::uint64_t>(command.number)});
@@ -376,7 +376,7 @@ TEST(Record, IsShownAsItWasFlown)
     const std::filesystem::path file = fresh("shown.jsonl");
     std::int64_t length_ns = 0;
     const Flight flight = record_random(file, random, 2'000, [&](RecordEntry& entry, const Flight&) {
-        entry.controls.commands.clear();
+        entry.commands.clear();
         length_ns += entry.dt_ns;
     });
     const RecordHeader header = some_header();
@@ -385,7 +385,7 @@ TEST(Record, IsShownAsItWasFlown)
         EXPECT_EQ(digest(shown.flight()), digest(flight_at(header.start, header.rules)));
         std::int64_t passed_ns = 0;
         for (; !shown.over() && passed_ns < 2 * length_ns; passed_ns += dt_ns)
-            shown.flown(dt_ns);
+            shown.advance({}, dt_ns);
         EXPECT_NEAR(double(passed_ns), double(length_ns), double(dt_ns));
         EXPECT_EQ(digest(shown.flight()), digest(flight));
     }
@@ -394,20 +394,20 @@ TEST(Record, IsShownAsItWasFlown)
     text.insert(text.size() / 2, "{");
     ShownRecord damaged(write_text("damaged.jsonl", text));
     for (int i = 0; i < 100'000 && !damaged.over(); ++i)
-        damaged.flown(16'666'667);
+        damaged.advance({}, 16'666'667);
     EXPECT_TRUE(damaged.over());
     // So does one at a command that an exhibit carries out: what follows belongs to another state.
     int frames = 0;
     const std::filesystem::path led = fresh("led.jsonl");
     const Flight before = record_random(led, random, 10, [&](RecordEntry& entry, const Flight&) {
         entry.dt_ns = 5'000'000;
-        entry.controls.commands.clear();
+        entry.commands.clear();
         if (++frames == 6)
-            entry.controls.commands = {{.kind = CommandKind::scene, .text = "train"}};
+            entry.commands = {{.kind = CommandKind::scene, .text = "train"}};
     });
     ShownRecord until_led(led);
     for (int i = 0; i < 1'000 && !until_led.over(); ++i)
-        until_led.flown(1'000'000);
+        until_led.advance({}, 1'000'000);
     EXPECT_TRUE(until_led.over());
     EXPECT_LT(until_led.flight().ticks, before.ticks);
     EXPECT_LE(until_led.flight().ticks, 25);

@@ -161,6 +161,7 @@ TEST(ScanTest, OneButtonReachesEveryItemOfAMenuAndTheWayOut)
             .stays = true}};
     const OneButton rules;
     std::set<std::string> taken;
+    Requests requests;
     // A visitor for each page and item: presses when it is shown.
     for (std::size_t page = 1; page < pages.size(); ++page)
         for (std::size_t item = 0; item < pages[page].items.size(); ++item) {
@@ -173,7 +174,7 @@ TEST(ScanTest, OneButtonReachesEveryItemOfAMenuAndTheWayOut)
                 const AnyButton button = here ? goes_down : untouched;
                 Controls controls
                     = controls_of(advance_in_menu(scan, rules, button, menu.page, pages[menu.page].items.size(), frame_ns));
-                chosen = advance(menu, pages, controls, frame_ns);
+                chosen = advance(menu, pages, controls, frame_ns, requests);
             }
             ASSERT_TRUE(chosen) << page << ' ' << item;
             EXPECT_EQ(*chosen, std::get<Command>(pages[page].items[item].leads));
@@ -190,7 +191,7 @@ TEST(ScanTest, OneButtonReachesEveryItemOfAMenuAndTheWayOut)
             shown.insert(menu.item);
         Controls controls
             = controls_of(advance_in_menu(scan, rules, untouched, menu.page, pages[menu.page].items.size(), frame_ns));
-        EXPECT_FALSE(advance(menu, pages, controls, frame_ns));
+        EXPECT_FALSE(advance(menu, pages, controls, frame_ns, requests));
     }
     EXPECT_EQ(shown.size(), 3u);
     EXPECT_NEAR(time_s, (3 + 2) * rules.scan_s, 0.1);

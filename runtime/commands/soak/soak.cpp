@@ -151,23 +151,23 @@ public:
         if (woken_++ < waking_frames)
             entry.controls.pressed = true;
         else if (left_-- > 0)
-            visitor_->act(entry.controls, frame_s);
+            visitor_->act(entry, frame_s);
         else if (use_ == Use::visitors)
-            see_off(entry.controls);
+            see_off(entry);
         else if (left_ == -1)
-            reset(entry.controls);
+            reset(entry);
         else if (left_ <= -1 - resting_frames)
             end();
     }
 
 private:
-    static void reset(Controls& controls) { controls.commands.push_back({.kind = CommandKind::reset}); }
+    static void reset(RecordEntry& entry) { entry.commands.push_back({.kind = CommandKind::reset}); }
 
     /// The visitor has let go: the exhibit ends the visit.
-    void see_off(Controls& controls)
+    void see_off(RecordEntry& entry)
     {
         if (!over_ && left_ == -most_lingering_frames)
-            reset(controls);
+            reset(entry);
         if (over_ && rested_++ >= resting_frames)
             end();
     }
@@ -216,7 +216,7 @@ private:
     const SoakOptions& options_;
     SoakLog& log_;
     const SoakFolder& folder_;
-    Choices choices_;
+    SoakNames choices_;
     Use use_;
     long visit_, frames_ = 0;
     int left_ = 0, waited_ = 0, woken_ = 0, rested_ = 0; ///< frames

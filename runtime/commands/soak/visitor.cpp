@@ -20,7 +20,7 @@ constexpr int like_frames = 50, reload_frames = 10;
 
 } // namespace
 
-SeededVisitor::SeededVisitor(Use use, std::uint64_t seed, long visit, const Choices& choices)
+SeededVisitor::SeededVisitor(Use use, std::uint64_t seed, long visit, const SoakNames& choices)
     : random_(seed * 0x9e3779b97f4a7c15u + std::uint64_t(visit))
     , choices_(choices)
     , kind_(Kind(std::discrete_distribution<int>({4, 4, 1, 3})(random_)))
@@ -33,8 +33,9 @@ SeededVisitor::SeededVisitor(Use use, std::uint64_t seed, long visit, const Choi
     frames_ = use == Use::reloads ? reload_frames : like_frames;
 }
 
-void SeededVisitor::act(Controls& controls, double dt_s)
+void SeededVisitor::act(RecordEntry& entry, double dt_s)
 {
+    Controls& controls = entry.controls;
     switch (kind_) {
     case Kind::keys:
         return press_keys(controls, dt_s);
@@ -45,7 +46,7 @@ void SeededVisitor::act(Controls& controls, double dt_s)
     case Kind::docent:
         move_stick(controls, dt_s);
         if (chance(dt_s / direction_every_s))
-            controls.commands.push_back(direction());
+            entry.commands.push_back(direction());
     }
 }
 

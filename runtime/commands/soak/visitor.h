@@ -1,5 +1,5 @@
 #pragma once
-#include "input/controls.h"
+#include "runtime/flight/record.h"
 #include <array>
 #include <cstdint>
 #include <random>
@@ -9,7 +9,7 @@
 namespace starbow {
 
 /// Names of everything that a visitor or a docent may choose.
-struct Choices {
+struct SoakNames {
     std::vector<std::string> scenes, shots, tours, languages, qualities;
 };
 
@@ -23,11 +23,11 @@ inline constexpr std::array use_names{"visitors", "tour", "flight", "reloads"}; 
 /// all watch.
 class SeededVisitor {
 public:
-    SeededVisitor(Use use, std::uint64_t seed, long visit, const Choices& choices);
+    SeededVisitor(Use use, std::uint64_t seed, long visit, const SoakNames& choices);
 
     int frames() const { return frames_; } ///< of the whole visit
-    /// The controls of the next frame, of dt_s seconds.
-    void act(Controls& controls, double dt_s);
+    /// The controls and commands of the next frame, of dt_s seconds.
+    void act(RecordEntry& entry, double dt_s);
 
 private:
     enum class Kind { keys, stick, watcher, docent };
@@ -42,7 +42,7 @@ private:
     Command direction();
 
     std::mt19937_64 random_;
-    const Choices& choices_;
+    const SoakNames& choices_;
     Kind kind_;
     int frames_;
     glm::dvec3 turn_{0}, push_{0};

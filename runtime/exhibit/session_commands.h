@@ -3,11 +3,11 @@
 
 namespace starbow {
 
-/// Carries out a command that needs no device: it changes the session, or presses a switch of the frame's controls, which
-/// the session then steps by. Call it for each command of the frame, recorded or not, before the step. Throws InputError
-/// with the reason where the command makes no sense now; then nothing has changed. scene, shot, tour, reset, layout and
-/// quality, which need the device, belong to FrameLoop.
-void obey(Session& session, const Command& command, Controls& controls);
+/// Carries out a command that needs no device: it changes the session, or makes a request that the frame's flight follows.
+/// Call it for each command of the frame, recorded or not, before the step. Throws InputError with the reason where the
+/// command makes no sense now; then nothing has changed. scene, shot, tour, reset, layout and quality, which need the
+/// device, belong to FrameLoop.
+void carry_out(Session& session, const Command& command, Requests& requests);
 
 /// The programme that a command leads to: scene, shot, tour, or reset to the exhibit's own. Throws InputError.
 Programme programme_after(const Session& session, const Command& command);
@@ -15,13 +15,16 @@ Programme programme_after(const Session& session, const Command& command);
 /// Shows a programme from its start. visitors: false where nobody is there to fly, and to answer a tour's questions.
 void begin_programme(Session& session, Programme programme, bool visitors = true);
 
+/// Gives the builder's keys back for ten minutes, and says so.
+void unlock_builders_keys(Session& session);
+
 /// Another visitor's hands come: what the last ones have left tilted, open or held counts once it has reported again.
 void forget_hands(Session& session);
 
 /// Everything that a visitor can change, but for the programme and the instruments, is as the exhibit's file says.
 void forget_visitor(Session& session);
 
-/// The same of all that a docent can change, but for the layout.
+/// The same of all that a docent can change, but for the layout. Show a programme afterwards.
 void forget_directions(Session& session);
 
 } // namespace starbow

@@ -5,14 +5,14 @@ namespace starbow {
 
 constexpr double fade_s = 1.5, prompt_s = 12;
 
-const Flight& Guide::flown(const Controls& controls, std::int64_t dt_ns)
+const Flight& Guide::advance(const Controls& controls, std::int64_t dt_ns)
 {
     const std::uint32_t begun = touring_.flight.leaps.begun;
-    touring_ = advance(std::move(touring_), show_, controls, dt_ns);
+    touring_ = starbow::advance(std::move(touring_), show_, controls, dt_ns);
     if (touring_.flight.leaps.begun != begun)
         automatic_ = 0;
     const double dt_s = 1e-9 * double(dt_ns);
-    automatic_ = std::clamp(automatic_ + (flies() ? dt_s : -dt_s) / fade_s, 0.0, 1.0);
+    automatic_ = std::clamp(automatic_ + (by_hand() ? dt_s : -dt_s) / fade_s, 0.0, 1.0);
     over_s_ = touring_.over ? over_s_ + dt_s : 0;
     return touring_.flight;
 }

@@ -23,7 +23,7 @@ void ShownRecord::read_next()
     }
 }
 
-const Flight& ShownRecord::flown(std::int64_t dt_ns)
+const Flight& ShownRecord::advance(const Controls&, std::int64_t dt_ns)
 {
     const RecordHeader& header = replay_.header();
     waits_ns_ -= dt_ns;

@@ -1,20 +1,23 @@
 #pragma once
-#include "history.h"
-#include "replay.h"
+#include "flight_source.h"
+#include "runtime/flight/history.h"
+#include "runtime/flight/replay.h"
 
 namespace starbow {
 
 /// A flown record that is shown as it was flown, in its own time, whatever the frames' times are now.
-class ShownRecord {
+class ShownRecord : public FlightSource {
 public:
     /// Throws InputError, also where the record's first frames are wrong.
     explicit ShownRecord(const std::filesystem::path& file);
 
     /// The flight dt_ns nanoseconds later. A record is over where it is damaged, and at a command that only an exhibit
     /// carries out.
-    const Flight& flown(std::int64_t dt_ns);
-    bool over() const { return !next_; }
-    const Flight& flight() const { return flight_; }
+    const Flight& advance(const Controls& hands, std::int64_t dt_ns) override;
+    const Flight& flight() const override { return flight_; }
+    bool over() const override { return !next_; }
+    double begun_ev() const override { return header().start.exposure_ev; }
+    Flight* switched() override { return &flight_; }
     const RecordHeader& header() const { return replay_.header(); }
 
 private:

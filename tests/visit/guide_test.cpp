@@ -1,7 +1,7 @@
 // A tour in a running exhibit: it begins anew for the next visitor, and leaves out the visitor's steps while nobody is
 // there.
 #include "config/model/shipped.h"
-#include "runtime/operation/guide.h"
+#include "runtime/visit/guide.h"
 #include "tests/support/controls.h"
 #include "tests/support/files.h"
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ Tour tour_of(const std::string& steps)
 void pass(Guide& guide, double seconds, const Controls& controls = {})
 {
     for (int frame = 0; frame < 20 * seconds; ++frame)
-        guide.flown(controls, 50'000'000);
+        guide.advance(controls, 50'000'000);
 }
 
 } // namespace
@@ -39,7 +39,7 @@ TEST(GuideTest, TheTourBeginsAnewForTheNextVisitor)
     EXPECT_FALSE(guide.over());
     EXPECT_EQ(guide.step(), 0u);
     EXPECT_TRUE(guide.prompt(words()).empty());
-    EXPECT_EQ(guide.flown({}, 1).ship.u.total(), glm::dvec3(0));
+    EXPECT_EQ(guide.advance({}, 1).ship.u.total(), glm::dvec3(0));
 }
 
 TEST(GuideTest, WithoutVisitorsNobodyFlies)
@@ -47,9 +47,9 @@ TEST(GuideTest, WithoutVisitorsNobodyFlies)
     const Tour tour = tour_of(R"({ "seconds": 1, "cut": "start" }, { "seconds": 30, "try": {} }, { "seconds": 1 })");
     Guide attended(tour, {}, 1), alone(tour, {}, 1, false);
     pass(attended, 3), pass(alone, 3);
-    EXPECT_TRUE(attended.flies());
+    EXPECT_TRUE(attended.by_hand());
     EXPECT_TRUE(alone.over());
-    EXPECT_FALSE(alone.flies());
+    EXPECT_FALSE(alone.by_hand());
 }
 
 } // namespace guide_test

@@ -1,6 +1,6 @@
 // The course of a visit: from the attraction to the visitor's flight, to the question, and back. The expected times are
 // those of the rules, added by hand.
-#include "runtime/flight/visit.h"
+#include "runtime/visit/visit.h"
 #include <gtest/gtest.h>
 #include <random>
 #include <string>

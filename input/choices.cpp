@@ -1,0 +1,40 @@
+#include "choices.h"
+
+namespace starbow {
+
+bool apply(Choices& choices, const Command& command)
+{
+    switch (command.kind) {
+    case CommandKind::language:
+        choices.language = command.text;
+        return true;
+    case CommandKind::information:
+        choices.information = information_named(command.text);
+        return true;
+    case CommandKind::beside:
+        choices.beside = beside_named(command.text);
+        return true;
+    case CommandKind::range:
+        choices.range = command.on;
+        return true;
+    case CommandKind::one_button:
+        choices.one_button = command.on;
+        return true;
+    case CommandKind::left_handed:
+        choices.left_handed = command.on;
+        return true;
+    default:
+        return false;
+    }
+}
+
+void apply(Choices& choices, Switches pressed)
+{
+    choices.range ^= pressed[Switch::range];
+    if (pressed[Switch::information])
+        choices.information = after(choices.information);
+    if (pressed[Switch::beside])
+        choices.beside = after(choices.beside);
+}
+
+} // namespace starbow

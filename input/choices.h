@@ -1,0 +1,27 @@
+#pragma once
+#include "command.h"
+#include "config/model/beside.h"
+#include "config/model/information.h"
+#include "config/model/switches.h"
+#include <string>
+
+namespace starbow {
+
+/// Everything that a visitor chooses beside the flight's own switches. The next visitor has the exhibit's own again: a reset
+/// assigns it whole.
+struct Choices {
+    std::string language; ///< name of a file, without folder and .json
+    Information information = Information::laboratory; ///< the shown display
+    Beside beside = Beside::none; ///< the small picture
+    bool range = false; ///< everything is visible at once
+    bool one_button = false; ///< the visitor flies with one
+    bool left_handed = false; ///< keyboard and sticks for a left-handed visitor
+    bool operator==(const Choices&) const = default;
+};
+
+/// Applies a command that chooses. Returns false, and changes nothing, for any other. Throws InputError for an unknown name.
+bool apply(Choices& choices, const Command& command);
+/// Applies the switches of a frame that choose.
+void apply(Choices& choices, Switches pressed);
+
+} // namespace starbow

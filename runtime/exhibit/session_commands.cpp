@@ -1,0 +1,169 @@
+#include "session_commands.h"
+#include "config/json/reader.h"
+#include "config/model/shipped.h"
+#include "runtime/operation/last_language.h"
+
+namespace starbow {
+namespace {
+
+/// The flight whose switches a docent may set: a tour shows its own effects until the visitor flies.
+Flight& switched_flight(Session& session)
+{
+    if (Flight* flight = session.source->switched())
+        return *flight;
+    throw InputError("a tour shows its own effects; a tour's end, or a scene, is right");
+}
+
+/// The visitor's choices by a command, with the words, which a choice of the language changes.
+void choose(Session& session, const Command& command)
+{
+    if (command.kind == CommandKind::language) {
+        Words words = words_in(command.text);
+        if (Guide* tour = session.source->tour())
+            tour->reword(*(session.programme.tour = tour_in(session.programme.tour_name, words)));
+        session.words = std::move(words);
+        keep_language(session.options.state, command.text);
+    }
+    apply(session.choices, command);
+    if (command.kind == CommandKind::one_button)
+        session.hands.forget();
+}
+
+void step_tour(const Session& session, Requests& requests, Switch by)
+{
+    if (!session.tour() || session.source->over())
+        throw InputError("no tour with steps is shown; the command tour is right");
+    requests.set(by);
+}
+
+/// The shown tour in its own motion; null where hands fly.
+Guide* moving_tour(Session& session) { return session.source->by_hand() ? nullptr : session.source->tour(); }
+
+} // namespace
+
+void carry_out(Session& session, const Command& command, Requests& requests)
+{
+    switch (command.kind) {
+    case CommandKind::fade:
+    case CommandKind::exposure:
+    case CommandKind::caption:
+    case CommandKind::hold:
+    case CommandKind::restart:
+        session.docent.carry_out(command);
+        break;
+    case CommandKind::speed_limit:
+        session.docent.carry_out(command);
+        session.rules.max_gamma = command.number;
+        session.source->limit(command.number);
+        break;
+    case CommandKind::range:
+    case CommandKind::one_button:
+    case CommandKind::left_handed:
+    case CommandKind::language:
+    case CommandKind::beside:
+    case CommandKind::information:
+        choose(session, command);
+        break;
+    case CommandKind::stop:
+        if (Guide* tour = moving_tour(session))
+            tour->pause(true);
+        else
+            requests.set(Switch::stop);
+        break;
+    case CommandKind::pause:
+        if (Guide* tour = moving_tour(session))
+            tour->pause(command.on);
+        else
+            requests.set(Switch::freeze, session.flight().frozen != command.on);
+        break;
+    case CommandKind::next:
+        step_tour(session, requests, Switch::home);
+        break;
+    case CommandKind::back:
+        step_tour(session, requests, Switch::undo);
+        break;
+    case CommandKind::effect:
+    case CommandKind::comparison:
+        apply(switched_flight(session).effects, command);
+        break;
+    case CommandKind::slow_motion:
+        switched_flight(session).slowness = command.on && session.options.log.empty() ? 1 : 0;
+        break;
+    case CommandKind::pattern:
+        session.alignment.show(pattern_named(command.text));
+        break;
+    case CommandKind::unlock:
+        if (!session.attendance.attends())
+            throw InputError("no key is locked here; an exhibit with \"visit\" in its file is right");
+        unlock_builders_keys(session);
+        break;
+    case CommandKind::reset:
+    case CommandKind::tour:
+    case CommandKind::scene:
+    case CommandKind::shot:
+    case CommandKind::layout:
+    case CommandKind::quality:
+        break; // the frame loop's
+    }
+}
+
+Programme programme_after(const Session& session, const Command& command)
+{
+    switch (command.kind) {
+    case CommandKind::scene:
+        return programme_of_scene(command.text);
+    case CommandKind::shot:
+        return programme_of_shot(command.text);
+    case CommandKind::tour:
+        return programme_of_tour(command.text, session.words);
+    default:
+        return session.options.programme;
+    }
+}
+
+void begin_programme(Session& session, Programme programme, bool visitors)
+{
+    Flying rules = rules_in(session.options, session.options.rules, programme);
+    rules.max_gamma = session.docent.max_gamma().value_or(rules.max_gamma);
+    session.source = source_of(programme, rules, visitors);
+    session.programme = std::move(programme);
+    session.rules = std::move(rules);
+    session.attendance.count_by(counted_by(session.programme));
+    session.tutorial = tutorial_at(session.flight());
+    session.goals = {};
+    session.lab.forget();
+    session.light.begin();
+}
+
+void unlock_builders_keys(Session& session)
+{
+    session.hands.unlock();
+    session.alignment.say("The builder's keys are unlocked for ten minutes");
+}
+
+void forget_hands(Session& session)
+{
+    session.devices.forget();
+    session.hands.forget();
+}
+
+void forget_visitor(Session& session)
+{
+    session.choices = first_choices(session.options);
+    session.words = session.options.words;
+    session.menu = {};
+    forget_hands(session);
+    forget_language(session.options.state);
+    session.light.forget_range();
+}
+
+void forget_directions(Session& session)
+{
+    forget_visitor(session);
+    session.docent.forget();
+    session.quality = session.options.quality, session.quality_name = session.options.quality_name;
+    if (!session.governor)
+        session.governor = governor_of(session.options);
+}
+
+} // namespace starbow
