@@ -107,7 +107,8 @@ void print_summary(const Session& session, const SceneFile& scene)
 bool leaves_level(Session& session, const std::exception& error)
 {
     const bool no_room = dynamic_cast<const NoRoom*>(&error) || dynamic_cast<const vk::OutOfDeviceMemoryError*>(&error);
-    return no_room && session.governor && take_coarser_level(session, session.governor->level(), error.what());
+    const std::optional<Governor>& governor = session.qualities.governor();
+    return no_room && governor && session.qualities.leave(governor->level(), error.what());
 }
 
 } // namespace
@@ -138,7 +139,7 @@ int fly_exhibit(const ExhibitOptions& options)
         session.service.loads("Loads the world " + session.programme.scene.filename().string() + ".", loading_limit_s);
         try {
             context
-                = std::make_unique<RenderContext>(session.programme.scene, device_of(options), spectral_level_of(session));
+                = std::make_unique<RenderContext>(session.programme.scene, device_of(options), session.qualities.spectra());
             if (losses.none())
                 log_world(*context);
             {

@@ -37,7 +37,7 @@ FrameLoop::FrameLoop(Session& session, RemoteControl& remote, Presenter& present
     , presenter_(presenter)
     , context_(context)
     , device_(context.device)
-    , frame_(exhibit_renderer(context, session.layout, quality_of(session, device_), session.options.node))
+    , frame_(exhibit_renderer(context, session.layout, session.qualities.next(device_), session.options.node))
     , timer_(device_)
     , screens_(device_, session.layout, session.options.node)
     , cold_(session.options.warms_up.value_or(!device_.on_processor()))
@@ -197,7 +197,7 @@ void FrameLoop::warm_up_at_rest(const Shot& shot)
         return;
     try {
         if (!at_rest_)
-            at_rest_ = warm_up_in(quality_of(session_, device_));
+            at_rest_ = warm_up_in(session_.qualities.next(device_));
         // The first states matter most: later ones must not drive their pipelines out.
         constexpr std::size_t for_the_flight = 24;
         rested_ = !at_rest_ || !in_room([&] { return at_rest_->step(pictures_.panel()); })
@@ -245,10 +245,10 @@ Metered FrameLoop::await_device()
         return {};
     trace_passes();
     publish_view();
-    if (const auto ms = timer_.ms(); ms && session_.governor)
-        if (session_.governor->drawn(seconds(Clock::now() - session_.began),
+    if (const auto ms = timer_.ms())
+        if (session_.qualities.drawn(seconds(Clock::now() - session_.began),
                 std::max(prepared_ms_ + *ms, master_ ? master_->slowest_ms() : 0))) // one level for all, or seams would show
-            frame_->adopt(quality_of(session_, device_));
+            frame_->adopt(session_.qualities.next(device_));
     return {frame_->metered(), frame_->surface_samples(), frame_->star_samples(), frame_->samples_across()};
 }
 
@@ -286,14 +286,13 @@ std::unique_ptr<WarmUp> FrameLoop::warm_up_in(const Quality& quality)
 void FrameLoop::warm_up()
 {
     const auto began = Clock::now();
-    const std::size_t levels = session_.governor ? session_.governor->ladder().size() : 1;
+    const std::size_t levels = session_.qualities.levels();
     Progress progress;
     LimitedWait warming("the next step of the warm-up", loading_limit_s);
     for (std::size_t level = 0; level < levels; ++level) {
-        if (session_.governor && !session_.governor->has_room(level))
+        if (!session_.qualities.has_room(level))
             continue;
-        const Quality quality = session_.governor ? within(device_, session_.governor->ladder()[level].quality)
-                                                  : quality_of(session_, device_);
+        const Quality quality = session_.qualities.of_level(level, device_);
         try {
             const std::unique_ptr<WarmUp> steps = warm_up_in(quality);
             if (!steps)
@@ -310,12 +309,12 @@ void FrameLoop::warm_up()
                     (double(level) + double(steps->step_number()) / double(steps->steps())) / double(levels));
             }
         } catch (const NoRoom& error) {
-            if (!take_coarser_level(session_, level, error.what()))
+            if (!session_.qualities.leave(level, error.what()))
                 throw;
         }
     }
     const std::size_t made = context_.pipelines.count();
-    frame_->adopt(quality_of(session_, device_));
+    frame_->adopt(session_.qualities.next(device_));
     most_pipelines_ += made; // else the warm-up would be in vain
     rested_ = true;
     std::array<char, 80> text;
@@ -348,10 +347,13 @@ void FrameLoop::trace_passes()
 void FrameLoop::fit_outputs()
 {
     const std::vector<Target>& targets = screens_.targets();
+    std::vector<glm::ivec2> sizes(targets.size(), glm::ivec2(0));
     for (std::size_t i = 0; i < targets.size(); ++i)
-        if (targets[i].view)
+        if (targets[i].view) {
             fit(i);
-    watch_sizes(targets);
+            sizes[i] = {targets[i].extent.width, targets[i].extent.height};
+        }
+    session_.qualities.follow_sizes(sizes);
 }
 
 Instant FrameLoop::next_instant(const Head& head)
@@ -394,14 +396,15 @@ void FrameLoop::let_go()
 SharedInstant FrameLoop::shared(const Instant& now) const
 {
     const std::filesystem::path coming = worlds_.coming();
+    const std::optional<Governor>& governor = session_.qualities.governor();
     return {.scene = master_->name_of("scenes", session_.programme.scene),
         .coming = coming.empty() ? "" : master_->name_of("scenes", coming),
         .layout = master_->name_of("layouts", session_.layout.file),
         .layout_digest = master_->layout_digest(),
         .turned = turned_,
         .language = session_.words.language,
-        .quality = session_.governor ? "" : session_.quality_name,
-        .level = session_.governor ? std::int32_t(session_.governor->level()) : -1,
+        .quality = governor ? "" : session_.qualities.name(),
+        .level = governor ? std::int32_t(governor->level()) : -1,
         .instant = now};
 }
 
@@ -425,20 +428,6 @@ void FrameLoop::fit(std::size_t output)
                 "output '" + session_.layout.outputs[output].name + "' is drawn smaller, " + text_of(smaller)
                     + " pixels scaled up to " + text_of(whole) + ": " + one_line(error.what()));
         }
-    }
-}
-
-/// Windows of another size need another amount of memory. A new start of the device alone changes no size.
-void FrameLoop::watch_sizes(const std::vector<Target>& targets)
-{
-    session_.sizes.resize(targets.size(), glm::ivec2(0));
-    for (std::size_t i = 0; i < targets.size() && session_.governor; ++i) {
-        if (!targets[i].view)
-            continue;
-        const glm::ivec2 size(targets[i].extent.width, targets[i].extent.height),
-            before = std::exchange(session_.sizes[i], size);
-        if (before != glm::ivec2(0) && before != size)
-            session_.governor->forget_refusals();
     }
 }
 
@@ -472,7 +461,7 @@ void FrameLoop::apply_file_changes()
     if (session_.loader.changed()) {
         LayoutLoader::Shown shown{.kept = session_.kept,
             .layout = session_.layout,
-            .quality = quality_of(session_, device_),
+            .quality = session_.qualities.next(device_),
             .sizes = screens_.sizes(),
             .has_stars = !context_.world.stars.stars.empty()};
         session_.loader.load(std::move(shown));
@@ -502,7 +491,8 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
     std::optional<PreparedLayout> prepared;
     if (changes(loaded.layout, layout).empty()) // else a builder has turned something meanwhile
         prepared = std::move(loaded.prepared);
-    frame_ = exhibit_renderer(context_, layout, quality_of(session_, device_), session_.options.node, std::move(prepared));
+    frame_
+        = exhibit_renderer(context_, layout, session_.qualities.next(device_), session_.options.node, std::move(prepared));
     forget_drawn();
     session_.devices.track(layout.head_tracker);
     session_.layout = std::move(layout);
@@ -512,8 +502,7 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
         turned_ = turned_numbers(session_.kept, session_.layout);
     }
     session_.refused.clear();
-    if (session_.governor)
-        session_.governor->forget_refusals();
+    session_.qualities.forget_refusals();
     screens_.adopt(session_.layout);
     session_.diary.count([](Tally& tally) { ++tally.layouts; });
     const std::size_t unkept = changes(session_.kept, session_.layout).size();

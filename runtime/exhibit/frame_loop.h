@@ -46,7 +46,6 @@ private:
     /// Another world, layout or quality: the warm-up at rest and the placards begin anew.
     void forget_drawn() { at_rest_.reset(), rested_ = false, placards_.forget(), pictures_.forget(); }
     void fit(std::size_t output);
-    void watch_sizes(const std::vector<Target>& targets);
     /// Waits for the frame's turn and for the device. Returns the luminance of the frame before, if it was metered.
     Metered await_device();
     /// Hands the small copy of the previous frame to the guide's window and to the remote, as each has requested it.

@@ -71,10 +71,10 @@ void FrameLoop::show_programme(Programme programme, bool visitors)
         const LimitedWait loading("the world " + programme.scene.filename().string(), loading_limit_s);
         session_.service.loads("Loads the world " + programme.scene.filename().string() + ".", loading_limit_s);
         LoadedScene loaded = worlds_.take(programme.scene);
-        GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), spectral_level_of(session_)); });
+        GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), session_.qualities.spectra()); });
         forget_drawn(); // it draws the old world
         exchange_world(context_, std::move(world), [&] {
-            frame_ = exhibit_renderer(context_, session_.layout, quality_of(session_, device_), session_.options.node);
+            frame_ = exhibit_renderer(context_, session_.layout, session_.qualities.next(device_), session_.options.node);
         });
         log_world(context_);
         fresh_ = true; // the first frame of a world is a part of its loading
@@ -89,8 +89,7 @@ void FrameLoop::show_quality(const std::string& name)
     const Quality quality = load_quality(shipped_file("qualities", name));
     frame_->adopt(within(device_, quality));
     forget_drawn();
-    session_.quality = quality, session_.quality_name = name;
-    session_.governor.reset();
+    session_.qualities.fix(quality, name);
 }
 
 void FrameLoop::carry_out(const Command& command, Requests& requests)
@@ -101,7 +100,7 @@ void FrameLoop::carry_out(const Command& command, Requests& requests)
         case CommandKind::reset:
             forget_coming();
             forget_directions(session_);
-            frame_->adopt(quality_of(session_, device_));
+            frame_->adopt(session_.qualities.next(device_));
             show_programme(session_.options.programme);
             session_.lab.reset();
             session_.alignment.show_first();

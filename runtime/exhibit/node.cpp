@@ -36,7 +36,7 @@ public:
         , layout_(options)
         , bus_(place_of(options.machines.value()), Bus::Role::node, write_log)
         , scene_(options.programme.scene)
-        , context_(scene_, device_of(options), spectral_level_of(options))
+        , context_(scene_, device_of(options), Qualities(options).spectra())
         , screens_(context_.device, options.layout, options.node)
         , words_(options.words)
         , done_(context_.device.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
@@ -219,7 +219,7 @@ void Node::open_world(const std::string& scene)
     const LimitedWait loading("the world " + scene, loading_limit_s);
     try {
         LoadedScene loaded = worlds_.take(shipped_file("scenes", scene));
-        GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), spectral_level_of(options_)); });
+        GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), Qualities(options_).spectra()); });
         exchange_world(context_, std::move(world), [&] { make_frame(layout_.shown()); });
     } catch (const InputError& error) {
         unreadable_ = {scene, error.what(), Clock::now()};

@@ -8,7 +8,7 @@ void describe(const Session& session, Snapshot& out)
 {
     describe(session, static_cast<ExhibitState&>(out));
     out.layout = command_name_of(session.layout.file);
-    out.quality = session.quality_name;
+    out.quality = session.qualities.name();
     out.pattern = pattern_names[std::size_t(session.alignment.pattern())];
     out.step = session.tour() ? int(session.tour()->step()) + 1 : 0;
     out.steps = session.tour() ? int(session.tour()->steps().size()) : 0;

@@ -1,11 +1,10 @@
 #pragma once
 #include "alignment_mode.h"
-#include "input/calm.h"
 #include "instant_pictures.h"
 #include "runtime/flight/flight.h"
 #include "runtime/flight/record.h"
-#include "runtime/light/range_curve.h"
 #include "runtime/render/offscreen.h"
+#include "runtime/visit/shown_light.h"
 
 namespace starbow {
 
@@ -29,15 +28,13 @@ public:
     std::vector<std::vector<std::uint8_t>> picture(const Flight& flight, const std::string& scene, const Panel* hud);
 
     /// The curve of the next picture; none: the exposure alone shows it.
-    const std::optional<RangeCurve>& curve() const { return range_mode_.follower.shown; }
+    const std::optional<RangeCurve>& curve() const { return light_.curve(); }
 
 private:
-    double wanted_ev(double flights_ev) const; ///< flights_ev: the visitor's
-
     OffscreenRenderer& renderer_;
     Layout layout_;
     AlignmentMode alignment_;
-    Exposing exposing_;
+    ShownLight light_;
     double start_ev_;
     Words words_;
     Comfort comfort_;
@@ -45,10 +42,6 @@ private:
     double telescope_deg_ = 0; ///< its telescope's field; 0: none
     InstantPictures pictures_;
     Instant now_;
-    std::uint32_t begun_ = 0; ///< the count of the flight's beginnings
-    Exposure exposure_;
-    RangeMode range_mode_;
-    SlowTurns calm_ev_; ///< the shown EV of a calm exhibit
 };
 
 } // namespace starbow

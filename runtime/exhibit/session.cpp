@@ -170,9 +170,7 @@ Session::Session(const ExhibitOptions& given)
     , devices(given.profiles, given.layout.head_tracker, write_log)
     , hands(hands_rules_of(given))
     , light(given.exposure)
-    , quality(given.quality)
-    , quality_name(given.quality_name)
-    , governor(governor_of(given))
+    , qualities(given)
     , layout(given.layout)
     , kept(layout)
     , loader(layout)
@@ -193,13 +191,6 @@ std::unique_ptr<FlightSource> source_of(const Programme& programme, const Flying
     return std::make_unique<HandFlight>(programme.start, rules, unit_s);
 }
 
-std::optional<Governor> governor_of(const ExhibitOptions& options)
-{
-    if (options.frame_budget_ms <= 0)
-        return {};
-    return Governor(options.ladder, options.frame_budget_ms);
-}
-
 std::string describe(const Skew& skew)
 {
     std::array<char, 96> text;
@@ -214,43 +205,11 @@ double wait_limit_s(const Service& service)
     return service.watchdog_s() ? 0.8 * *service.watchdog_s() : 20;
 }
 
-std::optional<SpectralLevel> spectral_level_of(const Session& session)
-{
-    if (session.governor)
-        return session.governor->ladder()[0].quality.spectra;
-    return session.quality ? session.quality->spectra : std::nullopt;
-}
-
 void log_world(const RenderContext& context)
 {
     for (const std::string& note : context.world.world.notes)
         write_log(LogKind::world_note, context.world.scene.gltf.string() + ": " + note);
     print_message(describe_light(context));
-}
-
-std::optional<SpectralLevel> spectral_level_of(const ExhibitOptions& options)
-{
-    if (const std::optional<Governor> governor = governor_of(options))
-        return governor->ladder()[0].quality.spectra;
-    return options.quality ? options.quality->spectra : std::nullopt;
-}
-
-Quality quality_of(const Session& session, const Device& device)
-{
-    if (session.governor)
-        return within(device, session.governor->ladder()[session.governor->level()].quality);
-    return session.quality ? within(device, *session.quality) : default_quality(device, false);
-}
-
-bool take_coarser_level(Session& session, std::size_t level, const std::string& reason)
-{
-    if (!session.governor || !session.governor->refuse(level))
-        return false;
-    write_log(LogKind::level_no_room,
-        "level " + std::to_string(level + 1) + " of " + std::to_string(session.governor->ladder().size())
-            + " has no room on the GPU (" + one_line(reason) + "); level " + std::to_string(session.governor->level() + 1)
-            + " is drawn, and that one is not tried again before the layout or a window's size changes");
-    return true;
 }
 
 bool shows_pins(const Session& session) { return !session.pins.empty() && session.alignment.pattern() != Pattern::none; }
@@ -297,8 +256,8 @@ std::string notice_of(const Session& session)
         return steps;
     if (const HeadTracker* tracker = session.devices.tracker(); tracker && !tracker->heard(Session::Clock::now()))
         return "no head tracker is heard on port " + std::to_string(tracker->tracking().port);
-    if (session.governor)
-        return describe(*session.governor);
+    if (const std::optional<Governor>& governor = session.qualities.governor())
+        return describe(*governor);
     return session.skew.frames() > 0 ? describe(session.skew) : "";
 }
 

@@ -8,12 +8,12 @@
 #include "input/hands.h"
 #include "lab.h"
 #include "layout_loader.h"
+#include "qualities.h"
 #include "runtime/flight/goals.h"
 #include "runtime/flight/menu.h"
 #include "runtime/flight/record_replay.h"
 #include "runtime/flight/tutorial.h"
 #include "runtime/operation/diary.h"
-#include "runtime/operation/governor.h"
 #include "runtime/operation/service.h"
 #include "runtime/operation/skew.h"
 #include "runtime/operation/speaker.h"
@@ -55,10 +55,7 @@ struct Session {
     Hands hands;
     ShownLight light;
 
-    std::optional<Quality> quality; ///< a fixed one, where no governor chooses
-    std::string quality_name;
-    std::optional<Governor> governor;
-    std::vector<glm::ivec2> sizes{}; ///< of the outputs' windows, as last drawn
+    Qualities qualities;
     std::string pins{}; ///< a line with the remote's drawn PINs, for the operator; empty: none were drawn
     Layout layout; ///< the shown layout
     Layout kept; ///< the file's layout, without a builder's unsaved changes
@@ -118,21 +115,10 @@ Flying rules_in(const ExhibitOptions& options, Flying rules, const Programme& pr
 /// The source of a programme's flight, at its beginning. visitors: false where nobody is there to fly, and to answer a
 /// tour's questions. Throws InputError.
 std::unique_ptr<FlightSource> source_of(const Programme& programme, const Flying& rules, bool visitors);
-/// The governor of an exhibit's frame time; none where its quality is fixed.
-std::optional<Governor> governor_of(const ExhibitOptions& options);
-/// The spectral level that the qualities request; none: the world's own need.
-std::optional<SpectralLevel> spectral_level_of(const Session& session);
-/// The same for an exhibit's start.
-std::optional<SpectralLevel> spectral_level_of(const ExhibitOptions& options);
 /// The options of an exhibit's device, with windows.
 Device::Options device_of(const ExhibitOptions& options);
 /// Logs the remarks on a newly loaded world and its spectral level.
 void log_world(const RenderContext& context);
-/// The quality of the next frame.
-Quality quality_of(const Session& session, const Device& device);
-/// Leaves a level of the governor's ladder for which the device has no memory, and logs that with the reason. Returns false
-/// without a governor, and where no level is left.
-bool take_coarser_level(Session& session, std::size_t level, const std::string& reason);
 /// True while a test pattern, which only a builder calls up, shows the drawn PINs.
 bool shows_pins(const Session& session);
 /// A sentence about the machines that are not in step; empty where all are.

@@ -161,9 +161,7 @@ void forget_directions(Session& session)
 {
     forget_visitor(session);
     session.docent.forget();
-    session.quality = session.options.quality, session.quality_name = session.options.quality_name;
-    if (!session.governor)
-        session.governor = governor_of(session.options);
+    session.qualities.forget();
 }
 
 } // namespace starbow

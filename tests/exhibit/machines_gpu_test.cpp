@@ -129,7 +129,7 @@ void expect_union(const GpuWorld& world, const Layout& layout, const std::vector
         nodes.push_back(std::make_unique<Machine>(world, layout, node));
     for (std::size_t i = 0; i < all.size(); ++i) {
         const auto wanted = whole.draw(all[i]);
-        const std::vector<std::uint8_t> bytes = bytes_of({.instant = all[i]});
+        const std::vector<std::uint8_t> bytes = bytes_of({.scene = "avenue", .instant = all[i]});
         bool all_there = true;
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             if (k == 1 && i == 1) {
@@ -190,7 +190,7 @@ TEST(Machines, TheSameWhileABuilderTurnsNumbers)
         whole.adopt(turned);
         const auto wanted = whole.draw(now);
         EXPECT_NE(wanted, before) << name;
-        const auto bytes = bytes_of({.turned = turned_numbers(layout, turned), .instant = now});
+        const auto bytes = bytes_of({.scene = "avenue", .turned = turned_numbers(layout, turned), .instant = now});
         for (const auto& node : nodes) {
             node->draw(now); // in the file's layout
             const SharedInstant shared = instant_of(bytes);
@@ -221,7 +221,7 @@ TEST(Machines, TheSameWithThePageOfTheInstruments)
     const auto wanted = whole.draw(now);
     EXPECT_NE(wanted, without);
     const PageMessage page = page_of(panel, 5);
-    const auto bytes = bytes_of({.instant = now});
+    const auto bytes = bytes_of({.scene = "avenue", .instant = now});
     for (const std::string& name : nodes_of(layout)) {
         Machine node(avenue().world, layout, name);
         SharedInstant shared = instant_of(bytes);
