@@ -69,9 +69,9 @@ def draw(rooms, count):
         rows[height(room)].append(room)
     width, box_w, box_h, gap = 1000, 150, 46, 44
     # Columns that keep arrows off other rooms' boxes; a room without one stands in the middle.
-    column = {"runtime/commands": 0.38, "tests": 0.62, "runtime/exhibit": 0.38, "runtime/operation": 0.3, "runtime/render": 0.58,
-              "runtime/reference": 0.87, "runtime/hud": 0.38, "runtime/plan": 0.3, "runtime/world": 0.42, "runtime/flight": 0.1,
-              "runtime/images": 0.76, "displays": 0.3, "input": 0.1, "runtime/light": 0.66, "shaders": 0.56, "config": 0.3}
+    column = {"runtime/commands": 0.38, "tests": 0.62, "runtime/exhibit": 0.38, "runtime/visit": 0.1, "runtime/machines": 0.28,
+              "runtime/render": 0.6, "runtime/hud": 0.44, "runtime/reference": 0.87, "runtime/remote": 0.18, "runtime/shadow": 0.66,
+              "runtime/plan": 0.44, "runtime/operation": 0.22, "runtime/world": 0.42, "runtime/flight": 0.1, "runtime/images": 0.78, "displays": 0.3, "input": 0.1, "runtime/light": 0.66, "shaders": 0.56, "config": 0.3}
     place, y = {}, 20
     for h in sorted(rows, reverse=True):
         for room in rows[h]:

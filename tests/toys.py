@@ -226,7 +226,7 @@ std::string name(const FlatSpectrum&) { return "a flat lamp"; }
         "input/exhibit_state.h": all_of(
             after("    bool range = false; ///< everything is visible at once\n", "    bool toy = false;\n"),
             instead('{CommandKind::range, &ExhibitState::range, "range"}};', '{CommandKind::range, &ExhibitState::range, "range"}, {CommandKind::toy, &ExhibitState::toy, "toy"}};')),
-        "runtime/exhibit/obey.cpp": before("    case CommandKind::range:\n", "    case CommandKind::toy:\n        break;\n"),
+        "runtime/exhibit/session_commands.cpp": before("    case CommandKind::range:\n", "    case CommandKind::toy:\n        break;\n"),
         "runtime/hud/presenter_sheet.cpp": after("    toggle('U', \"remote.range\", {.kind = Order::range}, state.range);\n",
                                                  "    toggle('Q', \"remote.toy\", {.kind = Order::toy}, state.toy);\n"),
         "config/words/en.json": after('"remote.range": "Everything at once",\n', '    "remote.toy": "Toy",\n'),
