@@ -51,7 +51,7 @@ Flying calm_rules(Flying rules)
     return rules;
 }
 
-void CalmHands::hold_leaps(Controls& controls, bool by_steps)
+void FlashLimiter::hold_leaps(Controls& controls, bool by_steps)
 {
     constexpr double nearly_at_rest = 0.5; // a ship that turns by steps rests there
     const bool steps = by_steps && glm::length(controls.turn) > nearly_at_rest;
@@ -73,7 +73,7 @@ void CalmHands::hold_leaps(Controls& controls, bool by_steps)
 }
 
 /// Takes a number's new way. Returns false where it would turn round too early.
-bool CalmHands::turns(Kept& kept, int way)
+bool FlashLimiter::turns(Kept& kept, int way)
 {
     if (way == kept.way)
         return true;
@@ -86,7 +86,7 @@ bool CalmHands::turns(Kept& kept, int way)
     return true;
 }
 
-void CalmHands::follow(Kept& kept, double per_s, double band, double dt_s)
+void FlashLimiter::follow(Kept& kept, double per_s, double band, double dt_s)
 {
     if (!kept.value)
         kept.value = kept.wanted;
@@ -97,7 +97,7 @@ void CalmHands::follow(Kept& kept, double per_s, double band, double dt_s)
         *kept.value += way * std::min(std::abs(off), per_s * dt_s);
 }
 
-Controls CalmHands::let_through(Controls controls, double dt_s, bool by_steps)
+Controls FlashLimiter::let_through(Controls controls, double dt_s, bool by_steps)
 {
     since_leap_s_ += dt_s, since_turn_s_ += dt_s;
     hold_leaps(controls, by_steps);

@@ -32,7 +32,7 @@ SlowTurns calmed_ev(const SlowTurns& now, double wanted_ev, double dt_s);
 /// Holds back the presses that change the picture at once, and the turns of all that hands and heads move. The first press
 /// acts at once; those within calm_every_s after it act together when that time is over. Two presses of one switch are then
 /// none. A number that would turn round within calm_every_s after another one did rests until then.
-class CalmHands {
+class FlashLimiter {
 public:
     /// by_steps: the ship turns by steps, each of which is a leap.
     Controls let_through(Controls controls, double dt_s, bool by_steps = false);

@@ -73,7 +73,7 @@ private:
     bool somebody_ = false;
     std::int64_t unlocked_ns_ = 0; ///< left
     Scan scan_;
-    CalmHands calm_;
+    FlashLimiter calm_;
 };
 
 } // namespace starbow

@@ -56,11 +56,11 @@ void add_role(AxisRole role, double value, double dt_s, Controls& controls)
 constexpr std::size_t most_waiting = 255; ///< presses of one button or hat
 
 /// The rate of a button while it is held, in the order of HeldRole.
-struct Held {
+struct HeldRate {
     double Controls::*value;
     double by;
 };
-constexpr Held held[]
+constexpr HeldRate held[]
     = {{&Controls::throttle_rate, 1}, {&Controls::throttle_rate, -1}, {&Controls::exposure, 1}, {&Controls::exposure, -1}};
 static_assert(std::size(held) == std::size_t(HeldRole::darker) + 1);
 
@@ -73,7 +73,7 @@ void press(const ButtonRole& role, std::size_t& waiting, bool down, Controls& co
         if (pressed && !controls[*which])
             controls.set(*which), --waiting;
     } else if (const auto* which_held = std::get_if<HeldRole>(&role)) {
-        const Held& one = held[std::size_t(*which_held)];
+        const HeldRate& one = held[std::size_t(*which_held)];
         if (down || pressed) {
             controls.*one.value += one.by;
             waiting -= pressed;

@@ -32,7 +32,7 @@ import time
 # Room, file, text, text with the fault, tests that are expected to find it.
 FAULTS = [
     # What the tests without a GPU missed once.
-    ("config", "config/json/kept_rows.cpp", 'sum.add(&row, sizeof row);', '', "KeptRows.*"),
+    ("config", "config/json/row_cache.cpp", 'sum.add(&row, sizeof row);', '', "RowCache.*"),
     ("config", "config/json/kept_file.cpp", 'if (hash.value() != header_.sum)', 'if (false)', "KeptFiles.*:MapCache.*"),
     ("config", "config/json/hash.h", 'lane = std::rotl((lane ^ word) * odd, 29);', 'lane = (lane ^ word) * odd;', "ContentHash.*"),
     ("images", "runtime/images/movie.cpp", 'return is_whole_png(file(output, frame));',
@@ -87,7 +87,7 @@ FAULTS = [
     ("light", "runtime/light/range_curve.cpp", 'whole, 1 - above_high)', 'whole, 1 - below_low)', "RangeCurve.*"),
     ("light", "runtime/light/spectrum.cpp", 'nm > points.back().first)', 'nm >= points.back().first)', "SpectrumTest.*"),
     ("light", "runtime/light/gloss.cpp", 'std::sqrt(1 + width * width * (1', 'std::sqrt(1 + width * (1', "GlossTable.*"),
-    ("light", "runtime/light/greatest_light.cpp", '3 * log2_D(middle + 1)', '3 * log2_D(middle)', "GreatestLight.*"),
+    ("light", "runtime/light/light_bound.cpp", '3 * log2_D(middle + 1)', '3 * log2_D(middle)', "LightBound.*"),
     ("light", "runtime/light/colour_difference.h", '(mean_h - 275) / 25', '(mean_h - 257) / 25', "FalseColoursTest.*"),
 
     ("world", "runtime/world/clock.cpp", 'return part < 0 ? part + 1 : part;', 'return part;', "ClockTest.*"),
@@ -109,7 +109,7 @@ FAULTS = [
      'glm::length(from) > boundary.radius && glm::dot', "BoundaryTest.*"),
     ("flight", "runtime/flight/comfort.cpp", 'std::atan2(-right.z, right.x)', 'std::atan2(right.z, right.x)', "ComfortTest.*"),
     ("flight", "runtime/flight/goals.cpp", 'value < condition.below', 'value <= condition.below', "GoalsTest.*"),
-    ("flight", "runtime/flight/history.cpp", 'then.frozen = now.frozen, then.slowness = now.slowness;', 'then.frozen = now.frozen;',
+    ("flight", "runtime/flight/history.cpp", 'then.frozen = now.frozen, then.time_scale = now.time_scale;', 'then.frozen = now.frozen;',
      "Flight.*:SlowMotionTest.*"),
 
     ("visit", "runtime/visit/visit.cpp", 'events.length_s = in_seconds(visit.touched_ns);',

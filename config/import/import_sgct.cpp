@@ -192,10 +192,10 @@ void Importer::node(const Place& place)
 std::vector<Place> Importer::nodes(const Place& top)
 {
     if (!top.json->is_object())
-        complain(top, "is not an object; an SGCT configuration in { } is right");
+        fail_at(top, "is not an object; an SGCT configuration in { } is right");
     if (document_.root.contains("nodes"))
         return items(member(top, "nodes"), 1, 1024, "nodes");
-    complain(top, "lacks \"nodes\"; an SGCT configuration with this member is right");
+    fail_at(top, "lacks \"nodes\"; an SGCT configuration with this member is right");
 }
 
 void Importer::user(const Place& place)
@@ -260,7 +260,7 @@ std::string Importer::packing(const Place& place)
     else if (mode == "test" || mode == "dummy")
         not_mapped(place, "it is a test of SGCT's; packing mono is written");
     else
-        complain(place, "is not a stereo mode of SGCT's; none or side_by_side is right, for example");
+        fail_at(place, "is not a stereo mode of SGCT's; none or side_by_side is right, for example");
     return "mono";
 }
 

@@ -28,7 +28,7 @@ Turn read_sgct_turn(SgctReport& report, const Place& place)
                      z = number(member(place, "z"), {-1.01, 1.01}), w = number(member(place, "w"), {-1.01, 1.01});
         const double length = std::sqrt(x * x + y * y + z * z + w * w);
         if (std::abs(length - 1) > 0.01)
-            complain(place, "is a quaternion of length " + shown(length) + "; length 1 is right");
+            fail_at(place, "is a quaternion of length " + shown(length) + "; length 1 is right");
         turn = turn_of(x / length, y / length, z / length, w / length);
     } else
         turn = {number(member(place, "yaw"), sgct_turn_range), number(member(place, "pitch"), sgct_turn_range),
@@ -67,7 +67,7 @@ Sides read_fov(SgctReport& report, const Place& place, FlatPicture& flat, bool d
     };
     s = {-side("left", "hfov"), side("right", "hfov"), -side("down", "vfov"), side("up", "vfov")};
     if (!(s.left_deg < s.right_deg && s.down_deg < s.up_deg))
-        complain(place, "spans nothing; angles to each side that count from the axis outwards are right");
+        fail_at(place, "spans nothing; angles to each side that count from the axis outwards are right");
     report.members(place, {}, [&](const std::string& name, const Place& at) {
         if (name == "distance") {
             if (distance_beside) {
@@ -137,7 +137,7 @@ Json read_flat(SgctReport& report, const Place& place, const SgctView& view)
         return true;
     });
     if (!flat.sides)
-        complain(place, "lacks \"fov\"; an object with this member is right");
+        fail_at(place, "lacks \"fov\"; an object with this member is right");
     return wall ? as_wall(flat) : as_planar(flat);
 }
 
@@ -181,7 +181,7 @@ void read_crop(SgctReport& report, const Place& place, glm::dvec2 pixels, Json& 
                  bottom = number(member(place, "bottom"), part), top = number(member(place, "top"), part);
     const double wide = 1 - left - right, high = 1 - bottom - top;
     if (!(wide > 0 && high > 0))
-        complain(place, "leaves nothing; less than 1 from opposite sides is right");
+        fail_at(place, "leaves nothing; less than 1 from opposite sides is right");
     const double side = std::min(pixels.x / wide, pixels.y / high);
     const glm::dvec2 centre(0.5 + side / pixels.x * (0.5 - left - wide / 2), 0.5 + side / pixels.y * (0.5 - top - high / 2));
     out["centre"] = Json::array({centre.x, centre.y});

@@ -41,7 +41,7 @@ public:
     template <class Take> void members(const Place& place, const Reasons& reasons, Take take)
     {
         if (!place.json->is_object())
-            complain(place, "is not an object; an object in { } is right");
+            fail_at(place, "is not an object; an object in { } is right");
         for (const auto& [name, value] : place.json->items()) {
             const Place at{place.document, &value, place.pointer + "/" + escaped(name)};
             if (take(name, at))

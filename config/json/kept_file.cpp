@@ -23,7 +23,7 @@ void add_header(ContentHash& hash, const KeptHeader& header) { hash.add(&header,
 
 } // namespace
 
-std::string kept_name(std::uint64_t key, const char* ending)
+std::string cache_key(std::uint64_t key, const char* ending)
 {
     char name[32];
     std::snprintf(name, sizeof name, "%016llx%s", static_cast<unsigned long long>(key), ending);
@@ -44,7 +44,7 @@ void write_kept(const std::filesystem::path& file, std::string_view kind, std::u
     header.sum = hash.value();
     std::vector<std::span<const unsigned char>> all{bytes_of(std::as_const(header))};
     all.insert(all.end(), parts.begin(), parts.end());
-    write_own(file, all, Lasting::as_the_system_likes, rights);
+    write_own(file, all, Durability::of_the_system, rights);
 }
 
 KeptFile::KeptFile(const std::filesystem::path& file, std::string_view kind, std::uint64_t key)

@@ -17,7 +17,7 @@ namespace starbow {
 // a wrong bit anywhere, is not read.
 
 /// The name of a cache's file by its content's key.
-std::string kept_name(std::uint64_t key, const char* ending);
+std::string cache_key(std::uint64_t key, const char* ending);
 
 struct KeptHeader {
     std::array<char, 8> kind{};

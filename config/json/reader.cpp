@@ -34,7 +34,7 @@ std::string choice(const std::vector<std::string_view>& names)
 
 Place root(const Document& document) { return {&document, &document.root, ""}; }
 
-void complain(const Place& place, const std::string& problem)
+void fail_at(const Place& place, const std::string& problem)
 {
     const std::optional<Span> span = find_span(*place.document, place.pointer);
     throw InputError(place.document->file + (span ? ":" + std::to_string(span->line) : ""), one_line(place.pointer),
@@ -44,12 +44,12 @@ void complain(const Place& place, const std::string& problem)
 double number(const Place& place, Range range)
 {
     if (!place.json->is_number())
-        complain(place, "is not a number; " + phrase(range));
+        fail_at(place, "is not a number; " + phrase(range));
     const double value = place.json->get<double>();
     if (value < range.low || (range.low_open && value == range.low))
-        complain(place, "is too small; " + phrase(range));
+        fail_at(place, "is too small; " + phrase(range));
     if (!(value <= range.high))
-        complain(place, "is too large; " + phrase(range));
+        fail_at(place, "is too large; " + phrase(range));
     return value;
 }
 
@@ -57,7 +57,7 @@ int integer(const Place& place, int low, int high)
 {
     const double value = number(place, {double(low), double(high)});
     if (value != std::floor(value))
-        complain(
+        fail_at(
             place, "is not a whole number; one from " + std::to_string(low) + " to " + std::to_string(high) + " is right");
     return int(value);
 }
@@ -65,19 +65,19 @@ int integer(const Place& place, int low, int high)
 bool boolean(const Place& place)
 {
     if (!place.json->is_boolean())
-        complain(place, "is neither true nor false; one of these is right");
+        fail_at(place, "is neither true nor false; one of these is right");
     return place.json->get<bool>();
 }
 
 std::string text(const Place& place)
 {
     if (!place.json->is_string())
-        complain(place, "is not a text; a text in double quotes is right");
+        fail_at(place, "is not a text; a text in double quotes is right");
     const std::string value = place.json->get<std::string>();
     if (value.empty())
-        complain(place, "is empty; a text with at least one letter is right");
+        fail_at(place, "is empty; a text with at least one letter is right");
     if (plain_text(value) != value)
-        complain(place, "holds a control character; a text without them is right");
+        fail_at(place, "holds a control character; a text without them is right");
     return value;
 }
 
@@ -87,7 +87,7 @@ std::string one_of(const Place& place, const std::vector<std::string_view>& choi
         for (std::string_view name : choices)
             if (place.json->get_ref<const std::string&>() == name)
                 return std::string(name);
-    complain(place, "is not known here; " + choice(choices) + " is right");
+    fail_at(place, "is not known here; " + choice(choices) + " is right");
 }
 
 std::size_t index_named(std::string_view name, const std::vector<std::string_view>& names, const std::string& kind)
@@ -112,10 +112,10 @@ std::vector<Place> items(const Place& place, std::size_t least, std::size_t most
     const std::string right = "a list of " + (least == most ? "" : std::to_string(least) + " to ") + std::to_string(most)
         + " " + what + " in [ ] is right";
     if (!place.json->is_array())
-        complain(place, "is not a list; " + right);
+        fail_at(place, "is not a list; " + right);
     const std::size_t count = place.json->size();
     if (count < least || count > most)
-        complain(place, "has length " + std::to_string(count) + "; " + right);
+        fail_at(place, "has length " + std::to_string(count) + "; " + right);
     return elements(place);
 }
 
@@ -157,13 +157,13 @@ const std::map<std::string_view, std::string_view> renamed{
 void reject_unknown_members(const Place& place, const std::vector<std::string_view>& known)
 {
     if (!place.json->is_object())
-        complain(place, "is not an object; an object in { } is right");
+        fail_at(place, "is not an object; an object in { } is right");
     for (const auto& [name, value] : place.json->items()) {
         if (std::find(known.begin(), known.end(), name) != known.end())
             continue;
         if (const auto now = renamed.find(name);
             now != renamed.end() && std::find(known.begin(), known.end(), now->second) != known.end())
-            complain({place.document, &value, place.pointer + "/" + escaped(name)},
+            fail_at({place.document, &value, place.pointer + "/" + escaped(name)},
                 "stands under a name of older files; \"" + std::string(now->second) + "\" is its name now");
         const std::string word = one_line(name, 60);
         std::vector<std::string_view> nearest = known;
@@ -171,7 +171,7 @@ void reject_unknown_members(const Place& place, const std::vector<std::string_vi
             return edit_distance<std::string_view>(word, a) < edit_distance<std::string_view>(word, b);
         });
         nearest.resize(std::min<std::size_t>(nearest.size(), 3));
-        complain({place.document, &value, place.pointer + "/" + escaped(name)},
+        fail_at({place.document, &value, place.pointer + "/" + escaped(name)},
             "stands under an unknown name; " + choice(nearest) + " is right");
     }
 }
@@ -212,7 +212,7 @@ Place member(const Place& place, const std::string& name)
 {
     if (auto found = find_member(place, name))
         return *found;
-    complain(place, "lacks \"" + name + "\"; an object with this member is right");
+    fail_at(place, "lacks \"" + name + "\"; an object with this member is right");
 }
 
 std::string escaped(const std::string& name)

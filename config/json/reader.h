@@ -53,7 +53,7 @@ std::optional<Span> find_span(const Document& document, const std::string& point
 
 /// Throws InputError "FILE:LINE: POINTER: VALUE problem". By convention the problem names the fault and, after a
 /// semicolon, the right value.
-[[noreturn]] void complain(const Place& place, const std::string& problem);
+[[noreturn]] void fail_at(const Place& place, const std::string& problem);
 
 /// Each of these returns the value at a place, or throws an InputError about it.
 double number(const Place& place, Range range);

@@ -39,7 +39,7 @@ int write_parts(int to, std::span<const std::span<const unsigned char>> parts)
 
 /// Writes a new file beside the target and renames it. Throws InputError about `file`, the target's name for people.
 void replace(const std::filesystem::path& file, const std::filesystem::path& target,
-    std::span<const std::span<const unsigned char>> parts, Lasting lasting, mode_t rights)
+    std::span<const std::span<const unsigned char>> parts, Durability lasting, mode_t rights)
 {
     std::filesystem::path part = target;
     static std::atomic<unsigned> count; // threads may write the same file
@@ -51,7 +51,7 @@ void replace(const std::filesystem::path& file, const std::filesystem::path& tar
     if (to < 0)
         refuse_writing(file, errno);
     int why = write_parts(to, parts);
-    if (why == 0 && lasting == Lasting::power_cut && fsync(to) != 0)
+    if (why == 0 && lasting == Durability::fsync && fsync(to) != 0)
         why = errno;
     if (::close(to) != 0 && why == 0) // a full disk may be reported only here
         why = errno;
@@ -146,7 +146,7 @@ void refuse_writing(const std::filesystem::path& file, int why)
         file.string(), "", std::string("can't be written (") + std::strerror(why) + "); a place for a file is right");
 }
 
-void write_whole(const std::filesystem::path& file, std::span<const unsigned char> bytes, Lasting lasting)
+void write_whole(const std::filesystem::path& file, std::span<const unsigned char> bytes, Durability lasting)
 {
     // Renaming would replace a device such as /dev/null, or a link, by a plain file.
     std::error_code problem;
@@ -158,7 +158,7 @@ void write_whole(const std::filesystem::path& file, std::span<const unsigned cha
     replace(file, target, std::span(&bytes, 1), lasting, 0666);
 }
 
-void write_own(const std::filesystem::path& file, std::span<const std::span<const unsigned char>> parts, Lasting lasting,
+void write_own(const std::filesystem::path& file, std::span<const std::span<const unsigned char>> parts, Durability lasting,
     unsigned rights)
 {
     std::error_code ignored; // writing reports it

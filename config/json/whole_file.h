@@ -36,7 +36,7 @@ private:
 std::string read_whole(const std::filesystem::path& file, std::size_t most, const std::string& right);
 
 /// Durability of a written file: as the system's cache allows, or safe from a power cut on return.
-enum class Lasting { as_the_system_likes, power_cut };
+enum class Durability { of_the_system, fsync };
 
 /// Throws the InputError for a file that can't be written; why: an errno.
 [[noreturn]] void refuse_writing(const std::filesystem::path& file, int why);
@@ -44,10 +44,10 @@ enum class Lasting { as_the_system_likes, power_cut };
 /// Writes the whole file or nothing: no reader of the folder sees a part of it, and the old file stays until then. A link
 /// stays a link. Throws InputError.
 void write_whole(
-    const std::filesystem::path& file, std::span<const unsigned char> bytes, Lasting lasting = Lasting::as_the_system_likes);
+    const std::filesystem::path& file, std::span<const unsigned char> bytes, Durability lasting = Durability::of_the_system);
 
 inline void write_whole(
-    const std::filesystem::path& file, std::string_view text, Lasting lasting = Lasting::as_the_system_likes)
+    const std::filesystem::path& file, std::string_view text, Durability lasting = Durability::of_the_system)
 {
     write_whole(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()}, lasting);
 }
@@ -56,10 +56,10 @@ inline void write_whole(
 /// in the file's place is replaced, not followed: whoever could write there once would choose what is overwritten.
 /// rights: of the new file, before the process's mask takes some.
 void write_own(const std::filesystem::path& file, std::span<const std::span<const unsigned char>> parts,
-    Lasting lasting = Lasting::as_the_system_likes, unsigned rights = 0666);
+    Durability lasting = Durability::of_the_system, unsigned rights = 0666);
 
 inline void write_own(
-    const std::filesystem::path& file, std::string_view text, Lasting lasting = Lasting::as_the_system_likes)
+    const std::filesystem::path& file, std::string_view text, Durability lasting = Durability::of_the_system)
 {
     const std::span<const unsigned char> bytes(reinterpret_cast<const unsigned char*>(text.data()), text.size());
     write_own(file, std::span(&bytes, 1), lasting);

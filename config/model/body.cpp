@@ -16,10 +16,10 @@ std::vector<Event> WorldLine::read(const Place& place, const Folder&) const
             const double passed = event.time - events.back().time;
             const double way = glm::distance(event.position, events.back().position);
             if (!(passed > 0))
-                complain(member(at, "time"),
+                fail_at(member(at, "time"),
                     "is not after the event before it; a time above " + shown(events.back().time) + " is right");
             if (!(way < passed))
-                complain(at,
+                fail_at(at,
                     "can't be reached at less than the speed of light, " + shown(way) + " in a time of " + shown(passed)
                         + "; a time above " + shown(events.back().time + way) + " is right");
         }
@@ -41,7 +41,7 @@ void check_members(const Place& place, const Body*)
     }
     for (const char* other : {"at", "velocity"})
         if (auto p = find_member(place, other))
-            complain(*p, "stands beside a \"worldline\", which has it already; one of the two is right");
+            fail_at(*p, "stands beside a \"worldline\", which has it already; one of the two is right");
 }
 
 } // namespace starbow

@@ -126,9 +126,9 @@ std::filesystem::path existing_file(const Place& place, const std::filesystem::p
     const std::filesystem::path file = as_stored(folder / text(place));
     std::error_code error;
     if (std::filesystem::is_directory(file, error))
-        complain(place, "is a folder; the path of a file, from the layout's folder on, is right");
+        fail_at(place, "is a folder; the path of a file, from the layout's folder on, is right");
     if (!std::filesystem::is_regular_file(file, error))
-        complain(place,
+        fail_at(place,
             "names no file in " + (folder.empty() ? "this folder" : one_line(folder.string(), 200)) + nearest_names(file)
                 + "; the path of a file, from the layout's folder on, is right");
     return file;
@@ -139,12 +139,12 @@ std::vector<glm::dvec3> Table::read(const Place& place, const Folder& folder) co
     if (place.json->is_string())
         return load_cube(existing_file(place, folder.path));
     if (!place.json->is_array())
-        complain(place, "is not a table; the name of a .cube file or a list of numbers in [ ] is right");
+        fail_at(place, "is not a table; the name of a .cube file or a list of numbers in [ ] is right");
     std::vector<glm::dvec3> table;
     for (const Place& at : items(place, 2, most_entries, "entries, numbers or [red, green, blue],")) {
         const glm::dvec3 entry = at.json->is_array() ? vec3(at, {0, 1}) : glm::dvec3(number(at, {0, 1}));
         if (const std::string problem = fault(table, entry); !problem.empty())
-            complain(at, problem);
+            fail_at(at, problem);
         table.push_back(entry);
     }
     return table;
@@ -186,7 +186,7 @@ Json Matrix::schema(Json& definitions) const
 void check_members(const Place& place, const Colour*)
 {
     if (const auto gamma = find_member(place, "gamma"); gamma && find_member(place, "lut"))
-        complain(*gamma, "stands beside \"lut\", which says the same; one of the two is right");
+        fail_at(*gamma, "stands beside \"lut\", which says the same; one of the two is right");
 }
 
 } // namespace starbow

@@ -17,7 +17,7 @@ struct SampleCount {
     {
         const int count = integer(place, 1, 8);
         if (count & (count - 1))
-            complain(place, "is not a number of samples that devices have; 1, 2, 4 or 8 is right");
+            fail_at(place, "is not a number of samples that devices have; 1, 2, 4 or 8 is right");
         return count;
     }
     Json written(int count) const { return count; }

@@ -95,7 +95,7 @@ void check(const Place& place, const Measure& measure, const Folder&);
 Json saying_schema(const std::string& prefix);
 /// A text of a goal: a key of the words, or the text in some languages.
 struct GoalText {
-    Saying read(const Place& place, const Folder&) const;
+    LocalisedText read(const Place& place, const Folder&) const;
     Json schema(Json&) const { return saying_schema("goal"); }
 };
 template <>

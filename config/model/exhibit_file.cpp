@@ -22,7 +22,7 @@ std::string ShippedName::read(const Place& place, const Folder&) const
         std::string list;
         for (const std::string& one : all)
             list += (list.empty() ? "" : ", ") + one;
-        complain(place, "is not among the shipped " + std::string(kind) + "; one of these is right: " + list);
+        fail_at(place, "is not among the shipped " + std::string(kind) + "; one of these is right: " + list);
     }
     return name;
 }
@@ -32,7 +32,7 @@ std::string read_unlock(const Place& place, const Folder&)
     const std::string word = text(place);
     const bool typeable = word.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyz") == std::string::npos;
     if (!typeable || word.size() < 4 || word.size() > 32)
-        complain(place, "can't be typed blind; 4 to 32 small letters and digits are right");
+        fail_at(place, "can't be typed blind; 4 to 32 small letters and digits are right");
     return word;
 }
 
@@ -40,7 +40,7 @@ std::string read_identity(const Place& place, const Folder&)
 {
     const std::string identity = text(place);
     if (identity.size() > 64)
-        complain(place, "can't name an exhibit; 1 to 64 letters, the same on each of its machines, are right");
+        fail_at(place, "can't name an exhibit; 1 to 64 letters, the same on each of its machines, are right");
     return identity;
 }
 
@@ -49,7 +49,7 @@ std::string IpAddress::read(const Place& place, const Folder&) const
     const std::string address = text(place);
     in6_addr parsed{};
     if (inet_pton(AF_INET, address.c_str(), &parsed) != 1 && inet_pton(AF_INET6, address.c_str(), &parsed) != 1)
-        complain(place, "is not an IP address; one such as \"127.0.0.1\" is right");
+        fail_at(place, "is not an IP address; one such as \"127.0.0.1\" is right");
     return address;
 }
 
@@ -66,14 +66,14 @@ std::string read_host_name(const Place& place, const Folder&)
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '.';
     });
     if (!v6 && !plain)
-        complain(place, "is not a host's name; one such as \"starbow.local\", without scheme and port, is right");
+        fail_at(place, "is not a host's name; one such as \"starbow.local\", without scheme and port, is right");
     return name;
 }
 
 void check(const Place& place, const Comfort& comfort, const Folder&)
 {
     if (comfort.vignette && comfort.turn_steps_deg > 0)
-        complain(
+        fail_at(
             member(place, "vignette"), "conflicts with turn_steps_deg, which leaves no smooth turn; one of them is right");
 }
 
@@ -81,7 +81,7 @@ void check(const Place& place, const Exposing& exposing, const Folder&)
 {
     if (exposing.max_ev < exposing.min_ev) {
         const auto least = find_member(place, "min_ev");
-        complain(least ? *least : member(place, "max_ev"),
+        fail_at(least ? *least : member(place, "max_ev"),
             "leaves nothing between min_ev, " + shown(exposing.min_ev) + ", and max_ev, " + shown(exposing.max_ev)
                 + "; a min_ev that is no greater is right");
     }
@@ -90,18 +90,18 @@ void check(const Place& place, const Exposing& exposing, const Folder&)
 void check(const Place& place, const RemoteSettings& remote, const Folder&)
 {
     if (remote.certificate.empty() != remote.key.empty())
-        complain(place, "has only one of certificate and key; both or none is right");
+        fail_at(place, "has only one of certificate and key; both or none is right");
 }
 
 void check(const Place& place, const Exhibit& exhibit, const Folder&)
 {
     if (auto scene = find_member(place, "scene"); scene && !exhibit.shot.empty())
-        complain(*scene, "conflicts with the shot, which has a scene of its own; one of them is right");
+        fail_at(*scene, "conflicts with the shot, which has a scene of its own; one of them is right");
     for (const char* other : {"scene", "shot"})
         if (auto at = find_member(place, other); at && !exhibit.tour.empty())
-            complain(*at, "conflicts with the tour, which has a scene of its own; one of them is right");
+            fail_at(*at, "conflicts with the tour, which has a scene of its own; one of them is right");
     if (auto quality = find_member(place, "quality"); quality && exhibit.frame_budget_ms > 0)
-        complain(*quality, "conflicts with frame_budget_ms, which chooses the quality; one of them is right");
+        fail_at(*quality, "conflicts with frame_budget_ms, which chooses the quality; one of them is right");
 }
 
 Comfort read_comfort(const Place& place) { return read<Comfort>(place); }

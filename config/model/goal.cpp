@@ -8,14 +8,14 @@ void check(const Place& place, const Measure& measure, const Folder&)
     if (has_place(measure.quantity))
         member(place, "at");
     else if (at || relative_to)
-        complain(at ? *at : *relative_to, "is a place too many: this is measured on the ship alone; none is right");
+        fail_at(at ? *at : *relative_to, "is a place too many: this is measured on the ship alone; none is right");
 }
 
-Saying GoalText::read(const Place& place, const Folder&) const
+LocalisedText GoalText::read(const Place& place, const Folder&) const
 {
-    Saying saying = read_saying(place);
+    LocalisedText saying = read_saying(place);
     if (!saying.key.empty() && !saying.key.starts_with("goal."))
-        complain(place, "is not a text; a key of the words that begins with \"goal.\", or { \"en\": \"...\" } is right");
+        fail_at(place, "is not a text; a key of the words that begins with \"goal.\", or { \"en\": \"...\" } is right");
     return saying;
 }
 
@@ -30,9 +30,9 @@ Json saying_schema(const std::string& prefix)
 void check(const Place& place, const GoalCondition& condition, const Folder&)
 {
     if (!(condition.from < condition.below))
-        complain(member(place, "below"), "leaves nothing from " + shown(condition.from) + " on; a greater number is right");
+        fail_at(member(place, "below"), "leaves nothing from " + shown(condition.from) + " on; a greater number is right");
     if (condition.from < any_measured.low && condition.below > any_measured.high)
-        complain(place, "always holds; \"from\" or \"below\", or both, are right");
+        fail_at(place, "always holds; \"from\" or \"below\", or both, are right");
 }
 
 } // namespace starbow

@@ -1,6 +1,6 @@
 #pragma once
+#include "localised_text.h"
 #include "measure.h"
-#include "saying.h"
 #include <limits>
 #include <vector>
 
@@ -14,7 +14,7 @@ struct GoalCondition {
 
 /// Something for a visitor to find or to do in a world. It is reached while all conditions hold.
 struct Goal {
-    Saying ask, reward;
+    LocalisedText ask, reward;
     std::vector<GoalCondition> conditions;
 };
 

@@ -25,12 +25,12 @@ glm::ivec2 eye_size(const Output& output)
 void check_rect(const Place& place, const glm::dvec4& r, glm::ivec2 size)
 {
     if (r.z <= 0 || r.w <= 0)
-        complain(place, "is empty; x, y, width and height in fractions of the output, the last two above 0, is right");
+        fail_at(place, "is empty; x, y, width and height in fractions of the output, the last two above 0, is right");
     if (r.x + r.z > 1 + slack || r.y + r.w > 1 + slack)
-        complain(place, "reaches beyond the output; x + width and y + height up to 1 is right");
+        fail_at(place, "reaches beyond the output; x + width and y + height up to 1 is right");
     const glm::ivec4 pixels = pixel_rect({r}, size);
     if (pixels.z < 1 || pixels.w < 1)
-        complain(place,
+        fail_at(place,
             "is smaller than a pixel of the " + std::to_string(size.x) + " x " + std::to_string(size.y)
                 + " output; at least one pixel each way is right");
 }
@@ -43,7 +43,7 @@ void check_halves(const Place& place, const Output& output)
 {
     const glm::ivec2 eye = eye_size(output);
     if ((eye.x != output.size.x && output.size.x % 2) || (eye.y != output.size.y && output.size.y % 2))
-        complain(find_member(place, "size").value_or(place),
+        fail_at(find_member(place, "size").value_or(place),
             "has no two equal halves for \"packing\"; an even number of pixels across the cut is right");
 }
 
@@ -57,16 +57,16 @@ void check_beside(const Place& place, const Output& output, const Output& earlie
 {
     const std::string which = "output " + std::to_string(index);
     if (output.name == earlier.name)
-        complain(member(place, "name"), "is the name of " + which + " too; a name of its own is right");
+        fail_at(member(place, "name"), "is the name of " + which + " too; a name of its own is right");
     if (output.preview && earlier.preview)
-        complain(member(place, "preview"), "makes a second preview beside " + which + "; one is right");
+        fail_at(member(place, "preview"), "makes a second preview beside " + which + "; one is right");
     if ((output.node.empty() || earlier.node.empty()) && output.node != earlier.node)
-        complain(find_member(place, "node").value_or(place),
+        fail_at(find_member(place, "node").value_or(place),
             output.node.empty() ? "has no node, and " + which + " has one; a node for each output, or for none, is right"
                                 : "is a node, and " + which + " has none; a node for each output, or for none, is right");
     if ((output.whole_monitor || earlier.whole_monitor) && output.node == earlier.node
         && same(output.monitor, earlier.monitor))
-        complain(find_member(place, "monitor").value_or(place),
+        fail_at(find_member(place, "monitor").value_or(place),
             "takes the same monitor as " + which
                 + ", and a window over the whole of it leaves no room; a monitor for each is right");
 }
@@ -77,7 +77,7 @@ void check(const Place& place, const Warp& warp, const Folder&)
 {
     for (const char* name : {"v", "samples"})
         if (auto other = find_member(place, name); other && warp.map.offsets)
-            complain(*other,
+            fail_at(*other,
                 "stands beside \"values\": \"offsets\", which are upwards and from edge to edge; \"values\": "
                 "\"places\", or no \""
                     + std::string(name) + "\", is right");
@@ -108,7 +108,7 @@ std::string FileNamePart::read(const Place& place, const Folder&) const
     const bool usable = std::all_of(name.begin(), name.end(),
         [](char c) { return c == '_' || c == '-' || (static_cast<unsigned char>(c) < 0x80 && std::isalnum(c)); });
     if (!usable || name.size() > 64)
-        complain(place, "can't be part of a file's name; up to 64 of the letters A-Z a-z 0-9 _ - is right");
+        fail_at(place, "can't be part of a file's name; up to 64 of the letters A-Z a-z 0-9 _ - is right");
     return name;
 }
 
@@ -117,7 +117,7 @@ void check_members(const Place& place, const Output*)
     if (const auto preview = find_member(place, "preview"); preview && *preview->json == true)
         for (const char* name : {"viewports", "packing"})
             if (auto p = find_member(place, name))
-                complain(*p,
+                fail_at(*p,
                     "stands in the preview, which shows the other outputs as they are; a preview without \""
                         + std::string(name) + "\" is right");
 }
@@ -125,7 +125,7 @@ void check_members(const Place& place, const Output*)
 void check(const Place& place, const Output& output, const Folder&)
 {
     if (const auto at = find_member(place, "place"); at && output.whole_monitor)
-        complain(*at, "places a window that covers its whole monitor; \"place\" or \"whole_monitor\", not both, is right");
+        fail_at(*at, "places a window that covers its whole monitor; \"place\" or \"whole_monitor\", not both, is right");
     if (output.preview)
         return;
     check_halves(place, output);
@@ -135,12 +135,12 @@ void check(const Place& place, const Output& output, const Folder&)
         if (const auto rect = find_member(places[i], "rect"))
             check_rect(*rect, viewport.rect, eye_size(output));
         if (const auto eye = find_member(places[i], "eye"); eye && output.packing != Packing::mono)
-            complain(*eye,
+            fail_at(*eye,
                 "is set in an output whose \"packing\" shows both eyes; no \"eye\", or \"packing\" left out, is right");
         for (std::size_t k = 0; k < i; ++k)
             if (const Viewport& other = output.viewports[k]; overlap(viewport, other) && viewport.order == other.order
                 && (surely_unmasked(viewport) || surely_unmasked(other)))
-                complain(find_member(places[i], "rect").value_or(places[i]), unordered_overlap(k));
+                fail_at(find_member(places[i], "rect").value_or(places[i]), unordered_overlap(k));
     }
 }
 
@@ -161,10 +161,10 @@ Json HyperStereo::schema(Json& definitions) const
 void check(const Place& place, const Stereo& stereo, const Folder&)
 {
     if (stereo.separation_m == 0 && stereo.method != StereoMethod::shared)
-        complain(member(place, "separation_m"),
+        fail_at(member(place, "separation_m"),
             "puts both eyes in one place; a number above 0, or the method \"shared\", is right");
     if (stereo.turning && stereo.method != StereoMethod::reprojected)
-        complain(member(place, "baseline"), "turns eyes that only one method can turn; the method \"reprojected\" is right");
+        fail_at(member(place, "baseline"), "turns eyes that only one method can turn; the method \"reprojected\" is right");
 }
 
 std::string OwnAddress::read(const Place& place, const Folder&) const
@@ -172,7 +172,7 @@ std::string OwnAddress::read(const Place& place, const Folder&) const
     const std::string address = text(place);
     in_addr unused;
     if (inet_pton(AF_INET, address.c_str(), &unused) != 1)
-        complain(
+        fail_at(
             place, "is not an IPv4 address; \"127.0.0.1\" (a tracker on this computer) or \"0.0.0.0\" (on any) is right");
     return address;
 }
@@ -180,7 +180,7 @@ std::string OwnAddress::read(const Place& place, const Folder&) const
 void check(const Place& place, const MonitorName& monitor, const Folder&)
 {
     if (monitor.empty())
-        complain(place, "names no monitor; at least one of \"connector\", \"model\", \"serial\" and \"position\" is right");
+        fail_at(place, "names no monitor; at least one of \"connector\", \"model\", \"serial\" and \"position\" is right");
 }
 
 void check(const Place& place, const Layout& layout, const Folder&)
@@ -197,7 +197,7 @@ void check(const Place& place, const Layout& layout, const Folder&)
             check_beside(outputs[i], output, layout.outputs[k], k);
     }
     if (layout.outputs.size() == 1 && layout.outputs[0].preview)
-        complain(member(place, "outputs"), "holds a preview alone; at least one other output for it to show is right");
+        fail_at(member(place, "outputs"), "holds a preview alone; at least one other output for it to show is right");
 }
 
 bool overlap(const Viewport& a, const Viewport& b)

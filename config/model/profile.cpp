@@ -28,7 +28,7 @@ int HexId::read(const Place& place, const Folder&) const
     int value = 0;
     const auto end = digits.data() + digits.size();
     if (digits.size() != 4 || std::from_chars(digits.data(), end, value, 16).ptr != end)
-        complain(place, "is not a USB number; four hexadecimal digits such as \"044f\" are right");
+        fail_at(place, "is not a USB number; four hexadecimal digits such as \"044f\" are right");
     return value;
 }
 
@@ -36,7 +36,7 @@ std::array<double, 3> RawRange::read(const Place& place, const Folder&) const
 {
     const glm::dvec3 range = vec3(place, {-2147483648.0, 4294967295.0});
     if (!((range.x < range.y && range.y < range.z) || (range.x > range.y && range.y > range.z)))
-        complain(place, "has its middle outside its ends; raw values at one end, in the middle and at the other are right");
+        fail_at(place, "has its middle outside its ends; raw values at one end, in the middle and at the other are right");
     return {range.x, range.y, range.z};
 }
 
@@ -90,7 +90,7 @@ void save_profile(const Profile& profile, const std::filesystem::path& file)
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path(), problem);
     // Exhibits are switched off by their mains switch.
-    write_whole(file, text, Lasting::power_cut);
+    write_whole(file, text, Durability::fsync);
 }
 
 } // namespace starbow

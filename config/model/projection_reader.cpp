@@ -24,12 +24,11 @@ Sides SidesWithin::read(const Place& place, const Folder&) const
                 up = member(place, "up");
     const Sides sides{number(left, across), number(right, across), number(down, upright), number(up, upright)};
     if (sides.left_deg >= sides.right_deg)
-        complain(
-            left, "is not less than \"right\", " + shown(sides.right_deg) + "; angles that grow to the right are right");
+        fail_at(left, "is not less than \"right\", " + shown(sides.right_deg) + "; angles that grow to the right are right");
     if (sides.down_deg >= sides.up_deg)
-        complain(down, "is not less than \"up\", " + shown(sides.up_deg) + "; angles that grow upwards are right");
+        fail_at(down, "is not less than \"up\", " + shown(sides.up_deg) + "; angles that grow upwards are right");
     if (sides.right_deg - sides.left_deg > 360)
-        complain(right, "is more than a whole turn from \"left\"; at most 360 degrees between them is right");
+        fail_at(right, "is more than a whole turn from \"left\"; at most 360 degrees between them is right");
     return sides;
 }
 
@@ -58,11 +57,11 @@ void check_members(const Place& place, const Planar*)
     const auto x = find_member(place, "fov_x_deg"), y = find_member(place, "fov_y_deg"),
                sides = find_member(place, "sides_deg");
     if (sides && (x || y))
-        complain(*sides,
+        fail_at(*sides,
             std::string("stands beside \"") + (y ? "fov_y_deg" : "fov_x_deg")
                 + "\", which says the same; one of the two is right");
     if (x && !y)
-        complain(*x, "stands without \"fov_y_deg\"; both, or \"fov_y_deg\" alone, is right");
+        fail_at(*x, "stands without \"fov_y_deg\"; both, or \"fov_y_deg\" alone, is right");
 }
 
 void check(const Place& place, const Wall& wall, const Folder&)
@@ -71,12 +70,12 @@ void check(const Place& place, const Wall& wall, const Folder&)
     const double width = glm::length(right), height = glm::length(up);
     for (const auto& [name, length] : {std::pair("lower_right_m", width), std::pair("upper_left_m", height)})
         if (length < 1e-3)
-            complain(member(place, name),
+            fail_at(member(place, name),
                 "is less than a millimetre from \"lower_left_m\"; two different corners of the wall are right");
     // The cosine of the angle at the corner: the sideways displacement of the upper edge per metre of height.
     const double slip = std::abs(glm::dot(right, up)) / (width * height);
     if (slip > 1e-3)
-        complain(member(place, "upper_left_m"),
+        fail_at(member(place, "upper_left_m"),
             "makes no right angle with the other corners (" + shown(std::round(slip * 1e4) / 10)
                 + " mm off per metre); corners of a rectangle, within 1 mm per metre, are right");
 }
@@ -86,19 +85,19 @@ void check(const Place& place, const Fisheye& fisheye, const Folder&)
     // An orthographic picture folds back beyond a half sphere; a stereographic one grows without limit towards a whole
     // sphere.
     if (fisheye.mapping == FisheyeMapping::orthographic && fisheye.aperture_deg > 180)
-        complain(
+        fail_at(
             member(place, "aperture_deg"), "is more than an orthographic picture can hold; a number from 1 to 180 is right");
     if (fisheye.mapping == FisheyeMapping::stereographic && fisheye.aperture_deg > 350)
-        complain(
+        fail_at(
             member(place, "aperture_deg"), "is more than a stereographic picture can hold; a number from 1 to 350 is right");
 }
 
 void check(const Place& place, const SphericalMirror& mirror, const Folder&)
 {
     if (glm::distance(mirror.projector_m, mirror.mirror_m) <= mirror.mirror_radius_m)
-        complain(member(place, "projector_m"), "lies inside the mirror's sphere; a place before the mirror is right");
+        fail_at(member(place, "projector_m"), "lies inside the mirror's sphere; a place before the mirror is right");
     if (glm::distance(mirror.mirror_m, mirror.dome_m) >= mirror.dome_radius_m)
-        complain(member(place, "mirror_m"),
+        fail_at(member(place, "mirror_m"),
             "lies outside the dome, more than \"dome_radius_m\" from its centre; a mirror inside the dome is right");
 }
 
@@ -126,7 +125,7 @@ void check(const Place& place, const Lens& lens, const Folder&)
             for (int i = 0; i <= steps; ++i) {
                 const double r = lens_reach * i / steps, factor = lens_factor(lens.form, colour->k, r);
                 if (!(factor > 1e-3 && factor < 1e3))
-                    complain(member(*at, "k"),
+                    fail_at(member(*at, "k"),
                         "makes the lens's factor " + shown(std::round(factor * 1e4) / 1e4) + " at radius " + shown(r)
                             + "; numbers that keep it from 0.001 to 1000 out to radius 1 are right");
             }
@@ -149,15 +148,15 @@ void check_eye(const Place& place, const Projection& projection, const glm::dvec
         const double distance = glm::dot(eye_m - wall->lower_left_m, towards_viewer);
         const double least = eyes_apart_m / 2 + 1e-3;
         if (distance < -least)
-            complain(place, "is seen from behind by the eye at " + eye + "; corners as the visitor sees them are right");
+            fail_at(place, "is seen from behind by the eye at " + eye + "; corners as the visitor sees them are right");
         if (distance < least)
-            complain(place,
+            fail_at(place,
                 "is a wall that touches the eye at " + eye + "; an eye more than " + shown(least)
                     + " m before the wall's plane is right");
     }
     if (const SphericalMirror* mirror = std::get_if<SphericalMirror>(&projection))
         if (glm::distance(eye_m, mirror->dome_m) + eyes_apart_m / 2 > mirror->dome_radius_m * 0.999)
-            complain(place, "is a dome whose eye, at " + eye + ", is outside; an \"eye_m\" inside the dome is right");
+            fail_at(place, "is a dome whose eye, at " + eye + ", is outside; an \"eye_m\" inside the dome is right");
 }
 
 } // namespace starbow

@@ -9,12 +9,12 @@ void check(const Place& place, const Ladder& ladder, const Folder&)
     for (std::size_t i = 1; i < ladder.levels.size(); ++i) {
         const PresetLevel &level = ladder.levels[i], &before = ladder.levels[i - 1];
         if (level.ms <= before.ms)
-            complain(member(places[i], "ms"),
+            fail_at(member(places[i], "ms"),
                 "is no more than the level's before, " + shown(before.ms)
                     + "; levels from the fastest to the slowest are right");
         if (level.quality.spectra != first.spectra || level.quality.stereo != first.stereo
             || level.quality.matrices != first.matrices)
-            complain(member(places[i], "quality"),
+            fail_at(member(places[i], "quality"),
                 "has other spectra, stereo or matrices than the first level, which can't change in "
                 "flight; the same are right");
     }

@@ -15,7 +15,7 @@ void check_spectra(const Place& light)
     std::string names;
     for (std::size_t i = 0; i < emission_members.size(); ++i)
         names.append(i == 0 ? "\"" : i + 1 == emission_members.size() ? "\" and \"" : "\", \"").append(emission_members[i]);
-    complain(light, "has more than one spectrum; at most one of " + names + "\" is right");
+    fail_at(light, "has more than one spectrum; at most one of " + names + "\" is right");
 }
 
 } // namespace
@@ -29,7 +29,7 @@ double GlowTemperature::read(const Place& place, const Folder&) const
 {
     const double kelvin = number(place, {0, hottest_K});
     if (kelvin > 0 && kelvin < coldest_K)
-        complain(place,
+        fail_at(place,
             "is too small; 0 for none, or a number from " + shown(coldest_K) + " to " + shown(hottest_K) + ", is right");
     return kelvin;
 }
@@ -48,7 +48,7 @@ Json SkyDirection::schema(Json& definitions) const
 void check(const Place& place, const StarSky& stars, const Folder&)
 {
     if (const auto in_depth = find_member(place, "in_depth"); in_depth && !stars.milky_way)
-        complain(*in_depth,
+        fail_at(*in_depth,
             "leaves no place for the other stars, which are painted onto the Milky Way; beside a \"milky_way\" it is "
             "right");
 }
@@ -65,7 +65,7 @@ double DateForm::read(const Place& place, const Folder&) const
                 std::chrono::year(year), std::chrono::month(unsigned(month)), std::chrono::day(unsigned(day))};
             at.ok())
             return (sys_days(at) - sys_days(2000y / January / 1)).count() - 0.5 + (hour + minute / 60.0) / 24;
-    complain(place, "is not a date; one from 1800 to 2049 as \"2026-08-12T17:46Z\" (UTC) is right");
+    fail_at(place, "is not a date; one from 1800 to 2049 as \"2026-08-12T17:46Z\" (UTC) is right");
 }
 
 Json DateForm::schema(Json&) const
@@ -76,7 +76,7 @@ Json DateForm::schema(Json&) const
 void check(const Place& place, const LightCone& cone, const Folder&)
 {
     if (!(cone.inner_rad < cone.outer_rad))
-        complain(place, "ends inside \"inner_deg\"; a larger \"outer_deg\" is right");
+        fail_at(place, "ends inside \"inner_deg\"; a larger \"outer_deg\" is right");
 }
 
 Emission EmissionForm<SpectralTable>::read(const Place& place, const Folder&) const
@@ -86,12 +86,12 @@ Emission EmissionForm<SpectralTable>::read(const Place& place, const Folder&) co
         const std::vector<Place> pair = items(at, 2, 2, "numbers (wavelength in nm, value)");
         const double nm = number(pair[0], {shortest_nm, longest_nm});
         if (!table.points.empty() && !(nm > table.points.back().first))
-            complain(pair[0],
+            fail_at(pair[0],
                 "does not rise; a wavelength above the one before, " + shown(table.points.back().first) + ", is right");
         table.points.emplace_back(nm, number(pair[1], {0, 1e30}));
     }
     if (std::all_of(table.points.begin(), table.points.end(), [](const auto& point) { return point.second == 0; }))
-        complain(place, "is dark everywhere; a table with a value above 0 is right");
+        fail_at(place, "is dark everywhere; a table with a value above 0 is right");
     return table;
 }
 
@@ -112,19 +112,19 @@ void check(const Place& place, const SceneFile& scene, const Folder&)
         for (std::size_t i = 0; i < each.size(); ++i)
             for (std::size_t k = 0; k < i; ++k)
                 if (scene.bodies[k].name == scene.bodies[i].name)
-                    complain(member(each[i], "name"), "is the name of another body as well; one of its own is right");
+                    fail_at(member(each[i], "name"), "is the name of another body as well; one of its own is right");
     }
     if (const auto lights = find_member(place, "lights"))
         for (const Place& light : elements(*lights))
             if (const auto body = find_member(light, "body"))
                 if (std::none_of(
                         scene.bodies.begin(), scene.bodies.end(), [&](const Body& one) { return one.name == text(*body); }))
-                    complain(*body, "is not a body of this scene; a \"name\" of one of its \"bodies\" is right");
+                    fail_at(*body, "is not a body of this scene; a \"name\" of one of its \"bodies\" is right");
     if (const auto globes = find_member(place, "globes"); globes && !scene.bodies.empty())
-        complain(*globes, "stand in a world where other things move; a scene without \"bodies\" is right");
+        fail_at(*globes, "stand in a world where other things move; a scene without \"bodies\" is right");
     if (const std::optional<Boundary>& ball = scene.boundary)
         if (const double away = glm::distance(scene.start.position, ball->centre); away >= ball->radius)
-            complain(member(member(place, "boundary"), "radius"),
+            fail_at(member(member(place, "boundary"), "radius"),
                 "leaves the start outside, " + shown(away) + " from the centre; more than that is right");
 }
 

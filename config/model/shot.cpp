@@ -22,23 +22,23 @@ double read_proper_speed(const Place& place)
     const auto gamma = find_member(place, "gamma"), beta = find_member(place, "beta"),
                rapidity = find_member(place, "rapidity");
     if (gamma.has_value() + beta.has_value() + rapidity.has_value() != 1)
-        complain(place,
+        fail_at(place,
             std::string(gamma || beta || rapidity ? "has more than one speed" : "has no speed")
                 + "; exactly one of \"gamma\", \"beta\" and \"rapidity\" is right");
     if (gamma) {
         const double g = number(*gamma, {-1e308, 1e308});
         if (g < 1)
-            complain(*gamma, "is less than gamma ever is; 1 at rest and up to 1e9 is right");
+            fail_at(*gamma, "is less than gamma ever is; 1 at rest and up to 1e9 is right");
         if (g > most_gamma)
-            complain(*gamma, "is beyond any flight here; a gamma from 1 to 1e9 is right");
+            fail_at(*gamma, "is beyond any flight here; a gamma from 1 to 1e9 is right");
         return std::sqrt((g - 1) * (g + 1));
     }
     if (beta) {
         const double b = number(*beta, {-1e308, 1e308});
         if (b >= 1)
-            complain(*beta, "can't be flown: nothing reaches the speed of light; a beta from 0 to below 1 is right");
+            fail_at(*beta, "can't be flown: nothing reaches the speed of light; a beta from 0 to below 1 is right");
         if (b < 0)
-            complain(*beta, "is negative; a beta from 0 to below 1, with the heading in \"direction\", is right");
+            fail_at(*beta, "is negative; a beta from 0 to below 1, with the heading in \"direction\", is right");
         return b / std::sqrt((1 - b) * (1 + b));
     }
     return std::sinh(number(*rapidity, {0, std::acosh(most_gamma)}));
@@ -50,7 +50,7 @@ glm::dvec3 unit_direction(const Place& place)
 {
     const glm::dvec3 direction = unit(vec3(place, {-1e300, 1e300}));
     if (direction == glm::dvec3(0))
-        complain(place, "points nowhere; a direction of any length above 0 is right");
+        fail_at(place, "points nowhere; a direction of any length above 0 is right");
     return direction;
 }
 
@@ -70,7 +70,7 @@ glm::dquat read_orientation(const Place& place)
     if (up_at)
         up = unit_direction(*up_at);
     if (glm::length(glm::cross(look, up)) < 1e-6)
-        complain(up_at ? *up_at : *look_at,
+        fail_at(up_at ? *up_at : *look_at,
             std::string("is parallel to \"") + (up_at ? "look" : "up")
                 + "\"; a direction that is not parallel to it is right");
     return orientation(look, up);

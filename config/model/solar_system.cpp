@@ -22,9 +22,9 @@ OrbitElements read_orbit(const Place& place)
         read_element(place, "L_deg"), read_element(place, "perihelion_longitude_deg"),
         read_element(place, "node_longitude_deg")};
     if (!(orbit.semi_major_au.at_j2000 > 0))
-        complain(member(place, "a_au"), "is not an orbit's; a first number above 0 is right");
+        fail_at(member(place, "a_au"), "is not an orbit's; a first number above 0 is right");
     if (!(orbit.eccentricity.at_j2000 >= 0 && orbit.eccentricity.at_j2000 < 0.9))
-        complain(member(place, "e"), "is not a planet's; a first number from 0 to below 0.9 is right");
+        fail_at(member(place, "e"), "is not a planet's; a first number from 0 to below 0.9 is right");
     return orbit;
 }
 
@@ -90,7 +90,7 @@ std::vector<std::pair<double, double>> read_points(const Place& place)
         const std::vector<Place> pair = items(at, 2, 2, "numbers (wavelength in nm, value)");
         const double nm = number(pair[0], {40, 12000});
         if (!points.empty() && !(nm > points.back().first))
-            complain(pair[0], "does not rise; a wavelength above the one before is right");
+            fail_at(pair[0], "does not rise; a wavelength above the one before is right");
         points.emplace_back(nm, number(pair[1], {0, 1e6}));
     }
     return points;
@@ -116,7 +116,7 @@ void read_spectra(const Place& place, SolarSystem& system)
         for (std::size_t k = 0; k < 6; ++k)
             limb.powers[k] = number(at[k + 1], {-100, 100});
         if (!system.limb.empty() && !(limb.nm > system.limb.back().nm))
-            complain(at[0], "does not rise; a wavelength above the one before is right");
+            fail_at(at[0], "does not rise; a wavelength above the one before is right");
         system.limb.push_back(limb);
     }
     // In the infrared a straight line: 1 - u (1 - cosine).
@@ -133,7 +133,7 @@ PlanetRing read_ring(const Place& place)
     for (const Place& at : items(member(place, "rows"), 2, 4096, "rows [radius in km, optical depth, reflectivity]")) {
         rows.push_back(vec3(at, {0, 1e9}));
         if (rows.size() > 1 && !(rows.back().x > rows[rows.size() - 2].x))
-            complain(at, "does not rise; a radius above the one before is right");
+            fail_at(at, "does not rise; a radius above the one before is right");
     }
     PlanetRing ring{rows.front().x * 1000, rows.back().x * 1000, {}, "rings"};
     constexpr int count = 512;
@@ -170,7 +170,7 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
     system.moon_distance = read_terms(member(moon, "distance_km_cos"));
     const auto require_kind = [&](const Place& place, const char* name) {
         if (std::none_of(system.kinds.begin(), system.kinds.end(), [&](const NamedTable& one) { return one.name == name; }))
-            complain(place,
+            fail_at(place,
                 std::string("needs the kind \"") + name + "\", and the file of \"spectra\" has none; one with it is right");
     };
     std::set<std::string> names;
@@ -180,10 +180,10 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
         const Place name = member(at, "body");
         globe.name = text(name);
         if (!names.insert(globe.name).second)
-            complain(name, "is there already; each globe once is right");
+            fail_at(name, "is there already; each globe once is right");
         const auto size = find_member(sizes, globe.name);
         if (!size)
-            complain(name, "has no size in the file of \"bodies\"; one of its names is right");
+            fail_at(name, "has no size in the file of \"bodies\"; one of its names is right");
         globe.radius_m = number(member(*size, "radius_km"), {1e-3, 1e9}) * 1000;
         globe.flattening = number(member(*size, "flattening"), {0, 0.5});
         globe.rotation = read_rotation(member(rotations, globe.name), globe.name == "Earth");
@@ -207,7 +207,7 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
             const std::string own = text(kind);
             if (std::none_of(
                     system.kinds.begin(), system.kinds.end(), [&](const NamedTable& one) { return one.name == own; }))
-                complain(kind, "is not a kind of the file of \"spectra\"; one of its \"kinds\" is right");
+                fail_at(kind, "is not a kind of the file of \"spectra\"; one of its \"kinds\" is right");
             return own;
         };
         if (globe.scattering != Scattering::sun) {
@@ -228,10 +228,10 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
                 number(member(*p, "brightest_lamps"), {0, 1})};
             if (std::any_of(
                     system.globes.begin(), system.globes.end(), [](const Globe& other) { return other.air.has_value(); }))
-                complain(*p, "is a second globe's; one globe with air is right");
+                fail_at(*p, "is a second globe's; one globe with air is right");
             require_kind(*p, "cloud");
             if (globe.map.empty())
-                complain(*p, "needs a \"map\" of the ground below it");
+                fail_at(*p, "needs a \"map\" of the ground below it");
         }
         if (auto p = find_member(at, "ring")) {
             require_kind(*p, "rings");
@@ -241,9 +241,9 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
         system.globes.push_back(std::move(globe));
     }
     if (system.globes.front().scattering != Scattering::sun)
-        complain(member(top, "globes"), "begin with another globe; the Sun first is right");
+        fail_at(member(top, "globes"), "begin with another globe; the Sun first is right");
     if (names.contains("Moon") && !names.contains("Earth"))
-        complain(member(top, "globes"), "have a Moon without the Earth that it goes around; both are right");
+        fail_at(member(top, "globes"), "have a Moon without the Earth that it goes around; both are right");
     return system;
 }
 

@@ -12,7 +12,7 @@ void check_measured(const Place& place, const std::string& text, bool is_measure
 {
     for (const std::string& name : placeholders(text))
         if (name != "measured" || !is_measured)
-            complain(place,
+            fail_at(place,
                 "has {" + one_line(name, 40) + "} in its text; "
                     + (is_measured ? "{measured} alone is right" : "{measured} beside a \"measure\" is right"));
 }
@@ -25,9 +25,9 @@ Json name_or(const Json& object) { return {{"oneOf", {{{"type", "string"}, {"min
 std::string TourText::read(const Place& place, const Folder& source) const
 {
     const Words& words = of_tour(source).words;
-    const Saying saying = read_saying(place);
+    const LocalisedText saying = read_saying(place);
     if (!saying.key.empty() && !words.tour(saying.key))
-        complain(place,
+        fail_at(place,
             "is not a text in " + words.file.filename().string()
                 + "; a key there that begins with \"tour.\", or { \"en\": \"...\" } is right");
     return said(saying, words);
@@ -36,19 +36,19 @@ std::string TourText::read(const Place& place, const Folder& source) const
 void check(const Place& place, const Choice& choice, const Folder&)
 {
     if (!(choice.from < choice.below))
-        complain(place, "is never right; a \"from\" less than \"below\" is right");
+        fail_at(place, "is never right; a \"from\" less than \"below\" is right");
 }
 
 void check(const Place& place, const NumberToSet& number, const Folder&)
 {
     if (!(number.from < number.to))
-        complain(member(place, "to"), "is not above \"from\"; a greater number is right");
+        fail_at(member(place, "to"), "is not above \"from\"; a greater number is right");
 }
 
 void check(const Place& place, const PlaceToReach& wanted, const Folder&)
 {
     if (!(wanted.from < wanted.to))
-        complain(member(place, "to"), "is not above \"from\"; a greater number is right");
+        fail_at(member(place, "to"), "is not above \"from\"; a greater number is right");
 }
 
 void check(const Place& place, const Question& question, const Folder&)
@@ -59,7 +59,7 @@ void check(const Place& place, const Question& question, const Folder&)
     for (const char* name : {"choices", "number", "reach"})
         ways += find_member(place, name).has_value();
     if (ways != 1)
-        complain(place, "needs one way to answer; exactly one of \"choices\", \"number\" and \"reach\" is right");
+        fail_at(place, "needs one way to answer; exactly one of \"choices\", \"number\" and \"reach\" is right");
 }
 
 Cut CutForm::read(const Place& place, const Folder& source) const
@@ -71,7 +71,7 @@ Cut CutForm::read(const Place& place, const Folder& source) const
     const bool path = name.find('/') != name.npos || name.ends_with(".json");
     const Shot shot = load_shot(path ? (tour.path / name).lexically_normal() : tour.find_shot(name));
     if (!path && shot.scene != tour.scene)
-        complain(place,
+        fail_at(place,
             "is a shot in the scene " + one_line(shot.scene, 60) + "; one in the tour's, " + one_line(tour.scene, 60)
                 + ", is right");
     return {shot};
@@ -104,7 +104,7 @@ void check_members(const Place& place, const Step*)
         if (find_member(place, name))
             given.emplace_back(name);
     if (given.size() > 1)
-        complain(member(place, given[1]), "conflicts with \"" + given[0] + "\"; one motion in a step is right");
+        fail_at(member(place, given[1]), "conflicts with \"" + given[0] + "\"; one motion in a step is right");
 }
 
 void check(const Place& place, const Step& step, const Folder&)
@@ -113,16 +113,16 @@ void check(const Place& place, const Step& step, const Folder&)
         check_measured(*caption, step.caption, step.measure.has_value());
     if (const auto ease = find_member(place, "ease_s")) {
         if (step.ease_s.x + step.ease_s.y > step.seconds)
-            complain(*ease, "is longer than the step, " + shown(step.seconds) + " s; two times that fit are right");
+            fail_at(*ease, "is longer than the step, " + shown(step.seconds) + " s; two times that fit are right");
         if (std::holds_alternative<Glide>(step.motion) || std::holds_alternative<Try>(step.motion))
-            complain(
+            fail_at(
                 *ease, "is for a ship that flies by itself; nothing here, or no \"glide\" or \"try\" beside it, is right");
     }
     if (step.question) {
         const bool flies = std::holds_alternative<Try>(step.motion),
                    reaches = std::holds_alternative<PlaceToReach>(step.question->answer);
         if (flies != reaches)
-            complain(member(place, "question"),
+            fail_at(member(place, "question"),
                 flies ? "is asked while the visitor flies; \"reach\", or no \"try\" beside it, is right"
                       : "asks for a place to be reached; a \"try\" beside it is right");
     }
@@ -144,7 +144,7 @@ void check(const Place& place, Tour& tour, const Folder&)
         if (!find_member(steps[i], "ship_s_per_s"))
             tour.steps[i].ship_s_per_s = rate;
     if (!std::holds_alternative<Cut>(tour.steps[0].motion))
-        complain(steps[0], "begins nowhere; a \"cut\" in the first step is right");
+        fail_at(steps[0], "begins nowhere; a \"cut\" in the first step is right");
 }
 
 Tour load_tour(const std::filesystem::path& file, const Words& words, const FindShot& find_shot)

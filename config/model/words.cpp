@@ -68,7 +68,7 @@ Words load_words(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     if (!top.json->is_object())
-        complain(top, "is not an object; an object in { } is right");
+        fail_at(top, "is not an object; an object in { } is right");
     std::vector<std::string_view> keys;
     for (const KnownText& one : known_texts)
         keys.push_back(one.key);
@@ -87,7 +87,7 @@ Words load_words(const std::filesystem::path& file)
         for (const std::string& name : there)
             names += (names.empty() ? "" : " ") + name;
         if (names != one.placeholders)
-            complain(
+            fail_at(
                 at, "has other placeholders than this text needs; a text with " + in_braces(one.placeholders) + " is right");
     }
     return words;

@@ -126,7 +126,7 @@ std::shared_ptr<const DirectionMap> MapStore::map(const View& view, const WarpMe
         return map;
     // A small map is compiled faster than it is read.
     const bool on_disk = !folder_.empty() && std::size_t(view.size.x) * view.size.y > (1u << 18);
-    const std::filesystem::path file = folder_ / kept_name(key, ".map");
+    const std::filesystem::path file = folder_ / cache_key(key, ".map");
     std::shared_ptr<DirectionMap> map = on_disk ? read_kept_map(file, key, view.size) : nullptr;
     if (!map) {
         map = std::make_shared<DirectionMap>(starbow::compile_direction_map(view, mesh));

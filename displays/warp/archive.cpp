@@ -19,18 +19,18 @@ Archive::Archive(const WarpFile& file)
 {
     zip_error_t error;
     zip_error_init(&error);
-    const auto complain = [&](const std::string& what) {
+    const auto fail = [&](const std::string& what) {
         const std::string why = zip_error_strerror(&error);
         zip_error_fini(&error);
         refuse(file, "", "can't be read as a zip archive (" + what + why + "); an MPCDI archive is right");
     };
     zip_source_t* source = zip_source_buffer_create(file.content.data(), file.content.size(), 0, &error);
     if (!source)
-        complain("");
+        fail("");
     zip_ = zip_open_from_source(source, ZIP_RDONLY, &error);
     if (!zip_) {
         zip_source_free(source);
-        complain("");
+        fail("");
     }
     zip_error_fini(&error);
     const zip_int64_t count = zip_get_num_entries(handle(zip_), 0);

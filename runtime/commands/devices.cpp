@@ -62,7 +62,7 @@ std::vector<std::uint8_t> descriptor_in(const std::string& file)
         const Place hex = member(root(document), "descriptor_hex");
         if (const auto bytes = from_hex(starbow::text(hex)))
             return *bytes;
-        complain(hex, "is not a hexadecimal text; two digits for each byte are right");
+        fail_at(hex, "is not a hexadecimal text; two digits for each byte are right");
     }
     if (const auto bytes = from_hex(text))
         return *bytes;

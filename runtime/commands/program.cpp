@@ -26,7 +26,7 @@ constexpr std::string_view memory_used_up
     = "The memory is used up; smaller outputs, a smaller world or more memory is right";
 
 /// Prints one line on standard error, after the log's lines.
-int complain(std::string text) noexcept
+int fail_at(std::string text) noexcept
 {
     try {
         send_message(STDERR_FILENO, "starbow: " + plain_text(std::move(text)) + "\n");
@@ -41,17 +41,17 @@ int guarded(const std::function<int()>& run)
     try {
         return run();
     } catch (const InputError& error) {
-        return complain(error.what());
+        return fail_at(error.what());
     } catch (const std::bad_alloc&) {
-        return complain(std::string(memory_used_up));
+        return fail_at(std::string(memory_used_up));
     } catch (const std::system_error& error) {
         // The graphics driver's errors have a category of their own.
         const std::error_category& category = error.code().category();
         const bool driver = category != std::generic_category() && category != std::system_category();
-        return complain(std::string(driver ? "The graphics driver has failed: " : "The system has failed: ") + error.what()
+        return fail_at(std::string(driver ? "The graphics driver has failed: " : "The system has failed: ") + error.what()
             + (driver ? "; 'starbow doctor' says what may mend it" : ""));
     } catch (const std::exception& error) {
-        return complain(std::string("The program has failed: ") + error.what());
+        return fail_at(std::string("The program has failed: ") + error.what());
     }
 }
 

@@ -14,7 +14,7 @@
 #include "runtime/exhibit/open_exhibit.h"
 #include "runtime/exhibit/outputs.h"
 #include "runtime/flight/replay.h"
-#include "runtime/operation/ends.h"
+#include "runtime/operation/crash_counter.h"
 #include "runtime/operation/last_language.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/record_files.h"
@@ -144,7 +144,7 @@ int run(const RunOptions& given)
 {
     open_log({.lowest = given.verbose ? LogLevel::debug : LogLevel::info});
     // Without a service manager nobody starts the program again, and a second one may run beside it.
-    std::optional<Ends> ends;
+    std::optional<CrashCounter> ends;
     if (Service().supervised())
         ends.emplace(state_folder(), std::time(nullptr));
     const bool care = ends && ends->lately() >= most_ends && !follows_master(given);
@@ -180,7 +180,7 @@ int run(const RunOptions& given)
         exhibit_options.trace = &trace.emplace(options.trace);
     catch_interrupts(); // they end the flight as Esc does
     exhibit_options.over = interrupted;
-    const LastWork last([&] {
+    const ExitWork last([&] {
         trace.reset();
         if (ends)
             ends->in_order(); // the X server's end is no fault of the exhibit

@@ -9,7 +9,7 @@
 namespace starbow {
 namespace {
 
-struct Given {
+struct ParsedArguments {
     TellOptions options;
     std::string pin_file;
     std::vector<std::string> words;
@@ -25,7 +25,7 @@ std::string best_pin(const std::filesystem::path& file)
     return "";
 }
 
-int run_tell(Given given)
+int run_tell(ParsedArguments given)
 {
     if (given.options.pin.empty()) {
         const std::filesystem::path file = !given.pin_file.empty() ? std::filesystem::path(given.pin_file)
@@ -66,7 +66,7 @@ static void add_tell(Subcommand& app, std::function<int()>& chosen)
     command->footer(command_list()
         + "\n\nExamples:\n  starbow tell status\n  starbow tell scene twins\n"
           "  starbow tell --host starbow.local --pin-file docent.pin caption \"Closed at six\"");
-    static Given given;
+    static ParsedArguments given;
     command->add_option("COMMAND", given.words, "the command and its value, or status")->required()->expected(1, 2);
     command->add_option("--host", given.options.host, "the exhibit's machine; a name on its list")->capture_default_str();
     command->add_option("--port", given.options.port, "the port of \"remote\" in the exhibit's file")

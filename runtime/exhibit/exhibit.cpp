@@ -36,9 +36,9 @@ Loss loss_by(const std::exception& error)
 }
 
 /// The losses of the GPU, or of all else that a flight needs.
-class Losses {
+class DeviceLosses {
 public:
-    explicit Losses(const Session& session)
+    explicit DeviceLosses(const Session& session)
         : session_(session)
     {
     }
@@ -122,13 +122,13 @@ int fly_exhibit(const ExhibitOptions& options)
     if (!session.pins.empty() && isatty(STDOUT_FILENO))
         print_message(session.pins); // to a person at a terminal, and never into a log
     const WaitWatch watch(wait_limit_s(session.service));
-    const LastWork last([&] {
+    const ExitWork last([&] {
         session.service.stops();
         session.record_replay.end(session.flight(), print_message);
         session.record_replay.close();
         session.diary.close();
     });
-    Losses losses(session);
+    DeviceLosses losses(session);
     for (;;) {
         losses.opens();
         std::optional<LimitedWait> work(

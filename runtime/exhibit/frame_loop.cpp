@@ -45,7 +45,7 @@ FrameLoop::FrameLoop(Session& session, RemoteControl& remote, Presenter& present
     , done_(device_.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
     , live_(device_)
     , commands_(device_.device, {*device_.pool, vk::CommandBufferLevel::ePrimary, 2})
-    , guide_(device_, presenter, session.options.presenter)
+    , presenter_window_(device_, presenter, session.options.presenter)
 {
     if (session.options.machines)
         master_ = std::make_unique<Master>(session.options, session.kept),
@@ -110,7 +110,7 @@ bool FrameLoop::fly_frame()
     }
     requests.add(attend(requested(entry.controls, requests), entry.dt_ns));
     for (const Command& command : entry.commands)
-        carry_out(command, requests);
+        apply_command(command, requests);
     entry.controls = requested(entry.controls, requests);
     step(session_, entry, metered);
     seek_goals(session_, context_.world.scene, entry.dt_ns);
@@ -129,9 +129,9 @@ bool FrameLoop::fly_frame()
         remote_.shown(session_); // there is no picture to wait for
         if (master_) { // but the other machines have some
             master_->send(shared(next_instant(controls.head)), session_.light.leapt());
-            let_go();
+            release_frame();
         }
-        guide_.show(session_, screens_.monitors());
+        presenter_window_.show(session_, screens_.monitors());
         return true;
     }
 
@@ -163,7 +163,7 @@ bool FrameLoop::fly_frame()
     if (master_) {
         if (master_->awaits_drawing())
             device_.await(*done_, "the end of the frame's drawing (fence)");
-        let_go();
+        release_frame();
         frame_->add_samples(master_->samples());
     }
     screens_.present(session_.skew);
@@ -172,7 +172,7 @@ bool FrameLoop::fly_frame()
         count_frame(session_, seconds(Clock::now() - *presented_), screens_.refresh_hz());
     presented_ = Clock::now();
     remote_.shown(session_);
-    guide_.show(session_, screens_.monitors());
+    presenter_window_.show(session_, screens_.monitors());
     fresh_ = false;
     session_.service.shows("Shows " + std::to_string(screens_.shown()) + " of "
         + std::to_string(session_.layout.outputs.size()) + (session_.layout.outputs.size() == 1 ? " output" : " outputs")
@@ -373,11 +373,11 @@ Instant FrameLoop::next_instant(const Head& head)
     now.shot.exposure_ev = light.ev();
     now.instruments = session_.lab.request(frame_->views(), now.shot, flight, context_.world, pictures_.typesetter);
     now.hud = hud_.update(session_, context_.world.scene, now.shot.exposure_ev);
-    placards_.choose(session_, context_.world, now);
+    callouts_.choose(session_, context_.world, now);
     return now;
 }
 
-void FrameLoop::let_go()
+void FrameLoop::release_frame()
 {
     master_->go();
     master_->describe(session_.machines);

@@ -1,8 +1,8 @@
 #pragma once
+#include "callouts.h"
 #include "hud_updater.h"
 #include "instant_pictures.h"
 #include "master.h"
-#include "placards.h"
 #include "presenter_window.h"
 #include "remote_control.h"
 #include "runtime/render/frame_timer.h"
@@ -43,8 +43,8 @@ private:
     void warm_up_at_rest(const Shot& shot);
     /// Null where a viewport is too narrow for a small picture. Throws NoRoom.
     std::unique_ptr<WarmUp> warm_up_in(const Quality& quality);
-    /// Another world, layout or quality: the warm-up at rest and the placards begin anew.
-    void forget_drawn() { at_rest_.reset(), rested_ = false, placards_.forget(), pictures_.forget(); }
+    /// Another world, layout or quality: the warm-up at rest and the callouts begin anew.
+    void forget_drawn() { at_rest_.reset(), rested_ = false, callouts_.forget(), pictures_.forget(); }
     void fit(std::size_t output);
     /// Waits for the frame's turn and for the device. Returns the luminance of the frame before, if it was metered.
     Metered await_device();
@@ -70,7 +70,7 @@ private:
     void change_visitors(const VisitEvents& events);
     void show_quality(const std::string& name);
     /// Carries out a remote's command; a refused one is logged with its reason and changes nothing.
-    void carry_out(const Command& command, Requests& requests);
+    void apply_command(const Command& command, Requests& requests);
     /// Applies a builder's change by keyboard, or undoes it if it can't be drawn.
     void apply_alignment(const Controls& controls);
     /// Gives the outputs their windows' sizes.
@@ -80,7 +80,7 @@ private:
     /// The same for the other machines.
     SharedInstant shared(const Instant& now) const;
     /// Lets all machines show the frame, and keeps the names of those that are not in step.
-    void let_go();
+    void release_frame();
     /// These two enclose FrameRenderer::draw with the timer and the layout transitions of the windows' images. The commands
     /// are in two buffers, of which only the second waits for the screens.
     void begin_commands();
@@ -105,7 +105,7 @@ private:
     bool rested_ = false; ///< it is over, for the present world, layout and quality
     std::size_t most_pipelines_; ///< that are kept
     HudUpdater hud_;
-    Placards placards_;
+    Callouts callouts_;
     InstantPictures pictures_;
     std::unique_ptr<Master> master_; ///< null: this machine shows all
     std::vector<TurnedNumber> turned_; ///< the builder's changes, for the other machines
@@ -119,7 +119,7 @@ private:
     bool submitted_ = false; ///< a frame since the last wait for the device
     double prepared_ms_ = 0; ///< the processor's part of the frame before
     std::int64_t submitted_ns_ = 0; ///< steady clock; of the frame before
-    PresenterWindow guide_;
+    PresenterWindow presenter_window_;
 };
 
 } // namespace starbow

@@ -92,7 +92,7 @@ void FrameLoop::show_quality(const std::string& name)
     session_.qualities.fix(quality, name);
 }
 
-void FrameLoop::carry_out(const Command& command, Requests& requests)
+void FrameLoop::apply_command(const Command& command, Requests& requests)
 {
     const std::string words = text_of(command);
     try {
@@ -122,7 +122,7 @@ void FrameLoop::carry_out(const Command& command, Requests& requests)
             show_quality(command.text);
             break;
         default:
-            starbow::carry_out(session_, command, requests);
+            starbow::apply_command(session_, command, requests);
         }
         session_.diary.count([](Tally& tally) { ++tally.commands; });
         remote_.note("");

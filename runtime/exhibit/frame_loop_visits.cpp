@@ -23,7 +23,7 @@ bool begins_at_rest(const Session& session) { return !session.tour() && session.
 /// Somebody else attends: only what tells a visitor where to begin begins again.
 void wait_for_visitor(Session& session)
 {
-    if (Guide* tour = session.source->tour())
+    if (TourPlayer* tour = session.source->tour())
         tour->again();
     forget_hands(session);
     session.tutorial = tutorial_at(session.flight());

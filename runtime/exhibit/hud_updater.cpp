@@ -76,7 +76,7 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
     shown.frames_per_s = rate_;
     show_on(session.choices.information, session.programme.start.time * scene.seconds_per_time_unit(), shown);
     shown.mode = flight.mode, shown.frozen = flight.frozen, shown.lever = flight.lever;
-    if (const Guide* tour = session.tour()) {
+    if (const TourPlayer* tour = session.tour()) {
         shown.prompt = tour->prompt(words);
         shown.caption = tour->caption(words, capabilities);
         if (shown.caption && by_one_button(session) && !by_hand)
@@ -86,8 +86,8 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
         shown.prompt = prompt(session.tutorial, capabilities, words);
     if (shown.prompt.empty() && seeks_goals(session))
         shown.prompt = goal_line(session.goals, scene.goals, words);
-    if (flight.slowness > 0) {
-        const double board_s = time_rates[flight.slowness];
+    if (flight.time_scale > 0) {
+        const double board_s = time_rates[flight.time_scale];
         shown.prompt = words("hud.slow_motion",
             {{"board", shown_duration(board_s, words, 2)}, {"world", shown_duration(board_s * shown.gamma, words, 2)}});
     }

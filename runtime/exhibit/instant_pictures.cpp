@@ -46,13 +46,13 @@ void InstantPictures::place(const Instant& now, FrameRenderer& frame)
 {
     const ViewSet& views = frame.views();
     const double degree_px = views.hud_width() * std::tan(degree) / (2 * views.hud_place.half.x);
-    placards_.clear();
+    callouts_.clear();
     if (now.sign) {
         if (now.sign->lines != sign_lines_ || sign_panel_.size.x == 0) {
             sign_lines_ = now.sign->lines;
             sign_panel_ = draw_sign(typesetter, sign_lines_, degree_px);
         }
-        placards_.push_back(
+        callouts_.push_back(
             {.letters = &sign_panel_, .place = views.place_above(now.sign->towards, half_of(sign_panel_, degree_px))});
     }
     if (!now.small_picture)
@@ -61,7 +61,7 @@ void InstantPictures::place(const Instant& now, FrameRenderer& frame)
         frame.drop_inset();
     else if (!no_room_)
         add_small_picture(*now.small_picture, now.shot, frame, degree_px);
-    frame.place(placards_);
+    frame.place(callouts_);
 }
 
 void InstantPictures::add_small_picture(
@@ -83,8 +83,8 @@ void InstantPictures::add_small_picture(
         name_panel_ = draw_name(typesetter, name_, degree_px);
     }
     const glm::dvec2 name_half = half_of(name_panel_, degree_px);
-    placards_.push_back({.picture = &frame.inset_picture(), .place = views.place_beside_hud(half, 0)});
-    placards_.push_back({.letters = &name_panel_, .place = views.place_beside_hud(name_half, 2 * half.y)});
+    callouts_.push_back({.picture = &frame.inset_picture(), .place = views.place_beside_hud(half, 0)});
+    callouts_.push_back({.letters = &name_panel_, .place = views.place_beside_hud(name_half, 2 * half.y)});
 }
 
 } // namespace starbow

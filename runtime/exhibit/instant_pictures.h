@@ -27,7 +27,7 @@ private:
     std::vector<std::string> sign_lines_;
     std::string name_;
     bool no_room_ = false; ///< for the small picture
-    std::vector<Placard> placards_;
+    std::vector<Callout> callouts_;
 };
 
 } // namespace starbow

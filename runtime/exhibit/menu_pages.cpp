@@ -61,7 +61,7 @@ MenuPage switches_of(const Session& session)
     page.items.insert(page.items.begin(), effects.begin(), effects.end());
     if (session.options.log.empty())
         page.items.push_back(
-            switch_of(words, "menu.slow_motion", {.kind = CommandKind::slow_motion}, session.flight().slowness > 0));
+            switch_of(words, "menu.slow_motion", {.kind = CommandKind::slow_motion}, session.flight().time_scale > 0));
     return page;
 }
 

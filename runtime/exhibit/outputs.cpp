@@ -136,13 +136,13 @@ void watch_x_server()
 
 } // namespace
 
-LastWork::LastWork(std::function<void()> work)
+ExitWork::ExitWork(std::function<void()> work)
     : work_(std::move(work))
 {
     last_works().push_back(&work_);
 }
 
-LastWork::~LastWork() { last_works().pop_back(); }
+ExitWork::~ExitWork() { last_works().pop_back(); }
 
 WindowSystem::WindowSystem()
 {

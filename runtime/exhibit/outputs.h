@@ -15,16 +15,16 @@ struct WindowSystem {
     ~WindowSystem();
     WindowSystem(const WindowSystem&) = delete;
 };
-/// Exit status of a program whose X server has ended. It logs that, does its LastWork, and ends at once, without
+/// Exit status of a program whose X server has ended. It logs that, does its ExitWork, and ends at once, without
 /// destructors.
 constexpr int exit_no_display = 5;
 /// Work of a program that ends so, for as long as the object lives: the innermost first. Make it only on the thread that
 /// draws.
-class LastWork {
+class ExitWork {
 public:
-    explicit LastWork(std::function<void()> work);
-    ~LastWork();
-    LastWork(const LastWork&) = delete;
+    explicit ExitWork(std::function<void()> work);
+    ~ExitWork();
+    ExitWork(const ExitWork&) = delete;
 
 private:
     std::function<void()> work_;

@@ -52,7 +52,7 @@ PresenterState state_of(const Session& session)
     state.visitors = visitors_of(session);
     state.world = title_of(words, "scene", state.scene), state.coming = session.coming;
     state.own_effects = session.source->by_hand();
-    if (const Guide* tour = session.tour(); tour && !tour->over()) {
+    if (const TourPlayer* tour = session.tour(); tour && !tour->over()) {
         state.tour_title = title_of(words, "tour", state.tour);
         state.cues = cues_of(tour->steps());
         state.step = tour->step(), state.left_s = tour->left_s();

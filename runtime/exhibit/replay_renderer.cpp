@@ -1,7 +1,7 @@
 #include "replay_renderer.h"
+#include "callouts.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
-#include "placards.h"
 #include <utility>
 
 namespace starbow {

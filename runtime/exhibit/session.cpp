@@ -78,7 +78,7 @@ void describe(const Session& session, ExhibitState& out)
     const Flight& flight = session.flight();
     out.paused = session.source->paused();
     out.fade = session.docent.fades(), out.hold = session.docent.holds();
-    out.effects = flight.effects, out.slow_motion = flight.slowness > 0;
+    out.effects = flight.effects, out.slow_motion = flight.time_scale > 0;
     const double rapidity = rapidity_of(flight.ship);
     out.speed = std::tanh(rapidity), out.gamma = std::cosh(rapidity);
     out.max_gamma = session.rules.max_gamma;
@@ -187,7 +187,7 @@ std::unique_ptr<FlightSource> source_of(const Programme& programme, const Flying
         return std::make_unique<ShownRecord>(programme.record);
     const double unit_s = open_scene(programme.scene).seconds_per_time_unit();
     if (programme.tour)
-        return std::make_unique<Guide>(*programme.tour, rules, unit_s, visitors);
+        return std::make_unique<TourPlayer>(*programme.tour, rules, unit_s, visitors);
     return std::make_unique<HandFlight>(programme.start, rules, unit_s);
 }
 

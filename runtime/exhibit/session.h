@@ -19,8 +19,8 @@
 #include "runtime/operation/speaker.h"
 #include "runtime/visit/attendance.h"
 #include "runtime/visit/docent.h"
-#include "runtime/visit/guide.h"
 #include "runtime/visit/shown_light.h"
+#include "runtime/visit/tour_player.h"
 #include <chrono>
 #include <memory>
 
@@ -80,7 +80,7 @@ struct Session {
     bool complaints = false; ///< the validation layers had messages on a lost device
 
     const Flight& flight() const { return source->flight(); } ///< the shown one
-    const Guide* tour() const { return source->tour(); } ///< the shown one; null: none
+    const TourPlayer* tour() const { return source->tour(); } ///< the shown one; null: none
 };
 
 /// Limit of one step of loading, s. A world takes less than a second on a GPU, and half a minute on a busy processor.

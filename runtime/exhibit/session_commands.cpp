@@ -19,7 +19,7 @@ void choose(Session& session, const Command& command)
 {
     if (command.kind == CommandKind::language) {
         Words words = words_in(command.text);
-        if (Guide* tour = session.source->tour())
+        if (TourPlayer* tour = session.source->tour())
             tour->reword(*(session.programme.tour = tour_in(session.programme.tour_name, words)));
         session.words = std::move(words);
         keep_language(session.options.state, command.text);
@@ -37,11 +37,11 @@ void step_tour(const Session& session, Requests& requests, Switch by)
 }
 
 /// The shown tour in its own motion; null where hands fly.
-Guide* moving_tour(Session& session) { return session.source->by_hand() ? nullptr : session.source->tour(); }
+TourPlayer* moving_tour(Session& session) { return session.source->by_hand() ? nullptr : session.source->tour(); }
 
 } // namespace
 
-void carry_out(Session& session, const Command& command, Requests& requests)
+void apply_command(Session& session, const Command& command, Requests& requests)
 {
     switch (command.kind) {
     case CommandKind::fade:
@@ -49,10 +49,10 @@ void carry_out(Session& session, const Command& command, Requests& requests)
     case CommandKind::caption:
     case CommandKind::hold:
     case CommandKind::restart:
-        session.docent.carry_out(command);
+        session.docent.apply_command(command);
         break;
     case CommandKind::speed_limit:
-        session.docent.carry_out(command);
+        session.docent.apply_command(command);
         session.rules.max_gamma = command.number;
         session.source->limit(command.number);
         break;
@@ -65,13 +65,13 @@ void carry_out(Session& session, const Command& command, Requests& requests)
         choose(session, command);
         break;
     case CommandKind::stop:
-        if (Guide* tour = moving_tour(session))
+        if (TourPlayer* tour = moving_tour(session))
             tour->pause(true);
         else
             requests.set(Switch::stop);
         break;
     case CommandKind::pause:
-        if (Guide* tour = moving_tour(session))
+        if (TourPlayer* tour = moving_tour(session))
             tour->pause(command.on);
         else
             requests.set(Switch::freeze, session.flight().frozen != command.on);
@@ -87,7 +87,7 @@ void carry_out(Session& session, const Command& command, Requests& requests)
         apply(switched_flight(session).effects, command);
         break;
     case CommandKind::slow_motion:
-        switched_flight(session).slowness = command.on && session.options.log.empty() ? 1 : 0;
+        switched_flight(session).time_scale = command.on && session.options.log.empty() ? 1 : 0;
         break;
     case CommandKind::pattern:
         session.alignment.show(pattern_named(command.text));
@@ -154,7 +154,7 @@ void forget_visitor(Session& session)
     session.menu = {};
     forget_hands(session);
     forget_language(session.options.state);
-    session.light.forget_range();
+    session.light.forget_visitor();
 }
 
 void forget_directions(Session& session)

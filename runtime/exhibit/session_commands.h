@@ -7,7 +7,7 @@ namespace starbow {
 /// Call it for each command of the frame, recorded or not, before the step. Throws InputError with the reason where the
 /// command makes no sense now; then nothing has changed. scene, shot, tour, reset, layout and quality, which need the
 /// device, belong to FrameLoop.
-void carry_out(Session& session, const Command& command, Requests& requests);
+void apply_command(Session& session, const Command& command, Requests& requests);
 
 /// The programme that a command leads to: scene, shot, tour, or reset to the exhibit's own. Throws InputError.
 Programme programme_after(const Session& session, const Command& command);

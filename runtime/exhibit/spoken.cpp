@@ -4,14 +4,14 @@ namespace starbow {
 namespace {
 
 /// The moment in a tour. It changes when a text shall begin.
-std::string moment_of(const Session& session, const Guide& tour)
+std::string moment_of(const Session& session, const TourPlayer& tour)
 {
     return session.programme.tour_name + "/" + std::to_string(tour.step()) + (tour.answered() ? "a" : "") + "/"
         + session.words.language;
 }
 
 /// A tour's text: sentence after sentence.
-std::string text_of_tour(const Session& session, const Guide& tour)
+std::string text_of_tour(const Session& session, const TourPlayer& tour)
 {
     std::string all;
     const auto add = [&](const std::string& text) {
@@ -37,7 +37,7 @@ void speak(Session& session, const SceneFile& scene)
 {
     if (!session.speaker)
         return;
-    const Guide* tour = session.source->over() ? nullptr : session.tour();
+    const TourPlayer* tour = session.source->over() ? nullptr : session.tour();
     std::string moment = tour  ? moment_of(session, *tour)
         : seeks_goals(session) ? goal_text(session.goals, scene.goals, session.words)
                                : "";

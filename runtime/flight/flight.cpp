@@ -16,7 +16,7 @@ constexpr double half_pi = 1.57079632679489662;
 /// The visitor's seconds in a time unit on board.
 double shown_unit_s(const Flight& flight, double seconds_per_time_unit)
 {
-    return seconds_per_time_unit / time_rates[flight.slowness];
+    return seconds_per_time_unit / time_rates[flight.time_scale];
 }
 
 SpeedLimits limits_of(const Flight& flight, const Flying& rules, double seconds_per_time_unit)
@@ -62,7 +62,7 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, double
     flight.look_rad.y = std::clamp(flight.look_rad.y, -half_pi, half_pi);
     flight.frozen ^= controls[Switch::freeze];
     if (controls[Switch::slow_motion])
-        flight.slowness = (flight.slowness + 1) % time_rates.size();
+        flight.time_scale = (flight.time_scale + 1) % time_rates.size();
     if (controls[Switch::next_mode])
         flight.mode = FlightMode((int(flight.mode) + 1) % 3);
     if (controls[Switch::stop]) {

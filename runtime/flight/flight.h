@@ -26,7 +26,7 @@ struct Flight {
     bool lever_waits = false; ///< after a start in flight: the throttle has no effect until it is moved
     std::optional<double> lever_rest; ///< its place meanwhile, once a throttle has reported
     bool frozen = false; ///< the world stands still, and the stick turns the head
-    std::size_t slowness = 0; ///< slow motion: index into time_rates
+    std::size_t time_scale = 0; ///< slow motion: index into time_rates
     bool thrust_inhibited = false; ///< after a stop the engine gives no thrust until the throttle has been at 0
     double throttle_rate = 0; ///< rapidity per second now, along the way; guided and free
     glm::dvec3 thrust{0}; ///< rapidity per second, cockpit axes; newtonian

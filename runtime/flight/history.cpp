@@ -28,7 +28,7 @@ Flight History::back(const Flight& now)
     then.effects = now.effects;
     then.exposure_ev = now.exposure_ev;
     then.hud = now.hud;
-    then.frozen = now.frozen, then.slowness = now.slowness;
+    then.frozen = now.frozen, then.time_scale = now.time_scale;
     then.ticks = now.ticks, then.left_ns = now.left_ns;
     then.vignette = now.vignette;
     then.homing.reset();

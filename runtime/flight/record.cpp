@@ -34,7 +34,7 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, Switches{}, A
     [[maybe_unused]] const auto& [no_roll, level_horizon, turn_steps_deg, vignette] = f.comfort;
     [[maybe_unused]] const auto& [elevation_deg, clear_deg, soft_deg, darkness] = *vignette;
     [[maybe_unused]] const auto& [exposure_mode, automatic, min_ev, max_ev, bloom, calm] = e;
-    [[maybe_unused]] const auto& [ship, flight_mode, flight_lever, coasting, lever_waits, lever_rest, frozen, slowness,
+    [[maybe_unused]] const auto& [ship, flight_mode, flight_lever, coasting, lever_waits, lever_rest, frozen, time_scale,
         homeward, thrust_inhibited, rate, thrust, turn_rad_s, turn_lead_rad_s, step_wait, vignette_part, homing,
         flight_look_rad, effects, exposure_ev, flight_hud, ticks, left_ns, leaps]
         = s;
@@ -73,7 +73,7 @@ void take_turn(const Place& place, const std::string& name, glm::dquat& turn)
         return;
     const glm::dvec4 v = vec4(*p, {-1.001, 1.001});
     if (std::abs(glm::length(v) - 1) > 0.001)
-        complain(*p, "is not a turn; a list of four numbers whose squares add up to 1 is right");
+        fail_at(*p, "is not a turn; a list of four numbers whose squares add up to 1 is right");
     turn = glm::dquat(v[0], v[1], v[2], v[3]);
 }
 
@@ -81,7 +81,7 @@ std::int64_t whole(const Place& place, double most)
 {
     const double value = number(place, {0, most});
     if (value != std::floor(value))
-        complain(place, "is not a whole number; one from 0 to " + shown(most) + " is right");
+        fail_at(place, "is not a whole number; one from 0 to " + shown(most) + " is right");
     return std::int64_t(value);
 }
 
@@ -89,7 +89,7 @@ std::uint64_t read_digest(const Place& place)
 {
     const std::string digits = text(place);
     if (digits.size() != 16 || digits.find_first_not_of("0123456789abcdef") != digits.npos)
-        complain(place, "is not a digest; a text of 16 hexadecimal digits is right");
+        fail_at(place, "is not a digest; a text of 16 hexadecimal digits is right");
     return std::stoull(digits, nullptr, 16);
 }
 
@@ -175,13 +175,13 @@ Command read_command(const Place& place)
     std::vector<std::string> words;
     for (const Place& word : items(place, 1, 2, "words")) {
         if (!word.json->is_string())
-            complain(word, "is not a text; a list of texts such as [\"doppler\", \"off\"] is right");
+            fail_at(word, "is not a text; a list of texts such as [\"doppler\", \"off\"] is right");
         words.push_back(word.json->get<std::string>());
     }
     try {
         return command_of(words);
     } catch (const InputError& error) {
-        complain(place, std::string("is not a command (") + error.what() + ")");
+        fail_at(place, std::string("is not a command (") + error.what() + ")");
     }
 }
 
@@ -375,10 +375,10 @@ RecordHeader parse_record_header(const std::string& file, std::string line)
     const Document document = parse_document(file, std::move(line));
     const Place top = root(document);
     if (!top.json->is_object() || !find_member(top, "starbow_record"))
-        complain(top, "is not how a record begins; a file that starbow run --record has written is right");
+        fail_at(top, "is not how a record begins; a file that starbow run --record has written is right");
     const Place version = member(top, "starbow_record");
     if (number(version, {0, 1e9}) != record_version)
-        complain(version, "is a version of records that is not known here; " + std::to_string(record_version) + " is right");
+        fail_at(version, "is a version of records that is not known here; " + std::to_string(record_version) + " is right");
     reject_unknown_members(top,
         {"starbow_record", "scene", "scene_digest", "layout", "layout_digest", "pattern", "seconds_per_time_unit", "start",
             "flying", "exposure", "calm"});
@@ -420,7 +420,7 @@ std::uint64_t digest(const Flight& flight)
     all.add(std::int64_t(flight.mode));
     all.add(flight.coasting), all.add(flight.lever_waits), all.add(flight.lever_rest.has_value());
     all.add(flight.lever_rest.value_or(0)), all.add(flight.frozen);
-    all.add(std::int64_t(flight.slowness)), all.add(flight.homeward);
+    all.add(std::int64_t(flight.time_scale)), all.add(flight.homeward);
     all.add(flight.lever), all.add(flight.thrust_inhibited), all.add(flight.throttle_rate), all.add(flight.thrust);
     all.add(flight.turn_rad_s), all.add(flight.turn_lead_rad_s), all.add(flight.step_wait), all.add(flight.vignette);
     all.add(flight.homing.has_value());

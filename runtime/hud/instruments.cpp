@@ -58,11 +58,11 @@ bool shows_now(const MeasuringObserver& observer) { return observer.comparison =
 
 /// The observer in a rest frame's coordinates, and the rotation from the axes carried by the world's boost to the axes
 /// carried by that frame's boost.
-struct There {
+struct ObserverInFrame {
     MeasuringObserver observer;
     glm::dquat turn{1, 0, 0, 0};
 };
-There in_frame_of(const MeasuringObserver& observer, const World& world, int frame)
+ObserverInFrame in_frame_of(const MeasuringObserver& observer, const World& world, int frame)
 {
     const RestFrame& rest = world.frames[std::size_t(frame)];
     if (rest == RestFrame{})
@@ -78,13 +78,13 @@ There in_frame_of(const MeasuringObserver& observer, const World& world, int fra
 
 /// The observer by whose aberration the picture shows a rest frame. Without aberration moving things are shown as from rest
 /// in the world.
-There looking_from(const MeasuringObserver& observer, const World& world, int frame)
+ObserverInFrame looking_from(const MeasuringObserver& observer, const World& world, int frame)
 {
     if (observer.aberration || frame == 0)
         return in_frame_of(observer, world, frame);
     MeasuringObserver still = observer;
     still.u = glm::dvec3(0);
-    There there = in_frame_of(still, world, frame);
+    ObserverInFrame there = in_frame_of(still, world, frame);
     there.observer.aberration = true;
     return there;
 }
@@ -180,7 +180,7 @@ Spot spot_at(const MeasuringObserver& observer, const Probed& probed, const Worl
     if (!std::isfinite(probed.distance)) // the sky is infinitely far: nothing of it is contracted
         return {.at = shows_now(observer) ? probed.ray.ship : probed.ray.world, .sky = true};
     Spot spot{.frame = probed.frame};
-    const There there = looking_from(observer, world, probed.frame);
+    const ObserverInFrame there = looking_from(observer, world, probed.frame);
     const glm::dvec3 ship = there.turn * probed.ray.ship;
     if (shows_now(observer)) {
         spot.at = there.observer.place + physics::eye_place(there.observer.u, probed.distance * ship);
@@ -212,7 +212,7 @@ Ray ray_to(const MeasuringObserver& observer, const Spot& spot, const World& wor
     if (spot.sky && shows_now(observer))
         return {spot.at, spot.at, 1};
     const int frame = spot.sky ? 0 : spot.frame;
-    const There there = looking_from(observer, world, frame);
+    const ObserverInFrame there = looking_from(observer, world, frame);
     const glm::dvec3 to = spot.sky ? spot.at : spot.at - there.observer.place;
     Ray ray = ray_from_world(there.observer, glm::length(to) > 0 ? glm::normalize(to) : glm::dvec3(0, 0, -1));
     if (frame > 0) {
@@ -231,7 +231,7 @@ SpotReading read_spot(const MeasuringObserver& observer, const Spot& spot, const
         reading.from_motion_rad = angle_between(reading.ray.ship, observer.u);
         reading.from_motion_world_rad = angle_between(reading.ray.world, observer.u);
     }
-    const There relative = in_frame_of(observer, world, spot.sky ? 0 : spot.frame);
+    const ObserverInFrame relative = in_frame_of(observer, world, spot.sky ? 0 : spot.frame);
     reading.relative_u = glm::length(relative.observer.u);
     if (reading.relative_u > 0)
         reading.from_relative_motion_rad = angle_between(relative.turn * reading.ray.ship, relative.observer.u);

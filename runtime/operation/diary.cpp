@@ -46,7 +46,7 @@ std::string sum_of(const std::string& date, const nlohmann::json& hours)
     Hash hash;
     hash.add(date);
     hash.add(hours.dump());
-    return kept_name(hash.value, "");
+    return cache_key(hash.value, "");
 }
 
 std::string text_of(const Day& day)
@@ -85,13 +85,13 @@ Day load_day(const std::filesystem::path& state, const std::string& date)
     const Document document = read_document(file);
     const Place top = root(document);
     if (!top.json->is_object() || !find_member(top, "starbow_day"))
-        complain(top, "is not a day's counts; a file that starbow run has written is right");
+        fail_at(top, "is not a day's counts; a file that starbow run has written is right");
     const Place hours = member(top, "hours");
     if (!hours.json->is_object())
-        complain(hours, "is not a list of hours; an object with members such as \"09\" is right");
+        fail_at(hours, "is not a list of hours; an object with members such as \"09\" is right");
     // Days of older versions have no checksum.
     if (const auto sum = find_member(top, "sum"); sum && *sum->json != sum_of(date, *hours.json))
-        complain(*sum,
+        fail_at(*sum,
             "is not the checksum of these counts, so the file is damaged; a file as starbow run has written it is right");
     for (int hour = 0; hour < 24; ++hour)
         if (const auto at = hours.json->find(std::string(hour < 10 ? "0" : "") + std::to_string(hour));

@@ -78,18 +78,18 @@ template <class Each> void each_tile(const glm::dvec3& centre, double radius, in
 }
 
 /// The extent of a rest frame's surfaces: in each tile, and altogether.
-struct Held {
+struct FrameExtent {
     std::array<Rect, TILE_COUNT> rects;
     glm::dvec3 axis{0, 0, 1};
     double radius = pi; ///< radius of the circle around `axis` that encloses them; below 0 without surfaces
 
     /// The whole sphere.
-    Held()
+    FrameExtent()
     {
         for (int tile = 0; tile < TILE_COUNT; ++tile)
             rects[std::size_t(tile)] = tile_rect(tile);
     }
-    Held(const std::vector<BoundingSphere>& bounds, int finest_clip_level)
+    FrameExtent(const std::vector<BoundingSphere>& bounds, int finest_clip_level)
     {
         const BoundingCap cap = bounding_cap(bounds);
         axis = cap.axis, radius = cap.radius_rad;
@@ -107,7 +107,7 @@ struct Held {
     }
 };
 
-void add_disc(Demands& demands, const Held& held, const Disc& disc, double E, int finest_clip_level)
+void add_disc(Demands& demands, const FrameExtent& held, const Disc& disc, double E, int finest_clip_level)
 {
     if (!held.touches(disc.centre, disc.radius))
         return;
@@ -154,7 +154,7 @@ struct Walk {
     bool galilean;
     bool aligned; ///< the cube map has the motion axes, so that D is known in each sub-tile
     int finest_clip_level;
-    const Held& held;
+    const FrameExtent& held;
     Demands& demands;
     double spread; ///< greatest distance of a pixel's rays from its centre, pixels
     int coarsest_level; ///< the coarsest level that follows the view's outline
@@ -299,7 +299,7 @@ struct Walk {
 double add_demands(Demands& demands, const RestFrameRequest& request, int finest_clip_level, int pixel_rays)
 {
     double dark_pixels = 0;
-    const Held held = request.bounds ? Held(*request.bounds, finest_clip_level) : Held();
+    const FrameExtent held = request.bounds ? FrameExtent(*request.bounds, finest_clip_level) : FrameExtent();
     if (held.radius < 0)
         return dark_pixels;
     for (const ViewRequest& view : request.views) {

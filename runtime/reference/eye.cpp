@@ -95,11 +95,11 @@ TracingEye::Nearest TracingEye::nearest(
     return found;
 }
 
-TracingEye::Along TracingEye::along(
+TracingEye::BlendedPath TracingEye::along(
     const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world, bool lights) const
 {
     const Effects& effects = observer_.shot.effects;
-    Along out;
+    BlendedPath out;
     double after = 0;
     while (out.left > 1e-6) {
         const Nearest found = nearest(way, beside, world, after);
@@ -169,7 +169,7 @@ LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside, std::
     out.world = glm::transpose(rest_frame.motion_from_frame) * world.n;
     out.D = world.D;
     out.distance = INFINITY;
-    const Along ray = along(way, beside, world, true);
+    const BlendedPath ray = along(way, beside, world, true);
     const Nearest& found = ray.solid;
     if (found.view) {
         out.D = found.D;
@@ -210,7 +210,7 @@ LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside, std::
 double TracingEye::sky_part(const glm::dvec3& way, const glm::dvec3& beside, std::span<const double> parts) const
 {
     const physics::AberratedRay world = world_ray(way);
-    const Along ray = along(way, beside, world, false);
+    const BlendedPath ray = along(way, beside, world, false);
     if (ray.solid.view)
         return 0;
     return ray.left * (globes_ ? among_globes(world, beside, parts, -1).through : 1);
@@ -220,7 +220,7 @@ glm::dvec3 TracingEye::globe_light(std::size_t body, const glm::dvec3& way, cons
 {
     const Effects& effects = observer_.shot.effects;
     const physics::AberratedRay world = world_ray(way);
-    const Along along_ray = along(way, beside, world, false);
+    const BlendedPath along_ray = along(way, beside, world, false);
     if (along_ray.solid.view)
         return glm::dvec3(0);
     const GlobeSight::Ray ray = among_globes(world, beside, {}, int(body));

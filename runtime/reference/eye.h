@@ -57,7 +57,7 @@ private:
     /// The nearest hit over all frames, by the light's travel distance in the ship.
     struct Nearest {
         const EyeInRestFrame* view = nullptr;
-        Met met;
+        SightHit met;
         double D = 1, way = INFINITY; ///< way: in the ship
     };
     physics::AberratedRay sight(const glm::dvec3& n, double E) const;
@@ -66,12 +66,13 @@ private:
         const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world, double after = 0) const;
 
     /// A ray up to the first surface that is not blended.
-    struct Along {
+    struct BlendedPath {
         Nearest solid;
         glm::dvec3 light{0}; ///< of the blended ones before it, with the headlight effect
         double left = 1; ///< the part that shows through them
     };
-    Along along(const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world, bool lights) const;
+    BlendedPath along(
+        const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world, bool lights) const;
 
     glm::dvec3 sky(const glm::dvec3& n) const;
 

@@ -7,7 +7,7 @@
 namespace starbow {
 namespace {
 
-glm::dvec4 map_at(const World& world, const Pictures& pictures, const Met& met, const Map& map)
+glm::dvec4 map_at(const World& world, const Pictures& pictures, const SightHit& met, const Map& map)
 {
     glm::dvec2 uv(0);
     for (int k = 0; k < 3; ++k) {
@@ -29,7 +29,7 @@ double schlick(double cosine) { return std::pow(1 - std::clamp(cosine, 0.0, 1.0)
 } // namespace
 
 GlossyHit::GlossyHit(
-    const World& world, const Pictures& pictures, const Met& met, const SurfaceAxes& axes, const glm::dvec3& facet)
+    const World& world, const Pictures& pictures, const SightHit& met, const SurfaceAxes& axes, const glm::dvec3& facet)
     : normal_(facet)
     , eye_(-met.way)
 {

@@ -18,7 +18,7 @@ class GlossyHit {
 public:
     /// The material has gloss. facet: unit normal of the side that is seen, without the map.
     GlossyHit(
-        const World& world, const Pictures& pictures, const Met& met, const SurfaceAxes& axes, const glm::dvec3& facet);
+        const World& world, const Pictures& pictures, const SightHit& met, const SurfaceAxes& axes, const glm::dvec3& facet);
 
     const glm::dvec3& normal() const { return normal_; } ///< unit, with the map
 

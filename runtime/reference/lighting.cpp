@@ -27,7 +27,7 @@ double middle_sent(const World& world, const Instance& instance, const EyeEvent&
         eye_event, eye_event.cube_from_frame * (glm::dvec3(instance.frame_from_local * middle) - eye_event.place));
 }
 
-SurfaceAxes axes_at(const World& world, const Met& met)
+SurfaceAxes axes_at(const World& world, const SightHit& met)
 {
     const Instance& instance = world.instances[met.instance];
     SurfaceAxes axes;
@@ -86,12 +86,12 @@ Lighting::Lighting(const World& world, const SceneFile& scene, const Pictures& p
     }
 }
 
-Lighting::Shine Lighting::shine(std::size_t index, const glm::dvec3& place, double time) const
+Lighting::LightSample Lighting::shine(std::size_t index, const glm::dvec3& place, double time) const
 {
     const Lamp& lamp = world_.lamps[index];
     const RestFrame &here = world_.frames[std::size_t(eye_event_.frame)], &there = world_.frames[std::size_t(lamp.frame)];
     const bool moves = lamp.frame != eye_event_.frame;
-    Shine shine;
+    LightSample shine;
     if (const auto* far = std::get_if<DirectionalLight>(sources_[index].light)) {
         shine.towards = moves ? aberrated(here.u, far->towards, shine.D) : far->towards;
         shine.strength = shine.D; // a point's flux per frequency
@@ -132,7 +132,7 @@ Lighting::Shine Lighting::shine(std::size_t index, const glm::dvec3& place, doub
     return shine;
 }
 
-glm::dvec3 Lighting::facet(const Met& met, const glm::dmat4& frame_from_local) const
+glm::dvec3 Lighting::facet(const SightHit& met, const glm::dmat4& frame_from_local) const
 {
     glm::dvec3 at[3];
     for (int k = 0; k < 3; ++k)
@@ -177,7 +177,7 @@ glm::dvec3 Lighting::around(const glm::dvec3& way) const
     return scene_.sky.has_colour() && eye_event_.frame == 0 ? sky_gradient(scene_.sky, way.y) : scene_.ambient;
 }
 
-glm::dvec3 Lighting::seen(const Met& met, double D) const
+glm::dvec3 Lighting::seen(const SightHit& met, double D) const
 {
     const Instance& instance = world_.instances[met.instance];
     const int index = world_.primitives[instance.primitive].material;
@@ -224,7 +224,7 @@ glm::dvec3 Lighting::seen(const Met& met, double D) const
     } else
         all += colours_.lit(index, Colours::sunlight, base, daylight * scene_.ambient, D);
     for (std::size_t i = 0; i < sources_.size(); ++i) {
-        const Shine light = shine(i, place, met.sent);
+        const LightSample light = shine(i, place, met.sent);
         const double facing = glm::dot(normal, light.towards);
         if (light.strength == 0 || !(facing > 0) || (shaded && hidden(i, place, side, light.towards)))
             continue;

@@ -17,23 +17,23 @@ public:
         const EyeEvent& eye_event, const Occluders* occluders);
 
     /// The colour, seen at D, of a surface where a ray met it, without the headlight effect.
-    glm::dvec3 seen(const Met& met, double D) const;
+    glm::dvec3 seen(const SightHit& met, double D) const;
 
     /// A lamp's light on a surface: its shift, its direction and its strength.
-    struct Shine {
+    struct LightSample {
         double D = 1;
         glm::dvec3 towards{0}; ///< unit
         double strength = 0; ///< of the lamp's radiance on a surface that faces it; 0: no light
     };
     /// place: in the frame; time: the frame's.
-    Shine shine(std::size_t lamp, const glm::dvec3& place, double time) const;
+    LightSample shine(std::size_t lamp, const glm::dvec3& place, double time) const;
 
 private:
     /// The light that glossy surfaces reflect from a direction, as a sunlit colour.
     glm::dvec3 around(const glm::dvec3& way) const;
 
     /// The facet's normal at a hit on the seen side, unit.
-    glm::dvec3 facet(const Met& met, const glm::dmat4& frame_from_local) const;
+    glm::dvec3 facet(const SightHit& met, const glm::dmat4& frame_from_local) const;
     /// The part of the ambient light that reaches a place: of the sky, and from the surfaces that hide it; by 64 rays.
     double ambient_part(const glm::dvec3& place, const glm::dvec3& facet, const glm::dvec3& normal) const;
     /// True if something still hides a lamp from a place.

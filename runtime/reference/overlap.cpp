@@ -5,17 +5,17 @@
 
 namespace starbow {
 
-Coated laid_over(const std::vector<Coat>& coats, bool plain)
+BlendResult laid_over(const std::vector<BlendLayer>& coats, bool plain)
 {
     std::set<int> orders;
-    for (const Coat& coat : coats)
+    for (const BlendLayer& coat : coats)
         orders.insert(coat.order);
-    Coated out;
+    BlendResult out;
     std::vector<double> parts(coats.size(), 0);
     for (int order : orders) {
         glm::dvec3 hidden(0), added(0);
         double part_hidden = 0;
-        for (const Coat& coat : coats)
+        for (const BlendLayer& coat : coats)
             if (coat.order == order) {
                 hidden += coat.mask;
                 added += coat.mask * coat.brightness * coat.screen;

@@ -5,14 +5,14 @@
 namespace starbow {
 
 /// One viewport's contribution to a pixel.
-struct Coat {
+struct BlendLayer {
     glm::dvec3 screen{0}; ///< its light after the tone curve
     glm::dvec3 mask{0}; ///< its share of what the higher orders leave to it, by colour; 0 where it shows nothing
     double brightness = 1; ///< of its calibration and its ramp
     int order = 0;
 };
 
-struct Coated {
+struct BlendResult {
     glm::dvec3 screen{0};
     std::size_t foremost = 0; ///< index of the coat with the largest part; of equal ones the upper
 };
@@ -20,6 +20,6 @@ struct Coated {
 /// Lays the viewports of a pixel over each other, from the lowest order up: each order hides what lies below it by the sum
 /// of its masks, at most wholly, and adds its own light (docs/displays.md). `coats` are in the layout's order, at least
 /// one. plain: without brightness, and the parts made to add up to 1, as a preview shows it.
-Coated laid_over(const std::vector<Coat>& coats, bool plain);
+BlendResult laid_over(const std::vector<BlendLayer>& coats, bool plain);
 
 } // namespace starbow

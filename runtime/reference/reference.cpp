@@ -1,6 +1,6 @@
 #include "reference.h"
 #include "config/json/hash.h"
-#include "config/json/kept_rows.h"
+#include "config/json/row_cache.h"
 #include "config/json/whole_file.h"
 #include "config/model/angles.h"
 #include "displays/finish/anaglyph.h"
@@ -147,12 +147,12 @@ private:
     /// The same for one canvas on which viewports overlap.
     void layered_row(int y, int canvas, glm::dvec3* light, glm::dvec3* screens, Reference::Numbers* numbers) const
     {
-        struct Here {
+        struct ViewRow {
             const ViewAt* view;
             ViewRays::Row ways;
             int y;
         };
-        std::vector<Here> here;
+        std::vector<ViewRow> here;
         int width = 0;
         for (const ViewAt& view : views_) {
             const View& own = view.compiled->view;
@@ -163,18 +163,18 @@ private:
             width = std::max(width, own.corner.x + own.size.x);
         }
         for (int x = 0; x < width; ++x) {
-            std::vector<Coat> coats;
+            std::vector<BlendLayer> coats;
             struct Light {
-                const Here* of;
+                const ViewRow* of;
                 glm::dvec3 light, glare;
             };
             std::vector<Light> lights;
-            for (const Here& each : here) {
+            for (const ViewRow& each : here) {
                 const View& own = each.view->compiled->view;
                 const glm::ivec2 at(x - own.corner.x, each.y);
                 if (at.x < 0 || at.x >= own.size.x)
                     continue;
-                const Coat coat = coat_of(*each.view, each.ways, at);
+                const BlendLayer coat = coat_of(*each.view, each.ways, at);
                 if (coat.order == nothing_shown)
                     continue;
                 const Pixel shown = pixel(*each.view, each.ways, at);
@@ -185,7 +185,7 @@ private:
             }
             if (coats.empty())
                 continue;
-            const Coated together = laid_over(coats, plain_);
+            const BlendResult together = laid_over(coats, plain_);
             const auto& [of, foremost, glare] = lights[together.foremost];
             light[x] = foremost, screens[x] = together.screen;
             if (numbers) {
@@ -198,10 +198,10 @@ private:
     static constexpr int nothing_shown = std::numeric_limits<int>::min();
 
     /// A view's mask, brightness and order at one of its pixels; the order nothing_shown where it shows nothing.
-    Coat coat_of(const ViewAt& view, const ViewRays::Row& ways, const glm::ivec2& at) const
+    BlendLayer coat_of(const ViewAt& view, const ViewRays::Row& ways, const glm::ivec2& at) const
     {
         const View& own = view.compiled->view;
-        Coat coat;
+        BlendLayer coat;
         bool any = false;
         const glm::dvec3 mask = view.shade.mask(at.x, at.y);
         for (int c = 0; c < 3; ++c)
@@ -434,7 +434,7 @@ std::size_t row_bytes(const Reference& out)
 /// Draws the rows of a picture in several threads, and takes those that are finished from their file.
 class RowDrawing {
 public:
-    RowDrawing(const Picture_& picture, Reference& out, const ReferenceOptions& options, KeptRows* kept)
+    RowDrawing(const Picture_& picture, Reference& out, const ReferenceOptions& options, RowCache* kept)
         : picture_(picture)
         , out_(out)
         , options_(options)
@@ -517,7 +517,7 @@ private:
     const Picture_& picture_;
     Reference& out_;
     const ReferenceOptions& options_;
-    KeptRows* kept_;
+    RowCache* kept_;
     std::atomic<int> next_ = 0;
     std::mutex mutex_;
     int done_;
@@ -554,7 +554,7 @@ Reference reference(
     Reference out = dark(layout.outputs[output], shades_of(layout, views), output, options.numbers, overlapping);
     out.exposure = std::exp2(shot.exposure_ev);
     const Picture_ picture(input, layout, shot, views.own, views.own_ramps, layout.outputs[output].preview, options.samples);
-    std::optional<KeptRows> kept;
+    std::optional<RowCache> kept;
     if (!options.kept.empty())
         kept.emplace(options.kept, key_of(input, layout, shot, output, options.samples), row_bytes(out), out.size.y);
     RowDrawing(picture, out, options, kept ? &*kept : nullptr).draw_all();

@@ -90,7 +90,7 @@ struct Tracer::Scene {
         const Scene* scene;
         const SightLine* line;
         double beyond;
-        std::optional<Met> met;
+        std::optional<SightHit> met;
     };
 
     double sent(const SightLine& line, const glm::dvec3& place) const
@@ -263,7 +263,7 @@ struct Tracer::Scene {
         return {};
     }
 
-    bool there(const Met& met) const
+    bool there(const SightHit& met) const
     {
         const Instance& instance = world.instances[met.instance];
         if (instance.existence >= 0) {
@@ -286,7 +286,7 @@ struct Tracer::Scene {
         const auto at = crossing_of(triangle, line, time);
         if (!at || !at->inside || !(at->distance > query.beyond) || (query.met && query.met->distance <= at->distance))
             return;
-        const Met met{triangle.instance, {triangle.corners[0], triangle.corners[1], triangle.corners[2]}, at->weights,
+        const SightHit met{triangle.instance, {triangle.corners[0], triangle.corners[1], triangle.corners[2]}, at->weights,
             line.from + line.way * at->distance, line.way, at->distance, time, at->front};
         if (!there(met))
             return;
@@ -295,7 +295,7 @@ struct Tracer::Scene {
     }
 };
 
-glm::dvec2 uv_of(const World& world, const Met& met)
+glm::dvec2 uv_of(const World& world, const SightHit& met)
 {
     glm::dvec2 uv(0);
     for (int k = 0; k < 3; ++k)
@@ -303,7 +303,7 @@ glm::dvec2 uv_of(const World& world, const Met& met)
     return uv;
 }
 
-glm::dvec4 base_of(const World& world, const Pictures& pictures, const Met& met)
+glm::dvec4 base_of(const World& world, const Pictures& pictures, const SightHit& met)
 {
     const Material& material
         = world.materials[std::size_t(world.primitives[world.instances[met.instance].primitive].material)];
@@ -345,7 +345,7 @@ Tracer::Tracer(
 Tracer::~Tracer() = default;
 Tracer::Tracer(Tracer&&) noexcept = default;
 
-std::optional<Met> Tracer::nearest(const SightLine& line, double beyond) const
+std::optional<SightHit> Tracer::nearest(const SightLine& line, double beyond) const
 {
     if (scene_->triangles.empty())
         return {};

@@ -30,7 +30,7 @@ struct LineAxes {
 };
 
 /// The hit of a line of sight on a surface.
-struct Met {
+struct SightHit {
     std::uint32_t instance; ///< index into World::instances
     std::uint32_t corners[3]; ///< index into World::vertices; of a line both ends and one again, of a point it thrice
     glm::dvec3 weights; ///< of these corners
@@ -42,8 +42,8 @@ struct Met {
 };
 
 /// The texture coordinate and the alpha at a hit.
-glm::dvec2 uv_of(const World& world, const Met& met);
-glm::dvec4 base_of(const World& world, const Pictures& pictures, const Met& met);
+glm::dvec2 uv_of(const World& world, const SightHit& met);
+glm::dvec4 base_of(const World& world, const Pictures& pictures, const SightHit& met);
 
 /// All triangles, lines and points of one rest frame around an eye event, for intersection with lines of sight. Embree finds
 /// the candidate boxes in float, widened by float's rounding; the hit itself is computed in double. Straight behind at gamma
@@ -58,7 +58,7 @@ public:
 
     /// The nearest visible surface farther than `beyond`: not cut out by its mask, not a back face unless it has two sides,
     /// and existing at its retarded time.
-    std::optional<Met> nearest(const SightLine& line, double beyond = 0) const;
+    std::optional<SightHit> nearest(const SightLine& line, double beyond = 0) const;
 
     const EyeEvent& eye_event() const;
     std::size_t triangles() const;

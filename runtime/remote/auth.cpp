@@ -138,7 +138,7 @@ void Logins::forget_old(Time now)
         if (doubt.until <= now && !doubt.lock.holds(now))
             doubt.wrong = 0;
     std::erase_if(doubts_, [&](const auto& one) {
-        const Doubt& doubt = one.second;
+        const FailedLogins& doubt = one.second;
         return doubt.wrong == 0 && (doubt.lock.rounds == 0 || now - doubt.lock.last > memory);
     });
     std::erase_if(known_, [&](const auto& one) { return now - one.second > memory; });
@@ -175,7 +175,7 @@ Logins::Attempt Logins::attempt(const Origin& from, std::string_view pin, Time n
             role = Role(i);
     if (!role) {
         // A right PIN does not forgive wrong ones: whoever knows one must not guess another in between.
-        Doubt& wrong = doubts_[from.address];
+        FailedLogins& wrong = doubts_[from.address];
         ++wrong.wrong;
         wrong.until = now + lock;
         Attempt attempt;

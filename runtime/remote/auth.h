@@ -85,7 +85,7 @@ private:
         /// Begins, and returns how long it lasts.
         std::chrono::seconds begin(Time now);
     };
-    struct Doubt {
+    struct FailedLogins {
         int wrong = 0;
         Time until{}; ///< the wrong PINs are forgotten
         Growing lock{};
@@ -99,7 +99,7 @@ private:
         Time until;
     };
     Pins pins_;
-    std::map<std::string, Doubt> doubts_; ///< by address
+    std::map<std::string, FailedLogins> doubts_; ///< by address
     std::map<std::string, Time> known_; ///< addresses that have logged in, and when
     Growing strangers_; ///< the lock of all strangers
     std::vector<Token> tokens_; ///< the oldest first

@@ -38,7 +38,7 @@ void Server::end(Client& client)
     lws_callback_on_writable(client.wsi);
 }
 
-Server::Due Server::due(Client& client)
+Server::DueBroadcast Server::due(Client& client)
 {
     const bool engineer = client.role == Role::engineer;
     const Broadcast& status = engineer ? engineer_status_ : status_;
@@ -69,7 +69,7 @@ int Server::send_next(Client& client)
         client.answers.pop_front();
         return send(std::string_view(message).substr(LWS_PRE), LWS_WRITE_TEXT);
     }
-    if (const Due next = due(client)) {
+    if (const DueBroadcast next = due(client)) {
         *next.sent = next.broadcast->serial();
         return send(next.broadcast->message(), next.kind);
     }

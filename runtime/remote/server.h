@@ -98,13 +98,13 @@ private:
     /// Puts a command into the mailbox. Returns a refusal, or "".
     std::string put(const Command& command, Role role, const std::string& who, Client* client, int id);
     /// The most urgent broadcast that a page has not got yet, and where its serial is noted; null: none.
-    struct Due {
+    struct DueBroadcast {
         const Broadcast* broadcast = nullptr;
         std::uint64_t* sent = nullptr;
         lws_write_protocol kind = LWS_WRITE_TEXT;
         explicit operator bool() const { return broadcast; }
     };
-    Due due(Client& client);
+    DueBroadcast due(Client& client);
     int send_next(Client& client);
     void say(Client& client, const std::string& text);
     void hand_out_replies();

@@ -17,11 +17,11 @@
 namespace starbow {
 namespace {
 
-VKAPI_ATTR VkBool32 VKAPI_CALL complain(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL on_validation_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
     const VkDebugUtilsMessengerCallbackDataEXT* data, void* complaints)
 {
-    // The shader of surfaces writes all coefficients that a scene may have. Vulkan discards those without an attachment, of which
-    // newer layers warn.
+    // The shader of surfaces writes all coefficients that a scene may have. Vulkan discards those without an attachment, of
+    // which newer layers warn.
     const std::string message = data->pMessage;
     if (message.find("this write is unused") != message.npos)
         return VK_FALSE;
@@ -55,7 +55,7 @@ vk::raii::Instance make_instance(Device& device, const Device::Options& options)
         .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
         .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
         .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
-        .pfnUserCallback = complain,
+        .pfnUserCallback = on_validation_message,
         .pUserData = &device.complaints,
     });
     vk::ValidationFeatureEnableEXT synchronization = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
@@ -334,7 +334,7 @@ Device::Device(const Options& options)
     const std::vector<std::uint8_t> kept = kept_pipelines(properties);
     cache = device.createPipelineCache({{}, kept.size(), kept.data()});
     if (on_processor())
-        keeper = std::make_unique<SceneKeeper>(device);
+        keeper = std::make_unique<LavapipeFenceGuard>(device);
     name_object(*this, queue, "queue");
     name_object(*this, pool, "command pool");
     name_object(*this, cache, "pipeline cache");

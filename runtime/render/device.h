@@ -1,5 +1,5 @@
 #pragma once
-#include "scene_keeper.h"
+#include "lavapipe_fence_guard.h"
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,7 +43,7 @@ public:
     bool compresses = false; ///< large textures are compressed; false where the processor would decode them at each look-up
     bool debug_utils = false; ///< VK_EXT_debug_utils: objects have names, passes have labels
     Trace* trace = nullptr; ///< receives the processor's spans of each frame during a trace
-    std::unique_ptr<SceneKeeper> keeper; ///< null but on lavapipe
+    std::unique_ptr<LavapipeFenceGuard> keeper; ///< null but on lavapipe
     FrameTimer* timer = nullptr; ///< measures each pass on the device during a trace
 
     /// Writes the compiled pipelines into the cache folder for the next start. Failures are ignored, with a lost device
@@ -53,8 +53,8 @@ public:
     const char* name() const { return properties.deviceName.data(); }
     bool on_processor() const { return properties.deviceType == vk::PhysicalDeviceType::eCpu; }
 
-    /// These two enclose the draws of each rendering. scenes: as SceneKeeper's, where the keeper holds more than the two of
-    /// its begin and end.
+    /// These two enclose the draws of each rendering. scenes: as LavapipeFenceGuard's, where the keeper holds more than the
+    /// two of its begin and end.
     void begin_rendering(vk::CommandBuffer commands, const vk::RenderingInfo& info, std::uint32_t scenes = 2) const;
     void end_rendering(vk::CommandBuffer commands) const;
     /// Waits for a fence. what: names the wait. Where the fence does not come within LimitedWait's limit, the process ends.
@@ -75,8 +75,8 @@ private:
     void finish(vk::raii::CommandBuffer& commands);
 };
 
-/// The compiled pipelines that save_pipelines of an earlier start has kept for this device, to the byte; empty where the file
-/// is missing or damaged, because a driver may check no more than the header.
+/// The compiled pipelines that save_pipelines of an earlier start has kept for this device, to the byte; empty where the
+/// file is missing or damaged, because a driver may check no more than the header.
 std::vector<std::uint8_t> kept_pipelines(const vk::PhysicalDeviceProperties& properties);
 
 /// One GPU's line in a listing.

@@ -273,7 +273,7 @@ double EyeCubes::dark_D(const ViewState& view, double pre_exposure) const
     // The greatest number that a cube map holds.
     constexpr double most_stored = 65504;
     const double exposure = std::exp2(shot.exposure_ev);
-    return dark_below(world_.response(on).greatest, on[Effect::doppler], on[Effect::headlight],
+    return doppler_cutoff(world_.response(on).greatest, on[Effect::doppler], on[Effect::headlight],
         most_stored * exposure / pre_exposure, views_.finish_of(view) ? least_gamma : least_srgb);
 }
 

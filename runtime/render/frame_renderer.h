@@ -69,8 +69,8 @@ public:
     /// light; none: the shot's exposure.
     void range(const std::optional<RangeCurve>& curve) { state_.range = curve; }
     void meter(bool on) { state_.meters = on; }
-    /// Lays placards over all views, beside the head-up display, from the next frame on. They must last until it is drawn.
-    void place(std::span<const Placard> placards) { passes_.place(placards); }
+    /// Lays callouts over all views, beside the head-up display, from the next frame on. They must last until it is drawn.
+    void place(std::span<const Callout> callouts) { passes_.place(callouts); }
     /// Draws a small picture of another shot of the same event as well, from the next frame on; not while a test pattern is
     /// shown. width: pixels. The device must have finished the frame before. Throws NoRoom; then there is none.
     void show_inset(const Shot& shot, int width, double fov_deg = beside_fov_deg);

@@ -2,7 +2,7 @@
 #include "config/model/scene_file.h"
 #include "gpu_globes.h"
 #include "pipelines.h"
-#include "runtime/light/greatest_light.h"
+#include "runtime/light/light_bound.h"
 #include "runtime/world/spectra.h"
 #include "runtime/world/stars.h"
 #include "runtime/world/world.h"
@@ -17,7 +17,7 @@ struct ResponseBuffers {
     float first_log2_D = 0, per_octave = 1;
     Buffer own_rows;
     Buffer black_bodies; ///< made by black_body_table
-    GreatestLight greatest;
+    LightBound greatest;
 };
 
 /// The numbers that a cube map holds of a surface's light: basis coefficients, which have a colour at every D; or the colour

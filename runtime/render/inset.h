@@ -4,7 +4,7 @@
 
 namespace starbow {
 
-/// A small flat picture of another shot of the same event, to be laid over the views as a placard. It is warped from the
+/// A small flat picture of another shot of the same event, to be laid over the views as a callout. It is warped from the
 /// cube map of the frame's first view, or from a small one of its own where that costs less: see EyeCubes::observe_inset.
 struct Inset {
     static constexpr double aspect = 0.75; ///< height over width

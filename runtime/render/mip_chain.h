@@ -4,7 +4,7 @@
 namespace starbow {
 
 /// Draws the coarser levels of an image, each from the next finer one. They are drawn instead of blitted, because the
-/// fences of lavapipe's blits can't be held (SceneKeeper).
+/// fences of lavapipe's blits can't be held (LavapipeFenceGuard).
 class MipChain {
 public:
     /// The image can be drawn into and sampled, and outlives this object.

@@ -50,7 +50,7 @@ private:
 };
 
 /// Letters or a picture laid over every view.
-struct Placard {
+struct Callout {
     const Panel* letters = nullptr; ///< or null
     const Image* picture = nullptr; ///< or null
     PanelPass::Place place{};

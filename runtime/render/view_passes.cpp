@@ -51,7 +51,7 @@ void ViewPasses::prepare(const Panel* hud)
     }
     if (views_.inset && !pattern)
         find_lit(views_.inset->view);
-    prepare_placards();
+    prepare_callouts();
     hud_on_ = hud;
     if (!hud)
         return;
@@ -65,27 +65,27 @@ void ViewPasses::prepare(const Panel* hud)
 vk::DeviceSize ViewPasses::memory() const
 {
     vk::DeviceSize bytes = stars_.picture().bytes + (hud_ ? hud_->memory() : 0);
-    for (const auto& pass : placard_passes_)
+    for (const auto& pass : callout_passes_)
         bytes += pass->panel.memory();
     return bytes;
 }
 
-void ViewPasses::prepare_placards()
+void ViewPasses::prepare_callouts()
 {
-    while (placard_passes_.size() < placards_.size())
-        placard_passes_.push_back(std::make_unique<PlacardPass>(PlacardPass{{device_, pipelines_, views_.all.size()}, {}}));
-    for (std::size_t k = 0; k < placards_.size(); ++k) {
-        const Placard& placard = placards_[k];
-        auto& [panel, boxes] = *placard_passes_[k];
-        if (placard.letters)
-            panel.prepare(*placard.letters, placard.place);
+    while (callout_passes_.size() < callouts_.size())
+        callout_passes_.push_back(std::make_unique<CalloutPass>(CalloutPass{{device_, pipelines_, views_.all.size()}, {}}));
+    for (std::size_t k = 0; k < callouts_.size(); ++k) {
+        const Callout& callout = callouts_[k];
+        auto& [panel, boxes] = *callout_passes_[k];
+        if (callout.letters)
+            panel.prepare(*callout.letters, callout.place);
         else
-            panel.prepare(*placard.picture, placard.place);
+            panel.prepare(*callout.picture, callout.place);
         boxes.clear();
         for (std::size_t i = 0; i < views_.all.size(); ++i) {
             const ViewState& view = views_.all[i];
             panel.prepare_view(i, views_.map_of(view), descriptors_.nearest());
-            const PixelBox box = panel_box(*view.compiled.cones, placard.place.panel_from_cockpit, placard.place.half);
+            const PixelBox box = panel_box(*view.compiled.cones, callout.place.panel_from_cockpit, callout.place.half);
             boxes.push_back(rect_of(view.geometry().corner + box.low, box.high - box.low));
         }
     }
@@ -320,13 +320,13 @@ void ViewPasses::draw_vignette(vk::CommandBuffer commands, std::size_t output, s
 
 void ViewPasses::draw_hud(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last)
 {
-    if (!hud_on_ && placards_.empty())
+    if (!hud_on_ && callouts_.empty())
         return;
     const Label label(device_, commands, "HUD");
     if (hud_on_)
         hud_->upload(commands);
-    for (std::size_t k = 0; k < placards_.size(); ++k)
-        placard_passes_[k]->panel.upload(commands);
+    for (std::size_t k = 0; k < callouts_.size(); ++k)
+        callout_passes_[k]->panel.upload(commands);
     lay_over(commands, output, layer, last, [&](std::size_t i, vk::Format target) {
         const ViewState& view = views_.all[i];
         const auto draw = [&](PanelPass& panel, const PanelPass::Place& place, const vk::Rect2D& box) {
@@ -335,8 +335,8 @@ void ViewPasses::draw_hud(vk::CommandBuffer commands, std::size_t output, std::s
         };
         if (hud_on_)
             draw(*hud_, views_.hud_place, view.hud_box);
-        for (std::size_t k = 0; k < placards_.size(); ++k)
-            draw(placard_passes_[k]->panel, placards_[k].place, placard_passes_[k]->boxes[i]);
+        for (std::size_t k = 0; k < callouts_.size(); ++k)
+            draw(callout_passes_[k]->panel, callouts_[k].place, callout_passes_[k]->boxes[i]);
     });
 }
 

@@ -20,7 +20,7 @@ public:
     /// Makes room for the next frame: picture of the stars, bloom, labels, panel of the head-up display (null: none).
     void prepare(const Panel* hud);
     /// Sets what is laid over the views beside the display, from the next prepare() on.
-    void place(std::span<const Placard> placards) { placards_.assign(placards.begin(), placards.end()); }
+    void place(std::span<const Callout> callouts) { callouts_.assign(callouts.begin(), callouts.end()); }
 
     /// The views of one layer of an output through the cube maps, stars and bloom included, or the test pattern.
     void warp_layer(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last);
@@ -70,7 +70,7 @@ public:
 private:
     bool plain_pattern() const;
     void begin_over(vk::CommandBuffer commands, const Target& target) const;
-    void prepare_placards();
+    void prepare_callouts();
     void prepare_stars();
     void find_lit(ViewState& view);
     void draw_stars_of(vk::CommandBuffer commands, const ViewState& view, std::optional<double> exposure);
@@ -91,12 +91,12 @@ private:
     std::vector<StarPass::Observer> star_observers_; ///< a member so that its memory is reused
     std::vector<ShipCap> bodies_; ///< the same
     std::unique_ptr<PanelPass> hud_; ///< null before its first use
-    std::vector<Placard> placards_;
-    struct PlacardPass {
+    std::vector<Callout> callouts_;
+    struct CalloutPass {
         PanelPass panel;
         std::vector<vk::Rect2D> boxes; ///< the pixels of each view that it may cover
     };
-    std::vector<std::unique_ptr<PlacardPass>> placard_passes_; ///< made at their first use
+    std::vector<std::unique_ptr<CalloutPass>> callout_passes_; ///< made at their first use
     bool hud_on_ = false;
 };
 

@@ -47,7 +47,7 @@ bool add_shadows(
             + std::to_string(shadows->maps.size())
             + " have shadows: those that rest near its still things, of point lamps the first three");
     const std::uint64_t key = shadows_key(world, all, scene);
-    const std::filesystem::path file = folder / kept_name(key, ".shadow");
+    const std::filesystem::path file = folder / cache_key(key, ".shadow");
     const bool known = !folder.empty() && read_kept_shadows(file, key, *shadows);
     if (!known) {
         const Occluders occluders(world, all.instances);

@@ -3,7 +3,7 @@
 
 namespace starbow {
 
-bool Docent::carry_out(const Command& command)
+bool Docent::apply_command(const Command& command)
 {
     switch (command.kind) {
     case CommandKind::fade:

@@ -10,7 +10,7 @@ class Docent {
 public:
     /// Carries out fade, exposure, caption, hold, speed limit and restart. Returns false, and changes nothing, for any other
     /// command.
-    bool carry_out(const Command& command);
+    bool apply_command(const Command& command);
     /// dt_s seconds later.
     void advance(double dt_s);
     /// The exhibit begins again, without any.

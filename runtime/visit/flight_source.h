@@ -4,7 +4,7 @@
 
 namespace starbow {
 
-class Guide;
+class TourPlayer;
 
 /// A source of the shown flight: the visitor's hands, a tour, or a flight that was recorded. The exhibit asks it the same
 /// questions whatever it is.
@@ -41,8 +41,8 @@ public:
     /// True if a flight home ends within so many seconds.
     virtual bool is_near_home(double) const { return true; }
     /// The tour, with all that only tours have: steps, captions, questions; null for any other source.
-    virtual const Guide* tour() const { return nullptr; }
-    virtual Guide* tour() { return nullptr; }
+    virtual const TourPlayer* tour() const { return nullptr; }
+    virtual TourPlayer* tour() { return nullptr; }
 };
 
 } // namespace starbow

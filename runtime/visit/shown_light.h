@@ -40,8 +40,8 @@ public:
     void advance(RecordEntry& entry, const LightInputs& now);
     /// Another programme: the exposure begins with its first view.
     void begin() { leaps_.reset(); }
-    /// Another visitor: a curve begins with the next view.
-    void forget_range() { range_ = {}; }
+    /// Another visitor: no lock holds the exposure, and a curve begins with the next view.
+    void forget_visitor() { range_ = {}, exposure_.locked = false; }
 
     /// The exposure of the picture, EV. With a curve: the change by the visitor and the docent.
     double ev() const { return ev_; }

@@ -19,13 +19,13 @@ constexpr const char* levels_kind = "levels2";
 struct KeptPrimitive {
     std::uint32_t levels, first_cluster, clusters, first_piece, pieces;
 };
-struct KeptGroup {
+struct CachedGroup {
     double low[3], high[3], error, shading, apart;
 };
 struct KeptPiece {
     double low[3], high[3];
     std::uint32_t first_index, indices, first_cluster, clusters;
-    KeptGroup own, coarser;
+    CachedGroup own, coarser;
 };
 struct KeptLevel {
     double error, shading, apart;
@@ -78,7 +78,9 @@ void take(Kept&& kept, World& world)
         }
     }
     const auto vec = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
-    const auto group = [&](const KeptGroup& g) { return PieceGroup{vec(g.low), vec(g.high), g.error, g.shading, g.apart}; };
+    const auto group = [&](const CachedGroup& g) {
+        return PieceGroup{vec(g.low), vec(g.high), g.error, g.shading, g.apart};
+    };
     for (const KeptPiece& from : kept.pieces)
         world.pieces.push_back({vec(from.low), vec(from.high),
             {from.first_index, from.indices, from.own.error, from.own.shading, from.own.apart,
@@ -90,7 +92,7 @@ Kept kept_of(const World& world)
 {
     Kept kept;
     const auto group = [](const PieceGroup& g) {
-        return KeptGroup{{g.low.x, g.low.y, g.low.z}, {g.high.x, g.high.y, g.high.z}, g.error, g.shading, g.apart};
+        return CachedGroup{{g.low.x, g.low.y, g.low.z}, {g.high.x, g.high.y, g.high.z}, g.error, g.shading, g.apart};
     };
     for (const Primitive& primitive : world.primitives) {
         kept.primitives.push_back({std::uint32_t(primitive.coarser.size()), primitive.clusters.first,
@@ -144,7 +146,7 @@ bool add_kept_detail_levels(World& world, const std::filesystem::path& folder, c
         return false;
     }
     const std::uint64_t key = levels_key(world);
-    const std::filesystem::path file = folder / kept_name(key, ".detail");
+    const std::filesystem::path file = folder / cache_key(key, ".detail");
     if (read_kept_levels(file, key, world))
         return false;
     add_detail_levels(world, progress);

@@ -71,7 +71,7 @@ Texture load_sky(const StarSky& sky, const std::filesystem::path& folder)
     std::filesystem::path kept_file;
     if (!folder.empty()) {
         key = key_of(sky, bytes);
-        kept_file = folder / kept_name(key, ".sky");
+        kept_file = folder / cache_key(key, ".sky");
         if (std::optional<Texture> kept = read_sky(kept_file, key))
             return std::move(*kept);
     }

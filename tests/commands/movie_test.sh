@@ -36,7 +36,7 @@ make >"$folder/said" 2>"$folder/errors" || fail "making a movie: $(cat "$folder/
 ok [ "$(count "$movie")" = 64,48,15/1,30 ]
 ok [ ! -e "$frames" ]
 ok grep -q '30 frames, 2.0 s' "$folder/said"
-ok [ ! -s "$folder/errors" ]
+ok [ -z "$(grep -v '^starbow: frame [0-9]* of [0-9]*, about' "$folder/errors")" ] # a slow machine shows progress
 # It shows the tour: at the end the ship has flown and the caption is gone. How alike two frames are, dB.
 alike() { # FRAME FRAME
     for frame in "$1" "$2"; do ffmpeg -v error -y -i "$movie" -vf "select=eq(n\\,$frame)" -frames:v 1 "$folder/frame-$frame.png"; done

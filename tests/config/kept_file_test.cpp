@@ -1,7 +1,7 @@
 // Files that the program keeps for a later start: whichever bit is wrong, and wherever they end, they are not read.
 #include "config/json/hash.h"
 #include "config/json/kept_file.h"
-#include "config/json/kept_rows.h"
+#include "config/json/row_cache.h"
 #include "tests/support/damage.h"
 #include <set>
 #include <sys/stat.h>
@@ -108,7 +108,7 @@ TEST(ContentHash, PartsHaveTheirEnds)
 }
 
 // A row with a wrong bit, be it in its number, and those after it are computed again.
-TEST(KeptRows, ARowIsTheOneThatWasPutOrIsMissing)
+TEST(RowCache, ARowIsTheOneThatWasPutOrIsMissing)
 {
     constexpr std::size_t bytes = 24;
     constexpr int rows = 5;
@@ -120,16 +120,16 @@ TEST(KeptRows, ARowIsTheOneThatWasPutOrIsMissing)
         return all;
     };
     {
-        KeptRows kept(file, "some picture", bytes, rows);
+        RowCache kept(file, "some picture", bytes, rows);
         for (const int number : {2, 0, 1})
             kept.put(number, row(number).data());
     }
     const std::string whole = read_text(file);
-    EXPECT_EQ(KeptRows(file, "some picture", bytes, rows).count(), 3);
+    EXPECT_EQ(RowCache(file, "some picture", bytes, rows).count(), 3);
     for_each_damage(whole, [&](const std::string& damaged, const std::string& how) {
         write_bytes(file, damaged);
         {
-            KeptRows kept(file, "some picture", bytes, rows);
+            RowCache kept(file, "some picture", bytes, rows);
             EXPECT_TRUE(damaged.size() > whole.size() ? kept.count() == 3 : kept.count() < 3) << how;
             for (int number = 0; number < rows; ++number) {
                 const std::byte* const found = kept.row(number);
@@ -138,7 +138,7 @@ TEST(KeptRows, ARowIsTheOneThatWasPutOrIsMissing)
                     kept.put(number, row(number).data());
             }
         }
-        KeptRows again(file, "some picture", bytes, rows);
+        RowCache again(file, "some picture", bytes, rows);
         EXPECT_EQ(again.count(), 4) << how << ": the file takes the other rows";
     });
 }

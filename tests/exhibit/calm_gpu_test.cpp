@@ -50,7 +50,7 @@ public:
     int flashes(const std::function<Controls(double)>& hands, double seconds)
     {
         Session session(options_);
-        CalmHands calm_hands;
+        FlashLimiter calm_hands;
         const Shot& start = options_.programme.start;
         ReplayRenderer pictures(renderer_, Pattern::none, options_.exposure, start.exposure_ev, options_.words);
         pictures.meter(true);

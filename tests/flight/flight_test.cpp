@@ -313,14 +313,14 @@ TEST(Flight, UndoLeavesTheSwitchesAndTheClock)
     Flight flight = flight_at(start(), rules);
     for (int i = 0; i < 120; ++i)
         flight = flown(flight, history, controls_with(Steering{.lever = 0.3}), 100 * ms, rules, 1, start());
-    flight.mode = FlightMode::free, flight.frozen = true, flight.slowness = 2;
+    flight.mode = FlightMode::free, flight.frozen = true, flight.time_scale = 2;
     flight.effects.on.set(Effect::doppler, !flight.effects[Effect::doppler]);
     flight.exposure_ev = -3, flight.hud = !flight.hud, flight.vignette = 0.5, flight.left_ns = 7;
     const Flight back = history.back(flight);
     EXPECT_LT(back.ship.distance.total(), 0.5 * flight.ship.distance.total());
     EXPECT_EQ(back.mode, flight.mode);
     EXPECT_EQ(back.frozen, flight.frozen);
-    EXPECT_EQ(back.slowness, flight.slowness);
+    EXPECT_EQ(back.time_scale, flight.time_scale);
     EXPECT_EQ(back.effects[Effect::doppler], flight.effects[Effect::doppler]);
     EXPECT_EQ(back.exposure_ev, flight.exposure_ev);
     EXPECT_EQ(back.hud, flight.hud);

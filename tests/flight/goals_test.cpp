@@ -87,7 +87,7 @@ TEST(GoalsTest, EveryShippedGoalCanBeReachedAndIsNotAtTheStart)
             SCOPED_TRACE(goal.ask.key);
             ++goals;
             for (const char* language : {"en", "de"})
-                for (const Saying* saying : {&goal.ask, &goal.reward})
+                for (const LocalisedText* saying : {&goal.ask, &goal.reward})
                     EXPECT_NE(said(*saying, words(language)), saying->key);
             EXPECT_FALSE(holds(goal, start, start, unit_s));
             bool reached = false;

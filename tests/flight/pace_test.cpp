@@ -177,7 +177,7 @@ TEST(SlowMotionTest, OnlyTheTimeOnBoardIsSlower)
     const Controls flown = controls_with(Steering{.lever = 0.4, .turn = {0, 0.3, 0}});
     Flight usual = flight_at(start, rules), slow = usual;
     slow = step(slow, controls_with(Switches{Switch::slow_motion}), 0, rules, 1, start);
-    EXPECT_EQ(time_rates[slow.slowness], 0.25);
+    EXPECT_EQ(time_rates[slow.time_scale], 0.25);
     usual = step(usual, flown, 3'000'000'000, rules, 1, start);
     slow = step(slow, flown, 3'000'000'000, rules, 1, start);
     EXPECT_NEAR(slow.ship.proper_time.total(), 0.75, 1e-12);
@@ -190,9 +190,9 @@ TEST(SlowMotionTest, OnlyTheTimeOnBoardIsSlower)
     EXPECT_NEAR(rapidity_of(slow.ship), rapidity_of(usual.ship), 1e-6);
     const Controls press = controls_with(Switches{Switch::slow_motion});
     slow = step(slow, press, 0, rules, 1, start);
-    EXPECT_EQ(time_rates[slow.slowness], 0.0625);
+    EXPECT_EQ(time_rates[slow.time_scale], 0.0625);
     slow = step(slow, press, 0, rules, 1, start);
-    EXPECT_EQ(time_rates[slow.slowness], 1);
+    EXPECT_EQ(time_rates[slow.time_scale], 1);
 }
 
 TEST(SlowMotionTest, TheFlightThroughAWorldLastsItsPlannedTimeAtAGreaterGamma)

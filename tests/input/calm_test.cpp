@@ -104,7 +104,7 @@ Worst flown_by(const std::function<Controls(int frame)>& script, bool calm, doub
     History history;
     Exposure exposure;
     SlowTurns ev;
-    CalmHands hands;
+    FlashLimiter hands;
     // Each direction is a field of its own, far from the others.
     std::vector<SeenPixel> pixels;
     for (int i = 0; i < View::fields; ++i)
@@ -173,7 +173,7 @@ TEST(CalmTest, AnUndisturbedWayIsNotDelayed)
 
 TEST(CalmTest, TheFirstPressActsAtOnceAndTheOthersTogetherASecondLater)
 {
-    CalmHands hands;
+    FlashLimiter hands;
     std::vector<int> headlight, doppler, stop;
     for (int frame = 0; frame < 180; ++frame) {
         Controls controls;
@@ -197,7 +197,7 @@ TEST(CalmTest, TheFirstPressActsAtOnceAndTheOthersTogetherASecondLater)
 
 TEST(CalmTest, AThrottleTurnsAtMostOnceASecond)
 {
-    CalmHands hands;
+    FlashLimiter hands;
     std::vector<double> lever, speed{0};
     for (int frame = 0; frame < 600; ++frame) {
         Controls controls;
@@ -272,7 +272,7 @@ TEST(CalmTest, OfAllThatMovesOneNumberTurnsInASecond)
     for (unsigned int seed = 0; seed < 40; ++seed) {
         for (const bool calm : {false, true}) {
             starbow::testing::ChanceHands chance(seed);
-            CalmHands hands;
+            FlashLimiter hands;
             std::map<std::pair<std::size_t, std::size_t>, std::pair<double, int>> last; // a number's place, and its way
             std::vector<int> turns;
             for (int frame = 0; frame < 900; ++frame) {
@@ -311,7 +311,7 @@ TEST(CalmTest, OfAllThatMovesOneNumberTurnsInASecond)
 // A hand that drags the mouse up and down six times a second no longer moves the view so.
 TEST(CalmTest, ADraggedMouseTurnsTheViewSlowly)
 {
-    CalmHands hands;
+    FlashLimiter hands;
     double look = 0, least = 0, most = 0;
     int turned = 0, way = 0;
     for (int frame = 0; frame < 600; ++frame) {
@@ -329,7 +329,7 @@ TEST(CalmTest, ADraggedMouseTurnsTheViewSlowly)
 
 TEST(CalmTest, ABuildersStepsWaitAndAddUp)
 {
-    CalmHands hands;
+    FlashLimiter hands;
     int acted = 0, sum = 0;
     for (int frame = 0; frame < 240; ++frame) {
         Controls controls;
@@ -343,7 +343,7 @@ TEST(CalmTest, ABuildersStepsWaitAndAddUp)
 
 TEST(CalmTest, AShipThatTurnsByStepsTakesOneASecond)
 {
-    CalmHands hands;
+    FlashLimiter hands;
     int steps = 0;
     for (int frame = 0; frame < 300; ++frame) {
         Controls controls;
@@ -358,7 +358,7 @@ TEST(CalmTest, AShipThatTurnsByStepsTakesOneASecond)
 TEST(CalmTest, EverySwitchThatChangesThePictureActsOnceASecond)
 {
     const auto let_through = [](const std::function<void(Controls&)>& press) {
-        CalmHands hands;
+        FlashLimiter hands;
         std::vector<int> of_each(all_switches.size(), 0);
         for (int frame = 0; frame < 120; ++frame) {
             Controls controls;
@@ -395,7 +395,7 @@ TEST(CalmTest, ASecondPressOfATwoWaySwitchUndoesTheFirstWhileItWaitsAndOneOfTheO
     for (const SwitchEntry& one : all_switches) {
         if (of_words.contains(std::string(one.name)))
             continue;
-        CalmHands hands;
+        FlashLimiter hands;
         int acted = 0;
         for (int frame = 0; frame < 180; ++frame) {
             Controls controls;
@@ -410,7 +410,7 @@ TEST(CalmTest, ASecondPressOfATwoWaySwitchUndoesTheFirstWhileItWaitsAndOneOfTheO
 // A lever takes a quarter of a second from end to end, and an exposure a sixth for a stop, however they are thrown.
 TEST(CalmTest, LeverAndExposureGoNoFasterThanAHandAndAnEye)
 {
-    CalmHands hands;
+    FlashLimiter hands;
     SlowTurns ev;
     double lever = 0, ev_before = 0;
     for (int frame = 0; frame < 60; ++frame) {

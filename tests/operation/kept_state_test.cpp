@@ -1,7 +1,7 @@
 // What an exhibit keeps about itself in plain files: damage changes it to a harmless value, or is noticed, and stops
 // nothing.
+#include "runtime/operation/crash_counter.h"
 #include "runtime/operation/diary.h"
-#include "runtime/operation/ends.h"
 #include "runtime/operation/last_language.h"
 #include "tests/support/damage.h"
 #include <nlohmann/json.hpp>
@@ -19,21 +19,21 @@ TEST(KeptState, ADamagedListOfEndsNamesNoMore)
 {
     const fs::path folder = scratch("ends-damaged"), file = folder / "ends";
     for (int i = 0; i < 4; ++i)
-        Ends(folder, 10'000 + 60 * i);
+        CrashCounter(folder, 10'000 + 60 * i);
     const std::string whole = read_text(file);
     for_each_damage(whole, [&](const std::string& damaged, const std::string& how) {
         if (damaged.size() > whole.size())
             return; // more lines are more ends
         write_bytes(file, damaged);
-        const int lately = Ends(folder, 10'300).lately();
+        const int lately = CrashCounter(folder, 10'300).lately();
         EXPECT_TRUE(lately >= 0 && lately <= 4) << how << ": " << lately;
         EXPECT_TRUE(read_text(file).ends_with("running\n")) << how << ": it is written again";
     });
     write_bytes(file, whole);
-    EXPECT_EQ(Ends(folder, 10'300).lately(), 4);
+    EXPECT_EQ(CrashCounter(folder, 10'300).lately(), 4);
     for (const std::string& more : {std::string(5000, 'x'), std::string(100'000, '\0'), std::string(100'000, '\n')}) {
         write_bytes(file, whole + more);
-        EXPECT_LE(Ends(folder, 10'300).lately(), 4);
+        EXPECT_LE(CrashCounter(folder, 10'300).lately(), 4);
     }
 }
 

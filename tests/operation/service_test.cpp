@@ -1,5 +1,5 @@
 // The datagrams to a service manager, received by a socket of the test's own, and what the exhibit keeps about itself.
-#include "runtime/operation/ends.h"
+#include "runtime/operation/crash_counter.h"
 #include "runtime/operation/last_language.h"
 #include "runtime/operation/service.h"
 #include "runtime/operation/state_folder.h"
@@ -168,21 +168,21 @@ TEST(Waits, TheInnermostWaitBeyondItsLimitEndsTheProcess)
         ::testing::ExitedWithCode(exit_hung), "error hang: the fence of the test has not come for 1\\.[0-9] s");
 }
 
-TEST(Ends, FiveDisorderlyEndsWithinTenMinutesAreCounted)
+TEST(CrashCounter, FiveDisorderlyEndsWithinTenMinutesAreCounted)
 {
     const std::filesystem::path folder = scratch("ends-state");
-    EXPECT_EQ(Ends(folder, 10000).lately(), 0); // the first start ever
+    EXPECT_EQ(CrashCounter(folder, 10000).lately(), 0); // the first start ever
     for (int i = 1; i <= 5; ++i)
-        EXPECT_EQ(Ends(folder, 10000 + 60 * i).lately(), i); // each finds the run before unfinished
-    EXPECT_EQ(Ends(folder, 10000 + 60 + 600).lately(), 5); // the first of five is ten minutes old, and one more came
-    Ends(folder, 10700).in_order();
-    EXPECT_EQ(Ends(folder, 10701).lately(), 0);
+        EXPECT_EQ(CrashCounter(folder, 10000 + 60 * i).lately(), i); // each finds the run before unfinished
+    EXPECT_EQ(CrashCounter(folder, 10000 + 60 + 600).lately(), 5); // the first of five is ten minutes old, and one more came
+    CrashCounter(folder, 10700).in_order();
+    EXPECT_EQ(CrashCounter(folder, 10701).lately(), 0);
     // A clock that was set back, and a damaged file.
-    EXPECT_EQ(Ends(folder, 500).lately(), 1);
+    EXPECT_EQ(CrashCounter(folder, 500).lately(), 1);
     std::ofstream(folder / "ends") << "nonsense\n-3\n99999999999999999999999999\n\n490\nrunning";
-    EXPECT_EQ(Ends(folder, 500).lately(), 2);
+    EXPECT_EQ(CrashCounter(folder, 500).lately(), 2);
     // A folder that can't be written counts nothing.
-    EXPECT_EQ(Ends(write_text("ends-no-folder", "x"), 500).lately(), 0);
+    EXPECT_EQ(CrashCounter(write_text("ends-no-folder", "x"), 500).lately(), 0);
 }
 
 TEST(StateFolder, TheServicesFolderComesBeforeThePersons)

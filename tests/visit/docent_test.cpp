@@ -10,7 +10,7 @@ using namespace starbow;
 TEST(DocentTest, FadesToBlackAndBack)
 {
     Docent docent;
-    EXPECT_TRUE(docent.carry_out({.kind = CommandKind::fade, .on = true}));
+    EXPECT_TRUE(docent.apply_command({.kind = CommandKind::fade, .on = true}));
     double before = 0;
     for (int i = 0; i < 200; ++i) {
         docent.advance(0.01);
@@ -18,7 +18,7 @@ TEST(DocentTest, FadesToBlackAndBack)
         before = docent.black();
     }
     EXPECT_EQ(docent.black(), 1) << "after two seconds";
-    docent.carry_out({.kind = CommandKind::fade});
+    docent.apply_command({.kind = CommandKind::fade});
     docent.advance(0.75);
     EXPECT_NEAR(docent.black(), 0.5, 1e-12);
     docent.advance(5);
@@ -29,7 +29,7 @@ TEST(DocentTest, TakesItsOwnCommandsAndForgetsThemAll)
 {
     for (const CommandRule& rule : command_rules()) {
         Docent docent;
-        const bool own = docent.carry_out(
+        const bool own = docent.apply_command(
             {.kind = rule.kind, .on = true, .number = 7, .text = "Look to the left", .effect = rule.effect});
         const int changed = docent.fades() + docent.holds() + docent.restarts() + (docent.exposure_ev() == 7)
             + (docent.max_gamma() == 7) + (docent.caption() == "Look to the left");

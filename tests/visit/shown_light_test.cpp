@@ -79,6 +79,8 @@ TEST(ShownLightTest, ALockHoldsAndADocentsChangeIsAdded)
     EXPECT_EQ(flown.light.ev(), -3);
     flown.frame(9, {}, 0, 1.5);
     EXPECT_EQ(flown.light.ev(), -1.5);
+    flown.light.forget_visitor();
+    EXPECT_FALSE(flown.light.locked()) << "the next visitor's eye adapts";
 }
 
 TEST(ShownLightTest, BlackIsSmoothAndKeepsNoLight)

@@ -3,8 +3,8 @@
 #include "config/model/angles.h"
 #include "config/model/one_view.h"
 #include "runtime/commands/median.h"
+#include "runtime/render/baselines.h"
 #include "runtime/render/pass_timer.h"
-#include "runtime/render/yardsticks.h"
 #include <cmath>
 #include <cstdio>
 
@@ -36,7 +36,7 @@ std::vector<CubeMapPlan> full_faces(double texels_per_unit)
 struct CubesCase {
     OffscreenRenderer dome, starry_dome, window, desk;
     CubePass faces_pass;
-    PlainPicture plain;
+    PlainPictureBaseline plain;
 
     CubesCase(RenderContext& c, const GpuWorld& starless, const Layout& dome_layout, const Layout& window_layout,
         const Quality& quality)

@@ -8,8 +8,8 @@
 #include "flight.h"
 #include "runtime/commands/median.h"
 #include "runtime/hud/hud.h"
+#include "runtime/render/baselines.h"
 #include "runtime/render/pass_timer.h"
-#include "runtime/render/yardsticks.h"
 #include "spectra.h"
 #include "worlds.h"
 #include <cstdio>
@@ -62,7 +62,7 @@ constexpr StageRatio ratios[] = {
 };
 
 StageTimes time_stages(
-    Avenue& avenue, BareLookup& lookup, const Layout& layout, const Shot& shot, const std::string& name, int rounds)
+    Avenue& avenue, BareLookupBaseline& lookup, const Layout& layout, const Shot& shot, const std::string& name, int rounds)
 {
     RenderContext& context = avenue.context;
     const Quality quality = default_quality(context.device, false);
@@ -80,7 +80,7 @@ StageTimes time_stages(
     OffscreenRenderer geometry_renderer = renderer_of(avenue.starless), colour_renderer = renderer_of(avenue.starless);
     geometry_renderer.picture(grey);
     colour_renderer.picture(shot);
-    PlainPicture plain(context.device, context.pipelines, context.world, quality, renderer);
+    PlainPictureBaseline plain(context.device, context.pipelines, context.world, quality, renderer);
     PassTimer timer(context.device, renderer), geometry_timer(context.device, geometry_renderer),
         colour_timer(context.device, colour_renderer);
 
@@ -159,7 +159,7 @@ void bench_frame_stages(int rounds, const std::filesystem::path& file)
     const glm::ivec2 size(800, 600);
     const Layout layout = window_of(size);
     Avenue avenue;
-    BareLookup lookup(avenue.context.device, avenue.context.pipelines);
+    BareLookupBaseline lookup(avenue.context.device, avenue.context.pipelines);
     std::printf("%s; avenue at %dx%d, all effects on; medians of %d rounds, milliseconds\n\n", avenue.context.device.name(),
         size.x, size.y, rounds);
     std::vector<StageTimes> results;

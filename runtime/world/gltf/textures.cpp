@@ -254,7 +254,7 @@ std::map<int, int> halvings(const WorldBuild& build)
 }
 
 /// Textures by image and use. Equal pairs share a texture.
-struct TextureShelf {
+struct TexturePool {
     WorldBuild& build;
     std::map<int, int> halved = halvings(build);
     std::map<std::pair<int, bool>, int> of_gltf;
@@ -378,7 +378,7 @@ Texture decode_image(
 namespace {
 
 /// The texture and coordinates of a map. sets: of VertexMaps::uvs, of which the map takes one or claims a free one.
-template <typename Info> Map map_of(TextureShelf& shelf, const Info& info, bool numbers, std::array<int, 2>& sets)
+template <typename Info> Map map_of(TexturePool& shelf, const Info& info, bool numbers, std::array<int, 2>& sets)
 {
     Map map;
     map.texture = shelf.place(info.index, numbers);
@@ -402,7 +402,7 @@ template <typename Info> Map map_of(TextureShelf& shelf, const Info& info, bool 
 
 /// glTF's metallic-roughness reflection; none for a matt surface: without metal, wholly rough and without maps. Of its
 /// highlight, which is as wide as the sky, 4 % of the light are left out.
-std::optional<Gloss> gloss_of(TextureShelf& shelf, const tinygltf::Material& from, std::array<int, 2>& sets)
+std::optional<Gloss> gloss_of(TexturePool& shelf, const tinygltf::Material& from, std::array<int, 2>& sets)
 {
     const auto& pbr = from.pbrMetallicRoughness;
     Gloss gloss{.metallic = pbr.metallicFactor, .roughness = pbr.roughnessFactor};
@@ -424,7 +424,7 @@ std::optional<Gloss> gloss_of(TextureShelf& shelf, const tinygltf::Material& fro
 
 void add_materials(WorldBuild& build)
 {
-    TextureShelf shelf{build};
+    TexturePool shelf{build};
     for (const auto& from : build.model.materials) {
         Material to = build.file.surfaces[build.world.materials.size()];
         to.name = from.name;

@@ -1,4 +1,4 @@
-#include "kept_rows.h"
+#include "row_cache.h"
 #include "hash.h"
 #include "whole_file.h"
 #include <algorithm>
@@ -23,7 +23,7 @@ static std::uint64_t sum_of(const std::string& head, std::uint32_t row, const st
     return sum.value();
 }
 
-KeptRows::KeptRows(const std::filesystem::path& file, const std::string& key, std::size_t bytes_per_row, int rows)
+RowCache::RowCache(const std::filesystem::path& file, const std::string& key, std::size_t bytes_per_row, int rows)
     : file_(file)
     , head_(key + '\n')
     , bytes_(bytes_per_row)
@@ -55,12 +55,12 @@ KeptRows::KeptRows(const std::filesystem::path& file, const std::string& key, st
     }
 }
 
-int KeptRows::count() const
+int RowCache::count() const
 {
     return int(std::count_if(rows_.begin(), rows_.end(), [](const auto& row) { return !row.empty(); }));
 }
 
-void KeptRows::put(int row, const std::byte* bytes)
+void RowCache::put(int row, const std::byte* bytes)
 {
     const std::scoped_lock lock(mutex_);
     const std::uint32_t number = std::uint32_t(row);

@@ -1,12 +1,12 @@
 // A tour in a running exhibit: it begins anew for the next visitor, and leaves out the visitor's steps while nobody is
 // there.
 #include "config/model/shipped.h"
-#include "runtime/visit/guide.h"
+#include "runtime/visit/tour_player.h"
 #include "tests/support/controls.h"
 #include "tests/support/files.h"
 #include <gtest/gtest.h>
 
-namespace guide_test {
+namespace tour_player_test {
 
 using namespace starbow;
 using namespace starbow::testing;
@@ -19,7 +19,7 @@ Tour tour_of(const std::string& steps)
         [](const std::string& name) { return source_dir() / "config/shots" / (name + ".json"); });
 }
 
-void pass(Guide& guide, double seconds, const Controls& controls = {})
+void pass(TourPlayer& guide, double seconds, const Controls& controls = {})
 {
     for (int frame = 0; frame < 20 * seconds; ++frame)
         guide.advance(controls, 50'000'000);
@@ -27,10 +27,10 @@ void pass(Guide& guide, double seconds, const Controls& controls = {})
 
 } // namespace
 
-TEST(GuideTest, TheTourBeginsAnewForTheNextVisitor)
+TEST(TourPlayerTest, TheTourBeginsAnewForTheNextVisitor)
 {
     const Tour tour = tour_of(R"({ "seconds": 1, "cut": "start" }, { "seconds": 1, "thrust": { "rapidity_per_s": 0.5 } })");
-    Guide guide(tour, {}, 1);
+    TourPlayer guide(tour, {}, 1);
     pass(guide, 3);
     EXPECT_TRUE(guide.over());
     EXPECT_FALSE(guide.prompt(words()).empty());
@@ -42,14 +42,14 @@ TEST(GuideTest, TheTourBeginsAnewForTheNextVisitor)
     EXPECT_EQ(guide.advance({}, 1).ship.u.total(), glm::dvec3(0));
 }
 
-TEST(GuideTest, WithoutVisitorsNobodyFlies)
+TEST(TourPlayerTest, WithoutVisitorsNobodyFlies)
 {
     const Tour tour = tour_of(R"({ "seconds": 1, "cut": "start" }, { "seconds": 30, "try": {} }, { "seconds": 1 })");
-    Guide attended(tour, {}, 1), alone(tour, {}, 1, false);
+    TourPlayer attended(tour, {}, 1), alone(tour, {}, 1, false);
     pass(attended, 3), pass(alone, 3);
     EXPECT_TRUE(attended.by_hand());
     EXPECT_TRUE(alone.over());
     EXPECT_FALSE(alone.by_hand());
 }
 
-} // namespace guide_test
+} // namespace tour_player_test

@@ -1,4 +1,4 @@
-#include "yardsticks.h"
+#include "baselines.h"
 #include "debug.h"
 #include "pass_timer.h"
 
@@ -7,7 +7,7 @@ namespace starbow {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 
-PlainPicture::PlainPicture(
+PlainPictureBaseline::PlainPictureBaseline(
     Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, OffscreenRenderer& of)
     : device_(device)
     , of_(of)
@@ -15,7 +15,7 @@ PlainPicture::PlainPicture(
 {
 }
 
-double PlainPicture::ms(const Shot& shot)
+double PlainPictureBaseline::ms(const Shot& shot)
 {
     return milliseconds([&] {
         glm::dmat3 straight;
@@ -28,7 +28,7 @@ double PlainPicture::ms(const Shot& shot)
     });
 }
 
-BareLookup::BareLookup(Device& device, Pipelines& pipelines)
+BareLookupBaseline::BareLookupBaseline(Device& device, Pipelines& pipelines)
     : device_(device)
     , pipelines_(pipelines)
 {
@@ -59,7 +59,7 @@ BareLookup::BareLookup(Device& device, Pipelines& pipelines)
         {});
 }
 
-double BareLookup::ms(OffscreenRenderer& of)
+double BareLookupBaseline::ms(OffscreenRenderer& of)
 {
     const Target target = of.target(0);
     const vk::Pipeline pipeline = pipelines_.lookup(target.format);

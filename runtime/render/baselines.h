@@ -7,9 +7,10 @@ namespace starbow {
 /// Simple work that the passes of a frame are compared with, in the same run: ratios hold where a machine's speed drifts.
 
 /// The same world as a plain perspective picture of the renderer's first view, which must be flat: no cube map, no warp.
-class PlainPicture {
+class PlainPictureBaseline {
 public:
-    PlainPicture(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, OffscreenRenderer& of);
+    PlainPictureBaseline(
+        Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, OffscreenRenderer& of);
 
     /// Preparing, recording and drawing, ms.
     double ms(const Shot& shot);
@@ -21,9 +22,9 @@ private:
 };
 
 /// The bare look-up of a cube map of 512 texels a side, through the renderer's first view.
-class BareLookup {
+class BareLookupBaseline {
 public:
-    BareLookup(Device& device, Pipelines& pipelines);
+    BareLookupBaseline(Device& device, Pipelines& pipelines);
 
     double ms(OffscreenRenderer& of);
 

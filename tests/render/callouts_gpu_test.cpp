@@ -4,7 +4,7 @@
 #include "runtime/hud/signs.h"
 #include "tests/support/gpu_environment.h"
 
-namespace starbow::gpu_test::placards_gpu_test {
+namespace starbow::gpu_test::callouts_gpu_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -29,7 +29,7 @@ std::vector<ivec2> changed(const Bytes& a, const Bytes& b, ivec2 of)
 
 } // namespace
 
-TEST(Placards, TheSmallPictureIsShownAsItIs)
+TEST(Callouts, TheSmallPictureIsShownAsItIs)
 {
     // Over the whole view, so that its pixels are the view's.
     const double half = std::tan(glm::radians(0.5 * beside_fov_deg));
@@ -39,9 +39,9 @@ TEST(Placards, TheSmallPictureIsShownAsItIs)
     const Shot resting = starbow::beside(moving, Beside::at_rest, moving.exposure_ev);
     const Bytes wanted = whole.picture(resting)[0];
     whole.frame().show_inset(resting, size.x);
-    const Placard placard{.picture = &whole.frame().inset_picture(),
+    const Callout callout{.picture = &whole.frame().inset_picture(),
         .place = {glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, -1), dvec2(half / Inset::aspect, half)}};
-    whole.frame().place({&placard, 1});
+    whole.frame().place({&callout, 1});
     const Bytes shown = whole.picture(moving)[0];
     double mean = 0;
     for (int y = 6; y < size.y - 6; ++y) // within its frame
@@ -62,7 +62,7 @@ TEST(Placards, TheSmallPictureIsShownAsItIs)
 }
 
 // WCAG 2.2, 1.4.3: relative luminances, the lighter and the darker one, each with 0.05 of stray light.
-TEST(Placards, TheFaintestLettersHaveTheirContrastBeforeAnyPicture)
+TEST(Callouts, TheFaintestLettersHaveTheirContrastBeforeAnyPicture)
 {
     OffscreenRenderer whole = renderer(avenue().world, one_view(Planar{60}, size), false);
     const auto luminance = [](const std::uint8_t* pixel) {
@@ -76,8 +76,8 @@ TEST(Placards, TheFaintestLettersHaveTheirContrastBeforeAnyPicture)
     for (int y = 15; y < 45; ++y)
         for (int x = 30; x < 50; ++x)
             panel.texels[2 * (std::size_t(y) * 80 + std::size_t(x))] = std::uint8_t(faintest_letters * 255);
-    const Placard placard{.letters = &panel, .place = {glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, -1), {0.3, 0.225}}};
-    whole.frame().place({&placard, 1});
+    const Callout callout{.letters = &panel, .place = {glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, -1), {0.3, 0.225}}};
+    whole.frame().place({&callout, 1});
     for (const double ev : {40.0, 0.0, -40.0}) {
         Shot shot = in_flight();
         shot.exposure_ev = ev;
@@ -91,7 +91,7 @@ TEST(Placards, TheFaintestLettersHaveTheirContrastBeforeAnyPicture)
     }
 }
 
-TEST(Placards, TheArrowEndsAtItsDirection)
+TEST(Callouts, TheArrowEndsAtItsDirection)
 {
     const Typesetter typesetter;
     for (const auto& [projection, of] :
@@ -102,10 +102,10 @@ TEST(Placards, TheArrowEndsAtItsDirection)
         const double degree_px = 6;
         const Panel panel = draw_sign(typesetter, {"This is behind you:", "its light"}, degree_px);
         for (const dvec3& towards : {dvec3(0, 0, -1), dvec3(0.3, 0.05, -1), dvec3(-0.25, -0.1, -1)}) {
-            const Placard placard{.letters = &panel,
+            const Callout callout{.letters = &panel,
                 .place
                 = whole.frame().views().place_above(glm::normalize(towards), 0.5 * dvec2(panel.size) * 0.0174 / degree_px)};
-            whole.frame().place({&placard, 1});
+            whole.frame().place({&callout, 1});
             const std::vector<ivec2> pixels = changed(bare, whole.picture(in_flight())[0], of);
             ASSERT_GT(pixels.size(), 200u);
             double nearest = 1e9, farthest = 0;
@@ -123,4 +123,4 @@ TEST(Placards, TheArrowEndsAtItsDirection)
     }
 }
 
-} // namespace starbow::gpu_test::placards_gpu_test
+} // namespace starbow::gpu_test::callouts_gpu_test

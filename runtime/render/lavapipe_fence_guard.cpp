@@ -1,14 +1,14 @@
-#include "scene_keeper.h"
+#include "lavapipe_fence_guard.h"
 #include <algorithm>
 
 namespace starbow {
 
-SceneKeeper::SceneKeeper(const vk::raii::Device& device)
+LavapipeFenceGuard::LavapipeFenceGuard(const vk::raii::Device& device)
     : queries_(device.createQueryPool({{}, vk::QueryType::eTimestamp, most}))
 {
 }
 
-void SceneKeeper::begin(vk::CommandBuffer commands, std::uint32_t scenes)
+void LavapipeFenceGuard::begin(vk::CommandBuffer commands, std::uint32_t scenes)
 {
     const std::uint32_t count = std::min(scenes, most / 4);
     next_ = end_ + count > most ? 0 : end_;
@@ -16,7 +16,7 @@ void SceneKeeper::begin(vk::CommandBuffer commands, std::uint32_t scenes)
     commands.resetQueryPool(*queries_, next_, count);
 }
 
-void SceneKeeper::hold(vk::CommandBuffer commands)
+void LavapipeFenceGuard::hold(vk::CommandBuffer commands)
 {
     if (next_ < end_)
         commands.writeTimestamp2(vk::PipelineStageFlagBits2::eTopOfPipe, *queries_, next_++);

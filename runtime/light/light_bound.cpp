@@ -1,4 +1,4 @@
-#include "greatest_light.h"
+#include "light_bound.h"
 #include "shaders/shared_structs.h"
 #include <algorithm>
 #include <cmath>
@@ -22,9 +22,9 @@ double sum_at(const Response& response, std::vector<double>& one, double D)
 
 } // namespace
 
-GreatestLight greatest_light(const Response& response)
+LightBound greatest_light(const Response& response)
 {
-    GreatestLight greatest{response.first_log2_D, response.per_octave, {}};
+    LightBound greatest{response.first_log2_D, response.per_octave, {}};
     std::vector<double> one(std::size_t(response.reflected + response.own), 0.0);
     const auto at
         = [&](double row) { return sum_at(response, one, std::exp2(response.first_log2_D + row / response.per_octave)); };
@@ -39,7 +39,7 @@ GreatestLight greatest_light(const Response& response)
     return greatest;
 }
 
-double dark_below(const GreatestLight& greatest, bool doppler, bool headlight, double most, double least)
+double doppler_cutoff(const LightBound& greatest, bool doppler, bool headlight, double most, double least)
 {
     const double limit = std::log2(least) - std::log2(most);
     const int last = int(greatest.log2_of_row.size()) - 1;

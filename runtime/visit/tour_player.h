@@ -10,10 +10,10 @@
 namespace starbow {
 
 /// A tour as the source of an exhibit's flight.
-class Guide : public FlightSource {
+class TourPlayer : public FlightSource {
 public:
     /// seconds_per_time_unit: of the tour's scene. visitors: false where nobody is there to fly and to answer.
-    Guide(Tour tour, const Flying& rules, double seconds_per_time_unit, bool visitors = true)
+    TourPlayer(Tour tour, const Flying& rules, double seconds_per_time_unit, bool visitors = true)
         : tour_(std::move(tour))
         , show_{tour_, rules, seconds_per_time_unit, visitors}
         , touring_(touring_at(show_))
@@ -31,8 +31,8 @@ public:
     double shown_ev(const Exposure& adapted, const Exposing& rules) const override;
     Flight* switched() override { return by_hand() ? &touring_.flight : nullptr; }
     void limit(double max_gamma) override { show_.rules.max_gamma = max_gamma; }
-    const Guide* tour() const override { return this; }
-    Guide* tour() override { return this; }
+    const TourPlayer* tour() const override { return this; }
+    TourPlayer* tour() override { return this; }
 
     bool asks() const { return starbow::asks(touring_, show_); } ///< a question waits for an answer
     bool answered() const { return touring_.measured_answer.has_value(); } ///< the step's question

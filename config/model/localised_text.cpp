@@ -1,20 +1,20 @@
-#include "saying.h"
+#include "localised_text.h"
 
 namespace starbow {
 
-Saying read_saying(const Place& place)
+LocalisedText read_saying(const Place& place)
 {
     if (place.json->is_string())
         return {.key = text(place), .texts = {}};
     if (!place.json->is_object() || place.json->empty())
-        complain(place, "is not a text; a key of the words, or { \"en\": \"...\", \"de\": \"...\" } is right");
-    Saying saying;
+        fail_at(place, "is not a text; a key of the words, or { \"en\": \"...\", \"de\": \"...\" } is right");
+    LocalisedText saying;
     for (const auto& [language, value] : place.json->items())
         saying.texts[language] = text(member(place, language));
     return saying;
 }
 
-std::string said(const Saying& saying, const Words& words)
+std::string said(const LocalisedText& saying, const Words& words)
 {
     if (!saying.key.empty()) {
         const auto found = words.texts.find(saying.key);

@@ -10,9 +10,9 @@ namespace starbow {
 /// unlocks it; the unlock then writes into memory that belongs to something else. A query holds a reference to the fence
 /// of the scene in which it ended. Each rendering therefore ends queries of a ring, and its fence lives until the ring
 /// comes round. tests/rig/early_free.c shows the fault and its absence.
-class SceneKeeper {
+class LavapipeFenceGuard {
 public:
-    explicit SceneKeeper(const vk::raii::Device& device);
+    explicit LavapipeFenceGuard(const vk::raii::Device& device);
 
     /// Before a rendering that is so many scenes at most: frees queries from the scenes of a ring ago. The commands that
     /// free them are in the same buffer as those that use them, because a recorded buffer may never be submitted.

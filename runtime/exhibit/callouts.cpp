@@ -1,4 +1,4 @@
-#include "placards.h"
+#include "callouts.h"
 #include "config/json/error.h"
 #include "config/model/named_words.h"
 #include "runtime/world/surroundings.h"
@@ -25,7 +25,7 @@ double eyes_apart(const Layout& layout, const SceneFile& scene)
 
 } // namespace
 
-void Placards::choose(const Session& session, const GpuWorld& world, Instant& now)
+void Callouts::choose(const Session& session, const GpuWorld& world, Instant& now)
 {
     if (wants_signs(session))
         sign_ = sign_for(now.shot, things_in(session, world), world.world, world.scene.seconds_per_time_unit(),
@@ -41,7 +41,7 @@ void Placards::choose(const Session& session, const GpuWorld& world, Instant& no
 
 /// The boxes of the world's things. The rules of a flight with a pace hold them; without one they are read at their first
 /// use.
-std::span<const AlignedBox> Placards::things_in(const Session& session, const GpuWorld& world)
+std::span<const AlignedBox> Callouts::things_in(const Session& session, const GpuWorld& world)
 {
     if (session.rules.pace)
         return session.rules.pace->things;

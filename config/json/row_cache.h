@@ -9,10 +9,10 @@ namespace starbow {
 
 /// Finished rows of a long picture in a file beside it, so that an interrupted picture goes on. Rows of another picture, by
 /// its key, are dropped, and so are a row with a wrong bit and those after it.
-class KeptRows {
+class RowCache {
 public:
     /// Throws InputError where the file can't be written.
-    KeptRows(const std::filesystem::path& file, const std::string& key, std::size_t bytes_per_row, int rows);
+    RowCache(const std::filesystem::path& file, const std::string& key, std::size_t bytes_per_row, int rows);
 
     /// A row's bytes if the file had them, or null.
     const std::byte* row(int row) const

@@ -11,7 +11,7 @@ SmallPicture small_picture(Beside kind, const Shot& shot, double start_ev, doubl
 
 /// Chooses the things that are laid over the picture beside the head-up display: a sign at a thing, and the small picture
 /// with its name.
-class Placards {
+class Callouts {
 public:
     /// Adds to an instant, whose shot is known, what the session shows in it.
     void choose(const Session& session, const GpuWorld& world, Instant& now);

@@ -1,11 +1,11 @@
-#include "guide.h"
+#include "tour_player.h"
 #include <algorithm>
 
 namespace starbow {
 
 constexpr double fade_s = 1.5, prompt_s = 12;
 
-const Flight& Guide::advance(const Controls& controls, std::int64_t dt_ns)
+const Flight& TourPlayer::advance(const Controls& controls, std::int64_t dt_ns)
 {
     const std::uint32_t begun = touring_.flight.leaps.begun;
     touring_ = starbow::advance(std::move(touring_), show_, controls, dt_ns);
@@ -17,7 +17,7 @@ const Flight& Guide::advance(const Controls& controls, std::int64_t dt_ns)
     return touring_.flight;
 }
 
-void Guide::again()
+void TourPlayer::again()
 {
     const Flight before = touring_.flight;
     touring_ = touring_at(show_);
@@ -25,13 +25,13 @@ void Guide::again()
     automatic_ = over_s_ = 0;
 }
 
-double Guide::shown_ev(const Exposure& adapted, const Exposing& rules) const
+double TourPlayer::shown_ev(const Exposure& adapted, const Exposing& rules) const
 {
     const double tours = touring_.flight.exposure_ev, turned = std::clamp(tours + touring_.brighter_ev, -60.0, 60.0);
     return glm::mix(turned, starbow::shown_ev(adapted, rules, turned, tours), glm::smoothstep(0.0, 1.0, automatic_));
 }
 
-std::optional<Caption> Guide::caption(const Words& words, const InputCapabilities& capabilities) const
+std::optional<Caption> TourPlayer::caption(const Words& words, const InputCapabilities& capabilities) const
 {
     Caption caption = caption_of(touring_, show_, words, capabilities);
     if (caption.text.empty())
@@ -39,7 +39,7 @@ std::optional<Caption> Guide::caption(const Words& words, const InputCapabilitie
     return caption;
 }
 
-std::string Guide::prompt(const Words& words) const
+std::string TourPlayer::prompt(const Words& words) const
 {
     return touring_.over && over_s_ < prompt_s ? words("touring.over") : "";
 }

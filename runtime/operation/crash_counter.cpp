@@ -1,4 +1,4 @@
-#include "ends.h"
+#include "crash_counter.h"
 #include "config/json/error.h"
 #include "config/json/whole_file.h"
 #include "log.h"
@@ -13,7 +13,7 @@ constexpr const char* running = "running";
 
 } // namespace
 
-Ends::Ends(const std::filesystem::path& folder, std::int64_t now_s)
+CrashCounter::CrashCounter(const std::filesystem::path& folder, std::int64_t now_s)
     : file_(folder / "ends")
 {
     std::istringstream stream(RegularFile(file_).read_all(1 << 16));
@@ -29,14 +29,14 @@ Ends::Ends(const std::filesystem::path& folder, std::int64_t now_s)
         text += std::to_string(time) + "\n";
     try {
         text += std::string(running) + "\n";
-        write_own(file_, text, Lasting::power_cut);
+        write_own(file_, text, Durability::fsync);
     } catch (const InputError& error) {
         write_log(LogKind::ends_unwritten, std::string(error.what()) + "; crashes are not counted");
         times_.clear();
     }
 }
 
-void Ends::in_order() const
+void CrashCounter::in_order() const
 {
     std::error_code ignored;
     std::filesystem::remove(file_, ignored);
