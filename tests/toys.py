@@ -224,7 +224,7 @@ std::string name(const FlatSpectrum&) { return "a flat lamp"; }
         "input/command.h": after("    range, ///< on: everything visible at once; off: one exposure\n", "    toy, ///< on: nothing happens\n"),
         "input/command.cpp": after('    CommandRule{range, "range", Role::docent, Value::on},', ' CommandRule{toy, "toy", Role::docent, Value::on},'),
         "input/exhibit_state.h": all_of(
-            after("    bool range = false; ///< everything is visible at once\n", "    bool toy = false;\n"),
+            after("    bool slow_motion = false;\n", "    bool toy = false;\n"),
             instead('{CommandKind::range, &ExhibitState::range, "range"}};', '{CommandKind::range, &ExhibitState::range, "range"}, {CommandKind::toy, &ExhibitState::toy, "toy"}};')),
         "runtime/exhibit/session_commands.cpp": before("    case CommandKind::range:\n", "    case CommandKind::toy:\n        break;\n"),
         "runtime/hud/presenter_sheet.cpp": after("    toggle('U', \"remote.range\", {.kind = Order::range}, state.range);\n",
