@@ -28,6 +28,12 @@ Controls Hands::advance(const HandsFrame& frame)
     return controls;
 }
 
+Controls Hands::finish(Controls controls, const Requests& requests)
+{
+    (this->*writers.back().write)(controls, {.requests = requests});
+    return controls;
+}
+
 void Hands::unlock()
 {
     constexpr std::int64_t ten_minutes_ns = 600'000'000'000;

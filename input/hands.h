@@ -52,6 +52,8 @@ public:
 
     /// The controls of the visitor's hands: of all writers but the last one.
     Controls advance(const HandsFrame& frame);
+    /// The controls that fly: those of the hands, or of a replay, with the last writer's requests.
+    Controls finish(Controls controls, const Requests& requests);
 
     bool somebody() const { return somebody_; } ///< has touched a control in the last frame
     const Scan& scan() const { return scan_; } ///< of the one button

@@ -111,7 +111,7 @@ bool FrameLoop::fly_frame()
     requests.add(attend(requested(entry.controls, requests), entry.dt_ns));
     for (const Command& command : entry.commands)
         apply_command(command, requests);
-    entry.controls = requested(entry.controls, requests);
+    entry.controls = session_.hands.finish(entry.controls, requests);
     step(session_, entry, metered);
     seek_goals(session_, context_.world.scene, entry.dt_ns);
     speak(session_, context_.world.scene);

@@ -26,7 +26,7 @@ void Qualities::fix(const Quality& quality, const std::string& name)
 Quality Qualities::next(const Device& device) const
 {
     if (governor_)
-        return within(device, governor_->ladder()[governor_->level()].quality);
+        return of_level(governor_->level(), device);
     return fixed_ ? within(device, *fixed_) : default_quality(device, false);
 }
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 namespace starbow {
-
 namespace {
 
 /// A frame's flight, as the record has flown it.

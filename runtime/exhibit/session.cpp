@@ -350,7 +350,9 @@ void step(Session& session, RecordEntry& entry, const Metered& metered)
         session.diary.count([](Tally& tally) { ++tally.tours_finished; });
     apply(session.choices, controls);
     const bool replays = session.record_replay.replays();
-    entry.ranged = session.choices.range = replays ? entry.ranged : session.choices.range;
+    if (replays)
+        session.choices.range = entry.ranged;
+    entry.ranged = session.choices.range;
     session.docent.advance(dt_s);
     session.light.advance(entry,
         {.source = *session.source,

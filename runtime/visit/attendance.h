@@ -26,7 +26,7 @@ public:
     static void wait_for_throttle(const Controls& hands, bool rests, Requests& requests);
     /// A visit begins without a fade, as a docent or somebody else wants it.
     void begin() { visit_ = begun(visit_); }
-    /// Where somebody else attends: the rules by which visits are counted from now on.
+    /// Sets the rules by which visits are counted, in an exhibit that somebody else attends to.
     void count_by(const Visiting& rules) { rules_ = attends_ ? rules_ : rules; }
 
     bool attends() const { return attends_; }

@@ -67,7 +67,7 @@ private:
     std::optional<Leaps> leaps_{}; ///< of the last picture; none before the first one of a programme
     bool leapt_ = false;
     double ev_ = 0, black_ = 0;
-    // Of a calm exhibit:
+    // The limits of a calm exhibit:
     SlowTurns calm_ev_{}, calm_black_{};
     bool calm_range_ = false; ///< calm_ev_ is that of a curve
     FlashGuard flash_guard_{};
