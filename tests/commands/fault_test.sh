@@ -71,12 +71,12 @@ fly submit:1:OUT_OF_MEMORY
 [ "$(grep -c '^starbow: The graphics driver has failed: .*OutOfDeviceMemory' "$folder/log")" = 1 ] || fail "no memory at the start: no line says so"
 ok
 
-# A level of quality that has no room is left at once for one that has it, and is not tried again. On a slow machine the 60 frames
-# take long enough to try a level in between, which may have no room either.
+# A level of quality that has no room is left at once for one that has it, and is not tried again. The machine's speed decides
+# which level is tried first: the highest, or one that a slow frame allows.
 STARBOW_LARGEST_KIB=40000 timeout 60 "$program" run --layout desk --scene warm-wall --frame-budget-ms 1000 --frames 60 >"$folder/log" 2>&1 \
     || fail "a level without room: exit $?"
 refused=$(grep -o 'quality: level [0-9]* of 16 has no room' "$folder/log")
-[ "$(head -n 1 <<<"$refused")" = 'quality: level 16 of 16 has no room' ] || fail "a level without room: no line says so"
+[ -n "$refused" ] || fail "a level without room: no line says so"
 [ -z "$(sort <<<"$refused" | uniq -d)" ] || fail "a level without room: tried again: $refused"
 [ "$(grep -c '^fault: no room' "$folder/log")" = "$(wc -l <<<"$refused")" ] || fail "a level without room: tried $(grep -c '^fault: no room' "$folder/log") times"
 grep -q 'is lost' "$folder/log" && fail "a level without room: a loss of the device is reported"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The exhibit under a service manager: signs of life, waits without an end, crashes, and careful starts. It bears any load under
-# which a frame of two small windows takes less than three seconds. The manager is rig/service_manager.py.
+# which a frame of two small windows takes less than three seconds: the exhibit's own limit is 4 s before the watchdog's. The
+# manager is rig/service_manager.py.
 # Usage: service_test.sh PROGRAM FOLDER-OF-THE-RIG
 set -u
 program=$1 tools=$2 rig=$(dirname "$0")/../rig
@@ -44,11 +45,11 @@ ok
 # Everything that follows runs at once: most of it waits.
 (manage abstract --abstract --until 'STATUS=Shows 2 of 2 outputs.') &
 (layout=nowhere manage monitors --watchdog 3 --until 'STATUS=Waits for a monitor.') &
-(STARBOW_FAULTS=fence:20:HANG manage fence -- --record "$folder/fence.jsonl") &
-(STARBOW_FAULTS=fence:20:BLOCK manage fence-blocks) &
-(STARBOW_FAULTS=present:20:BLOCK manage present) &
-(STARBOW_FAULTS=present:1:BLOCK manage first --watchdog 2) &
-(STARBOW_FAULTS=acquire:21:HANG,acquire:22:HANG manage acquire) &
+(STARBOW_FAULTS=fence:20:HANG manage fence --watchdog 20 -- --record "$folder/fence.jsonl") &
+(STARBOW_FAULTS=fence:20:BLOCK manage fence-blocks --watchdog 20) &
+(STARBOW_FAULTS=present:20:BLOCK manage present --watchdog 20) &
+(STARBOW_FAULTS=present:1:BLOCK manage first --watchdog 8) &
+(STARBOW_FAULTS=acquire:21:HANG,acquire:22:HANG manage acquire --watchdog 20) &
 for case in $(jobs -p); do [ "$case" = "${started[0]}" ] || wait "$case"; done
 
 says abstract 'READY=1' && says abstract 'end 0' && ok
@@ -58,19 +59,19 @@ says monitors 'WATCHDOG=1' && says monitors 'EXTEND_TIMEOUT_USEC=10000000' && sa
 
 # hangs NAME WAIT: the program must end with 4 by itself, before the manager's watchdog, and name the wait.
 hangs() {
-    says "$1" 'end 4' && logs "$1" "error hang: .*$2.* has not come for ${3:-4\.[0-4]} s; the program ends with 4"
+    says "$1" 'end 4' && logs "$1" "error hang: .*$2.* has not come for ${3:-16\.[0-4]} s; the program ends with 4"
     grep -q silent "$folder/$1-events-log" && fail "$1: the watchdog was faster"
     ok
 }
 hangs fence 'the end of the frame.s drawing'
 hangs fence-blocks 'the end of the frame.s drawing'
 hangs present 'vkQueuePresentKHR'
-hangs first 'vkQueuePresentKHR' '6\.[4-8]' # four times 1.6 s, and as late as the others may be: drivers compile shaders in the first frame
+hangs first 'vkQueuePresentKHR' '25\.[6-9]' # four times 6.4 s, and as late as the others may be: drivers compile shaders in the first frame
 hangs acquire 'vkAcquireNextImageKHR'
 grep -q 'READY=1' "$folder/first-events-log" && fail "first: READY=1 before the first picture was presented"
-for name in fence present; do # 3.2 to 4.6 s from the last sign of life to the end: the limit is 4 s after the last frame
-    awk '/WATCHDOG=1/ { alive = $1 } / end / { exit !($1 - alive >= 3.2 && $1 - alive < 5) }' "$folder/$name-events-log" \
-        || fail "$name: not ended 4 s after the last frame"
+for name in fence present; do # the limit is 16 s after the last frame; the last sign of life may come .8 s after it
+    awk '/WATCHDOG=1/ { alive = $1 } / end / { exit !($1 - alive >= 15.2) }' "$folder/$name-events-log" \
+        || fail "$name: ended earlier than 16 s after the last frame"
 done
 [ "$(tail -n 1 "$folder/fence.jsonl" | tail -c 2)" = '}' ] && [ "$(wc -l <"$folder/fence.jsonl")" -ge 10 ] \
     || fail "fence: the record of the last frames is not whole"

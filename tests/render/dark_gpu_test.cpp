@@ -28,15 +28,8 @@ double texels(OffscreenRenderer& offscreen)
     return sum;
 }
 
-bool has_resting_observer(const Layout& layout)
-{
-    return std::ranges::any_of(layout.outputs, [](const Output& output) {
-        return std::ranges::any_of(output.viewports, [](const Viewport& one) { return one.observer.at_rest; });
-    });
-}
-
-/// Compares a layout's pictures with those in which all light counts.
-void expect_the_same_picture(const Layout& layout, const Shot& shot, double bloom, const std::string& name)
+/// Compares a layout's pictures with those in which all light counts. True if nine tenths of them are black at a gamma above 50.
+bool expect_the_same_picture(const Layout& layout, const Shot& shot, double bloom, const std::string& name)
 {
     OffscreenRenderer offscreen(device(), pipelines(), avenue().world, layout, unlimited(), false);
     offscreen.frame().bloom(bloom, 0);
@@ -44,10 +37,8 @@ void expect_the_same_picture(const Layout& layout, const Shot& shot, double bloo
     const double with = texels(offscreen);
     offscreen.frame().count_all_light(true);
     const auto all = offscreen.picture(shot);
-    // Else few pixels are dark enough to change the plan; to an observer at rest in the world all of it is lit.
-    if (glm::length(shot.u) > 50 && !has_resting_observer(layout)) {
-        EXPECT_LT(with, 0.7 * texels(offscreen)) << name;
-    }
+    const double without = texels(offscreen);
+    double dark = 0, shown = 0;
     for (std::size_t output = 0; output < all.size(); ++output) {
         long black = 0, lit_in_black = 0, differ = 0;
         double sum = 0;
@@ -60,15 +51,24 @@ void expect_the_same_picture(const Layout& layout, const Shot& shot, double bloo
             }
             black += most == 0, lit_in_black += most == 0 && now > 1, differ += off > 8, sum += off;
         }
+        dark += double(black), shown += double(pixels);
         std::printf("  %s: %.0f %% black, %.2f %% differ by more than 8, mean %.3f, %.2f of the texels\n", name.c_str(),
             100.0 * double(black) / double(pixels), 100.0 * double(differ) / double(pixels), sum / double(pixels),
-            with / texels(offscreen));
+            with / without);
         EXPECT_GT(black, 0.2 * double(pixels)) << name;
         // The planned images have other edges, so that texels on them have other mips.
         EXPECT_LE(lit_in_black, 2e-4 * double(pixels)) << name;
         EXPECT_LT(differ, 2e-4 * double(pixels)) << name;
         EXPECT_LT(sum / double(pixels), 0.01) << name;
     }
+    // A face's image is the rectangle around its lit texels. Where light fills a tenth of the pixels, the rectangles have room
+    // to shrink; a narrow field (34 degrees at gamma 100 are black in 38 % only) has light in every corner of its image.
+    EXPECT_LE(with, without) << name;
+    const bool mostly_dark = dark > 0.9 * shown && glm::length(shot.u) > 50;
+    if (mostly_dark) {
+        EXPECT_LT(with, 0.7 * without) << name;
+    }
+    return mostly_dark;
 }
 
 } // namespace
@@ -92,12 +92,14 @@ TEST(Dark, EveryShippedLayoutShowsTheSame)
 {
     const auto files = testing::shipped("config/layouts");
     EXPECT_GE(files.size(), 15u);
+    int mostly_dark = 0;
     for (const auto& file : files) {
         Layout layout = load_layout(file);
         for (Output& output : layout.outputs)
             output.size = glm::ivec2(glm::dvec2(output.size) * std::sqrt(40000.0 / (double(output.size.x) * output.size.y)));
-        expect_the_same_picture(layout, fast(100, -3), 0, file.stem().string());
+        mostly_dark += expect_the_same_picture(layout, fast(100, -3), 0, file.stem().string());
     }
+    EXPECT_GE(mostly_dark, 10) << "layouts whose images must shrink";
 }
 
 TEST(Dark, TheExposureIsMeteredAsBefore)

@@ -5,7 +5,8 @@ WATCHDOG_USEC, and starts it anew whenever it ends, as systemd would with Restar
     service_manager.py [--watchdog S] [--abstract] [--runs N] [--until TEXT] SOCKET PROGRAM ARGUMENTS...
 
 Each event is one line on standard output, after the seconds since the run's start: `start N PID`, every line of every message,
-`silent` where the watchdog's time is over (the program then gets SIGABRT), and `end STATUS`, negative for a signal. It leaves after
+`silent` where the watchdog's time is over (the program then gets SIGABRT; one that ends already, of which a driver's thread of
+low priority waits for a processor to free the memory, is not silent), and `end STATUS`, negative for a signal. It leaves after
 N runs, or once a message has the line TEXT and a sign of life after it; then it ends the program with SIGTERM. A time that
 STATUS=, READY=1 or a watchdog may still take is no limit here: only the watchdog ends a run."""
 import argparse
@@ -35,6 +36,12 @@ def main():
             return
 
 
+def ends_already(pid):
+    """Whether the process' first thread has ended, and another one has not yet."""
+    with open(f"/proc/{pid}/stat") as file:
+        return file.read().rpartition(")")[2].split()[0] == "Z"
+
+
 def follow(run, given, inbox, name):
     """One run of the program. Returns True once the awaited line has come."""
     began = time.monotonic()
@@ -62,7 +69,7 @@ def follow(run, given, inbox, name):
         elif program.poll() is not None:
             say(f"end {program.returncode}")
             return awaited
-        if ready and time.monotonic() - alive > limit_s:
+        if ready and time.monotonic() - alive > limit_s and not ends_already(program.pid):
             say("silent")
             alive = time.monotonic() + 60
             program.send_signal(signal.SIGABRT)
