@@ -11,8 +11,8 @@ bool apply(Choices& choices, const Command& command)
     case CommandKind::information:
         choices.information = information_named(command.text);
         return true;
-    case CommandKind::beside:
-        choices.beside = beside_named(command.text);
+    case CommandKind::inset:
+        choices.inset = inset_view_named(command.text);
         return true;
     case CommandKind::range:
         choices.range = command.on;
@@ -33,8 +33,8 @@ void apply(Choices& choices, Switches pressed)
     choices.range ^= pressed[Switch::range];
     if (pressed[Switch::information])
         choices.information = after(choices.information);
-    if (pressed[Switch::beside])
-        choices.beside = after(choices.beside);
+    if (pressed[Switch::inset])
+        choices.inset = after(choices.inset);
 }
 
 } // namespace starbow

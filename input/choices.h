@@ -1,7 +1,7 @@
 #pragma once
 #include "command.h"
-#include "config/model/beside.h"
 #include "config/model/information.h"
+#include "config/model/inset_view.h"
 #include "config/model/switches.h"
 #include <string>
 
@@ -12,7 +12,7 @@ namespace starbow {
 struct Choices {
     std::string language; ///< name of a file, without folder and .json
     Information information = Information::laboratory; ///< the shown display
-    Beside beside = Beside::none; ///< the small picture
+    InsetView inset = InsetView::none;
     bool range = false; ///< everything is visible at once
     bool one_button = false; ///< the visitor flies with one
     bool left_handed = false; ///< keyboard and sticks for a left-handed visitor

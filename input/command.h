@@ -28,7 +28,7 @@ enum class CommandKind : std::uint8_t {
     one_button, ///< on: the visitor flies with one button
     left_handed, ///< on: keyboard and sticks for a left-handed visitor
     comparison, ///< text: one of comparison_names
-    beside, ///< text: one of beside_names
+    inset, ///< text: one of inset_view_names
     information, ///< text: a name of `informations`
     language,
     caption, ///< text on the head-up display; empty: none

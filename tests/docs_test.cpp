@@ -1,13 +1,17 @@
-// The pages for readers: docs/README.md leads to every page, and every link leads to a file and a heading that are there.
+// The pages for readers: docs/README.md leads to every page, every link leads to a file and a heading that are there, and
+// tables of members say what the readers of files do.
 #include "config/model/schemas.h"
 #include "input/keyboard.h"
 #include "tests/support/files.h"
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <regex>
 #include <set>
+#include <utility>
 
 namespace docs_test {
 
@@ -152,7 +156,6 @@ TEST(Docs, EveryLinkLeadsToAFileAndAHeading)
     EXPECT_EQ(lines(broken), "");
 }
 
-/// Planted faults: the two tests above must find them.
 /// The table of flying.md has every key of a switch in its third column, and sticks.md every role of a button.
 TEST(Docs, EverySwitchStandsOnThePages)
 {
@@ -202,6 +205,181 @@ TEST(Docs, EveryMemberOfAFileStandsOnAPage)
     EXPECT_GT(members, 300);
 }
 
+namespace {
+
+/// An object of a schema, and the schema in which its references lead.
+struct SchemaObject {
+    std::shared_ptr<const nlohmann::json> schema;
+    nlohmann::json object;
+};
+
+/// The shape behind references and lists; a default beside a reference stays.
+nlohmann::json shape_of(const nlohmann::json& schema, nlohmann::json at)
+{
+    while (at.contains("$ref") || at.contains("items")) {
+        nlohmann::json next = at.contains("$ref")
+            ? schema.at(nlohmann::json::json_pointer(at["$ref"].get<std::string>().substr(1)))
+            : at["items"];
+        if (at.contains("default"))
+            next["default"] = at["default"];
+        at = std::move(next);
+    }
+    return at;
+}
+
+std::vector<SchemaObject> schema_objects()
+{
+    std::vector<SchemaObject> all;
+    for (const std::string& kind : kinds_with_schema()) {
+        const auto schema = std::make_shared<const nlohmann::json>(nlohmann::json::parse(schema_text(kind)));
+        const std::function<void(const nlohmann::json&)> look = [&](const nlohmann::json& at) {
+            if (at.is_object() && at.contains("properties"))
+                all.push_back({schema, at});
+            if (at.is_structured())
+                for (const nlohmann::json& part : at)
+                    look(part);
+        };
+        look(*schema);
+    }
+    return all;
+}
+
+std::vector<std::string> cells_of(const std::string& row)
+{
+    std::vector<std::string> cells;
+    std::string cell;
+    for (std::size_t i = 1; i < row.size(); ++i)
+        if (row[i] == '|' && row[i - 1] != '\\')
+            cells.push_back(std::exchange(cell, {}));
+        else
+            cell += row[i];
+    return cells;
+}
+
+const std::string number_text = R"((?:-|−)?\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?)";
+double number_of(std::string text)
+{
+    text = std::regex_replace(text, std::regex("−"), "-");
+    std::erase(text, ',');
+    return std::stod(text);
+}
+
+/// True if a cell of the column "without it" says the schema's default.
+bool says_default(const std::string& cell, const nlohmann::json& value)
+{
+    if (value == nlohmann::json({0., 0., 0.}) && cell.find("black") != cell.npos)
+        return true;
+    if (value == false && cell.find("none") != cell.npos)
+        return true;
+    if (value.is_number()) {
+        const std::regex number(number_text);
+        for (std::sregex_iterator at(cell.begin(), cell.end(), number), end; at != end; ++at)
+            if (number_of(at->str()) == value.get<double>())
+                return true;
+        return false;
+    }
+    if (value.is_array()) {
+        std::vector<double> said;
+        const std::regex number(number_text);
+        for (std::sregex_iterator at(cell.begin(), cell.end(), number), end; at != end; ++at)
+            said.push_back(number_of(at->str()));
+        return value == said;
+    }
+    return cell.find(value.is_string() ? value.get<std::string>() : value.dump()) != cell.npos;
+}
+
+/// Compares a table's row with the members that it names: their limits, whether they are needed, and their defaults.
+void expect_row_of(const SchemaObject& from, const std::vector<std::string>& head, const std::vector<std::string>& row,
+    const std::string& where)
+{
+    static const std::regex name("`([A-Za-z_.$0-9]+)`"), range("(" + number_text + ") to (" + number_text + ")");
+    std::vector<std::string> names;
+    for (std::sregex_iterator at(row[0].begin(), row[0].end(), name), end; at != end; ++at)
+        names.push_back((*at)[1]);
+    std::string prefix;
+    for (std::string member : names) {
+        if (const std::size_t dot = member.rfind('.'); dot != member.npos)
+            prefix = member.substr(0, dot + 1);
+        else if (!from.object["properties"].contains(member))
+            member = prefix + member;
+        nlohmann::json at = from.object, owner;
+        std::string last;
+        for (std::istringstream parts(member); std::getline(parts, last, '.');) {
+            owner = shape_of(*from.schema, at);
+            ASSERT_TRUE(owner.contains("properties") && owner["properties"].contains(last))
+                << where << ": no member " << member;
+            at = owner["properties"][last];
+        }
+        const nlohmann::json shape = shape_of(*from.schema, at);
+        const std::string said = std::accumulate(row.begin() + 1, row.end(), std::string());
+        if (names.size() == 1 && shape.contains("minimum") && shape.contains("maximum")) {
+            bool any = false, right = false;
+            for (std::sregex_iterator to(said.begin(), said.end(), range), end; to != end; ++to) {
+                any = true;
+                // A number of which 0 switches something off has the limits of the others on the page.
+                right |= number_of((*to)[2]) == shape["maximum"]
+                    && (number_of((*to)[1]) == shape["minimum"] || said.find("or 0") != said.npos);
+            }
+            EXPECT_TRUE(right || !any) << where << ": " << member << " is from " << shape["minimum"] << " to "
+                                       << shape["maximum"];
+        }
+        if (head.back() != " without it " && head.back() != " if left out ")
+            continue;
+        const nlohmann::json needed = owner.value("required", nlohmann::json::array());
+        const bool is_needed = std::find(needed.begin(), needed.end(), last) != needed.end();
+        const std::string& without = row.back();
+        if (names.size() == 1) {
+            EXPECT_EQ(without == " must be there " || without == " needed ", is_needed) << where << ": " << member;
+        }
+        // Two words for a default that stands elsewhere in the file.
+        if (shape.contains("default") && without != " the tour's ") {
+            EXPECT_TRUE(says_default(without, shape["default"])) << where << ": " << member << " is " << shape["default"];
+        }
+    }
+}
+
+} // namespace
+
+/// The pages' tables of members say the limits and the defaults that the descriptions have.
+TEST(Docs, TablesOfMembersSayWhatTheReaderDoes)
+{
+    const std::vector<SchemaObject> objects = schema_objects();
+    const std::regex member(R"(^ `([A-Za-z_$0-9]+))");
+    int tables = 0, rows_read = 0;
+    for (const std::string& page : pages()) {
+        std::istringstream text(read_text(source_dir() / page));
+        std::vector<std::string> head;
+        std::vector<std::vector<std::string>> rows;
+        const auto compare = [&] {
+            const auto known = [&](const SchemaObject& object) {
+                return std::ranges::count_if(rows, [&](const auto& row) {
+                    std::smatch name;
+                    return std::regex_search(row[0], name, member) && object.object["properties"].contains(name[1].str());
+                });
+            };
+            const auto named
+                = std::ranges::count_if(rows, [&](const auto& row) { return std::regex_search(row[0], member); });
+            const auto best = std::ranges::max_element(objects, {}, known);
+            if (named < 3 || known(*best) < named)
+                return;
+            ++tables;
+            for (const auto& row : rows)
+                if (std::regex_search(row[0], member))
+                    ++rows_read, expect_row_of(*best, head, row, page);
+        };
+        for (std::string line; std::getline(text, line);)
+            if (line.starts_with("| member"))
+                head = cells_of(line), rows.clear();
+            else if (line.starts_with("|") && !head.empty())
+                rows.push_back(cells_of(line));
+            else if (!head.empty())
+                compare(), head.clear();
+    }
+    EXPECT_GE(tables, 10);
+    EXPECT_GE(rows_read, 90);
+}
+
+/// Planted faults: the tests of links must find them.
 TEST(Docs, PlantedFaultsAreFound)
 {
     const auto read = [](const std::string& file) -> std::optional<std::string> {

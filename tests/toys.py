@@ -50,6 +50,11 @@ def whole(content):
     return lambda old: content
 
 
+def with_column(csv, name):
+    """A log with one more column, which is empty."""
+    return csv.replace("\n", f",{name}\n", 1).replace("\n", ",\n").replace(f",{name},\n", f",{name}\n", 1)
+
+
 TEXTS = {}  # the changed files' texts by now
 
 # Name; files with their changes; tests that know the toy (of starbow_test), and shell commands in the copy.
@@ -234,6 +239,28 @@ std::string name(const FlatSpectrum&) { return "a flat lamp"; }
         "tests/input/command_test.cpp": before('{{"slow-motion", "on"}, {', '{{"toy", "on"}, {CommandKind::toy, true, 0, ""}}, '),
         "docs/remote.md": after("starbow tell range on                                 # everything visible at once\n", "starbow tell toy on                                   # nothing\n"),
     }, "Words.*:Presenter.*"),
+    "instrument": ({
+        "runtime/hud/instruments.h": after("    std::optional<double> clocks_s; ///< the second's reading minus the first's\n",
+                                           "    std::optional<double> relative_rapidity; ///< a toy: that of relative_u\n"),
+        "runtime/hud/instruments.cpp": after("        pair.relative_u = glm::length(u);\n",
+                                             "        pair.relative_rapidity = std::asinh(*pair.relative_u);\n"),
+        "runtime/hud/lab_log.cpp": instead('{"marks_clock_2_minus_1_s", csv_number(pair.clocks_s)}});',
+            '{"marks_clock_2_minus_1_s", csv_number(pair.clocks_s)}, {"marks_relative_rapidity", csv_number(pair.relative_rapidity)}});'),
+        **{f"tests/lab/{name}.csv": lambda old: with_column(old, "marks_relative_rapidity") for name in ("einstein", "newton", "noether")},
+        "tests/hud/toy_instrument_test.cpp": whole("""// A toy instrument: the rapidity past two marks.
+#include "runtime/hud/lab_log.h"
+#include <gtest/gtest.h>
+
+namespace toy_instrument_test {
+
+TEST(Toy, AnInstrumentIsInTheLog)
+{
+    EXPECT_NE(starbow::log_header().find(",marks_relative_rapidity"), std::string::npos);
+}
+
+} // namespace toy_instrument_test
+"""),
+    }, "Toy.*:Lab*:Class*:Instruments*:StatedNumbers*:Challenges*"),
     "language": ({
         "config/words/eo.json": lambda old: TEXTS["config/words/en.json"].replace('"decimal_sign": "."', '"decimal_sign": ","'),
     }, "Words.*:TourFile*"),
@@ -340,4 +367,5 @@ def main():
             shutil.rmtree(folder, ignore_errors=True)
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())

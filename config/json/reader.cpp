@@ -184,25 +184,25 @@ std::optional<Place> find_member(const Place& place, const std::string& name)
     return Place{place.document, &*found, place.pointer + "/" + escaped(name)};
 }
 
-void take(const Place& place, const std::string& name, double& value, Range range)
+void read_optional(const Place& place, const std::string& name, double& value, Range range)
 {
     if (auto p = find_member(place, name))
         value = number(*p, range);
 }
 
-void take(const Place& place, const std::string& name, bool& value)
+void read_optional(const Place& place, const std::string& name, bool& value)
 {
     if (auto p = find_member(place, name))
         value = boolean(*p);
 }
 
-void take(const Place& place, const std::string& name, glm::dvec2& value, Range range)
+void read_optional(const Place& place, const std::string& name, glm::dvec2& value, Range range)
 {
     if (auto p = find_member(place, name))
         value = vec2(*p, range);
 }
 
-void take(const Place& place, const std::string& name, glm::dvec3& value, Range range)
+void read_optional(const Place& place, const std::string& name, glm::dvec3& value, Range range)
 {
     if (auto p = find_member(place, name))
         value = vec3(*p, range);

@@ -96,10 +96,10 @@ void reject_unknown_members(const Place& place, const std::vector<std::string_vi
 /// The member of an object, or nullopt; reject_unknown_members has checked the object.
 std::optional<Place> find_member(const Place& place, const std::string& name);
 /// Each of these sets a value to an object's member where the object has it.
-void take(const Place& place, const std::string& name, double& value, Range range);
-void take(const Place& place, const std::string& name, bool& value);
-void take(const Place& place, const std::string& name, glm::dvec2& value, Range range);
-void take(const Place& place, const std::string& name, glm::dvec3& value, Range range);
+void read_optional(const Place& place, const std::string& name, double& value, Range range);
+void read_optional(const Place& place, const std::string& name, bool& value);
+void read_optional(const Place& place, const std::string& name, glm::dvec2& value, Range range);
+void read_optional(const Place& place, const std::string& name, glm::dvec3& value, Range range);
 /// The member of an object; throws where it is missing.
 Place member(const Place& place, const std::string& name);
 

@@ -13,8 +13,8 @@ enum class LogLevel : std::uint8_t { debug, info, warning, error };
 /// scripts and the journal's catalog know the kinds by it. docs/operation.md explains each of them.
 enum class LogKind : std::uint8_t {
     hung,
-    diary_damaged,
-    diary_unwritten,
+    usage_damaged,
+    usage_unwritten,
     trace_ended,
     ends_unwritten,
     careful_start,
@@ -88,8 +88,8 @@ struct LogRule {
 /// One rule a kind, in the order of LogKind; packaging/catalog.py checks that the names are the same.
 inline constexpr auto log_rules = std::to_array<LogRule>({
     {"hung", "ab027c2584c24366920d1b237173236d", LogLevel::error, "hang"},
-    {"diary-damaged", "ff1a1f7c9d9a43789dba8c6cbcdd8392", LogLevel::warning, "diary"},
-    {"diary-unwritten", "26322efe6f4f4cddb5135bec50098ac3", LogLevel::warning, "diary"},
+    {"usage-damaged", "ff1a1f7c9d9a43789dba8c6cbcdd8392", LogLevel::warning, "usage"},
+    {"usage-unwritten", "26322efe6f4f4cddb5135bec50098ac3", LogLevel::warning, "usage"},
     {"trace-ended", "565ce55dcb4743aaa47d10cb1f1da434", LogLevel::warning, "trace"},
     {"ends-unwritten", "2ac0711feb7f4047ac4e709a7ac609f5", LogLevel::warning, "exhibit"},
     {"careful-start", "674394c262ff49c8974a765ebab064e1", LogLevel::warning, "exhibit"},

@@ -1,7 +1,7 @@
 #pragma once
-#include "beside.h"
 #include "flying.h"
 #include "information.h"
+#include "inset_view.h"
 #include "words.h"
 
 namespace starbow {
@@ -18,7 +18,7 @@ consteval std::array<Key, all_effects.size()> keys_of_effects(std::string_view p
     return keys;
 }
 consteval auto keys_of_usual_effects(std::string_view prefix) { return keys_of_effects(prefix, true); }
-inline constexpr auto beside_words = keys_of("beside.", beside_names);
+inline constexpr auto inset_view_words = keys_of("inset.", inset_view_names);
 inline constexpr auto display_words = keys_of("remote.display.", information_names);
 inline constexpr auto mode_words = keys_of("flight.", flight_mode_names);
 

@@ -75,8 +75,8 @@ Rotation read_rotation(const Place& place, bool universal_time)
             return own ? number(*own, any) : 0.0;
         };
         double per_day = 0, per_century = 0;
-        take(angle, "deg_per_day", per_day, any);
-        take(angle, "deg_per_century", per_century, any);
+        read_optional(angle, "deg_per_day", per_day, any);
+        read_optional(angle, "deg_per_century", per_century, any);
         rotation.librations.push_back({number(member(angle, "deg"), any), per_day + per_century / 36525,
             amplitude("pole_ra_sin"), amplitude("pole_dec_cos"), amplitude("W_sin")});
     }
@@ -202,7 +202,7 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
             }
         if (auto p = find_member(at, "map"))
             globe.map = folder / text(*p);
-        take(at, "map_scale", globe.map_scale, {0, 100, true});
+        read_optional(at, "map_scale", globe.map_scale, {0, 100, true});
         const auto known = [&](const Place& kind) {
             const std::string own = text(kind);
             if (std::none_of(

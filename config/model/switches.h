@@ -34,7 +34,7 @@ enum class Switch : std::uint8_t {
     plot, ///< the next plot
     hud,
     information, ///< the next display of information
-    beside, ///< the next small picture beside the large one
+    inset, ///< the next inset view
     full_screen,
     quit,
     pattern, ///< the next test pattern
@@ -137,7 +137,7 @@ inline constexpr std::array all_switches{
     SwitchEntry{Switch::hud, "hud", Leap::toggle, Presser::reader, "head-up display on and off", {'H'}, PadButton::back},
     SwitchEntry{Switch::information, "information", Leap::press, Presser::reader,
         "the next head-up display: for visitors, guides, the laboratory", {'I'}},
-    SwitchEntry{Switch::beside, "beside", Leap::press, Presser::reader,
+    SwitchEntry{Switch::inset, "beside", Leap::press, Presser::reader,
         "beside the picture: the same instant at rest, or with one effect alone, or none", {'N'}},
     SwitchEntry{Switch::full_screen, "full_screen", Leap::toggle, Presser::builder, "full screen", {keys::f11}},
     SwitchEntry{Switch::quit, "quit", Leap::none, Presser::builder, "leave", {keys::escape}},

@@ -138,7 +138,7 @@ Json UsualRate::schema(Json& definitions) const
 void check(const Place& place, Tour& tour, const Folder&)
 {
     double rate = 1;
-    take(place, "ship_s_per_s", rate, ship_rate);
+    read_optional(place, "ship_s_per_s", rate, ship_rate);
     const std::vector<Place> steps = elements(member(place, "steps"));
     for (std::size_t i = 0; i < steps.size(); ++i)
         if (!find_member(steps[i], "ship_s_per_s"))

@@ -47,7 +47,7 @@ private:
 };
 /// A key in an expression, as on one side of a condition.
 consteval Key operator""_key(const char* name, std::size_t) { return Key(name); }
-/// The texts of several names, such as those of an enum's values: keys_of("beside.", beside_names).
+/// The texts of several names, such as those of an enum's values: keys_of("inset.", inset_view_names).
 template <class Name, std::size_t count>
 consteval std::array<Key, count> keys_of(std::string_view prefix, const std::array<Name, count>& names)
 {

@@ -1,11 +1,11 @@
 #include "floor_plan.h"
+#include "config/markup/svg.h"
 #include "config/model/turn.h"
 #include "displays/projections/views.h"
 #include "floor_plan_table.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 
 namespace starbow {
@@ -25,23 +25,6 @@ struct Box {
 bool meet(const Box& a, const Box& b)
 {
     return a.from.x < b.to.x && b.from.x < a.to.x && a.from.y < b.to.y && b.from.y < a.to.y;
-}
-
-std::string escaped(const std::string& text)
-{
-    std::string safe;
-    for (char c : text)
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else if (c == '>')
-            safe += "&gt;";
-        else if (c == '"')
-            safe += "&quot;";
-        else
-            safe += (unsigned char)(c) < 0x20 ? '?' : c;
-    return safe;
 }
 
 std::size_t letters(const std::string& text)
@@ -80,54 +63,23 @@ std::vector<std::string> wrapped(const std::string& text, double width, double s
     return lines;
 }
 
-/// The elements of a drawing, one a line.
-struct Svg {
-    std::string text;
+void write(Svg& svg, glm::dvec2 at, const std::string& words, double size = 13, const std::string& more = {})
+{
+    svg.text(at, words, "font-size=\"" + shortest(size) + "\" " + more);
+}
 
-    [[gnu::format(printf, 2, 3)]] void add(const char* format, ...)
-    {
-        char line[512];
-        va_list arguments;
-        va_start(arguments, format);
-        std::vsnprintf(line, sizeof line, format, arguments);
-        va_end(arguments);
-        text += line;
-    }
+void rect(Svg& svg, const Box& box, const std::string& more) { svg.rect(box.from, box.to, more); }
 
-    void write(glm::dvec2 at, const std::string& words, double size = 13, const char* more = "")
-    {
-        add("<text x=\"%.1f\" y=\"%.1f\" font-size=\"%g\" %s>", at.x, at.y, size, more);
-        text += escaped(words) + "</text>\n";
-    }
+void heading(Svg& svg, glm::dvec2 at, const std::string& words) { write(svg, at, words, 17, "font-weight=\"bold\""); }
 
-    void line(glm::dvec2 a, glm::dvec2 b, const char* more)
-    {
-        add("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" %s/>\n", a.x, a.y, b.x, b.y, more);
-    }
-
-    void rect(const Box& box, const char* more)
-    {
-        add("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" %s/>\n", box.from.x, box.from.y,
-            box.to.x - box.from.x, box.to.y - box.from.y, more);
-    }
-
-    void circle(glm::dvec2 at, double radius, const char* more)
-    {
-        add("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" %s/>\n", at.x, at.y, radius, more);
-    }
-
-    void heading(glm::dvec2 at, const std::string& words) { write(at, words, 17, "font-weight=\"bold\""); }
-
-    /// Writes a label centred at `at`, on a light ground that hides what is below.
-    void label(glm::dvec2 at, const std::string& words, double size, const char* colour)
-    {
-        const glm::dvec2 half(bold_width(words, size) / 2 + 3, size * 0.72);
-        rect({at - half, at + half}, "rx=\"3\" fill=\"white\" fill-opacity=\"0.8\"");
-        add("<text x=\"%.1f\" y=\"%.1f\" font-size=\"%g\" font-weight=\"bold\" text-anchor=\"middle\" fill=\"%s\">", at.x,
-            at.y + size * 0.36, size, colour);
-        text += escaped(words) + "</text>\n";
-    }
-};
+/// Writes a label centred at `at`, on a light ground that hides what is below.
+void label(Svg& svg, glm::dvec2 at, const std::string& words, double size, const std::string& colour)
+{
+    const glm::dvec2 half(bold_width(words, size) / 2 + 3, size * 0.72);
+    svg.rect(at - half, at + half, "rx=\"3\" fill=\"white\" fill-opacity=\"0.8\"");
+    write(svg, at + glm::dvec2(0, size * 0.36), words, size,
+        "font-weight=\"bold\" text-anchor=\"middle\" fill=\"" + colour + '"');
+}
 
 Box around(glm::dvec2 at, const std::string& words, double size)
 {
@@ -155,17 +107,19 @@ public:
 
     void draw()
     {
-        svg_.add("<clipPath id=\"map%d\"><rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/></clipPath>\n", number_,
-            map_left, top_, map_width, height);
-        svg_.rect({at({-180, 90}), at({180, -90})}, "fill=\"#fbfbf8\"");
+        const std::string clip = "map" + std::to_string(number_);
+        svg_.raw("<clipPath id=\"" + clip + "\">");
+        rect(svg_, {at({-180, 90}), at({180, -90})}, "");
+        svg_.raw("</clipPath>");
+        rect(svg_, {at({-180, 90}), at({180, -90})}, "fill=\"#fbfbf8\"");
         graticule();
-        svg_.add("<g clip-path=\"url(#map%d)\">\n", number_);
+        svg_.raw("<g clip-path=\"url(#" + clip + ")\">");
         for (const Coverage* coverage : shown_)
             region(*coverage);
         if (hud_)
             hud(*hud_);
-        svg_.add("</g>\n");
-        svg_.rect({at({-180, 90}), at({180, -90})}, "fill=\"none\" stroke=\"#444\"");
+        svg_.raw("</g>");
+        rect(svg_, {at({-180, 90}), at({180, -90})}, "fill=\"none\" stroke=\"#444\"");
         for (const Coverage* coverage : shown_)
             name(*coverage);
     }
@@ -179,12 +133,12 @@ private:
         for (int azimuth = -180; azimuth <= 180; azimuth += 30) {
             svg_.line(at({azimuth, 90}), at({azimuth, -90}), azimuth % 90 == 0 ? thick : thin);
             const char* word = azimuth == 0 ? " ahead" : azimuth == 90 ? " right" : azimuth == -90 ? " left" : "";
-            svg_.write(
-                at({azimuth, -90}) + glm::dvec2(0, 17), short_number(azimuth) + "°" + word, 12, "text-anchor=\"middle\"");
+            write(svg_, at({azimuth, -90}) + glm::dvec2(0, 17), short_number(azimuth) + "°" + word, 12,
+                "text-anchor=\"middle\"");
         }
         for (int elevation = -90; elevation <= 90; elevation += 30) {
             svg_.line(at({-180, elevation}), at({180, elevation}), elevation == 0 ? thick : thin);
-            svg_.write(at({-180, elevation}) + glm::dvec2(-7, 4), short_number(elevation) + "°", 12, "text-anchor=\"end\"");
+            write(svg_, at({-180, elevation}) + glm::dvec2(-7, 4), short_number(elevation) + "°", 12, "text-anchor=\"end\"");
         }
         svg_.line(at({0, 0}) - glm::dvec2(7, 0), at({0, 0}) + glm::dvec2(7, 0), "stroke=\"#444\" stroke-width=\"1.5\"");
         svg_.line(at({0, 0}) - glm::dvec2(0, 7), at({0, 0}) + glm::dvec2(0, 7), "stroke=\"#444\" stroke-width=\"1.5\"");
@@ -195,24 +149,24 @@ private:
         const char* colour = colour_of(coverage.output);
         if (coverage.outlines.empty())
             return;
-        svg_.add("<path class=\"shown\" fill=\"%s\" fill-opacity=\"0.26\" fill-rule=\"evenodd\" d=\"", colour);
+        std::string inside, border;
         for (const auto& outline : coverage.outlines) {
-            for (std::size_t i = 0; i < outline.size(); ++i)
-                svg_.add("%s%.2f %.2f", i ? "L" : "M", at(outline[i]).x, at(outline[i]).y);
-            svg_.add("Z");
-        }
-        svg_.add("\"/>\n");
-        // Along the map's edge the shown part continues at the other side: no line there.
-        svg_.add("<path fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" stroke-linejoin=\"round\" d=\"", colour);
-        for (const auto& outline : coverage.outlines)
+            std::vector<glm::dvec2> points;
+            for (const glm::dvec2& deg : outline)
+                points.push_back(at(deg));
+            inside += path_data(points, true);
+            // Along the map's edge the shown part continues at the other side: no line there.
             for (std::size_t i = 0; i < outline.size(); ++i) {
-                const glm::dvec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+                const std::size_t next = (i + 1) % outline.size();
                 const auto edge
                     = [](double x, double y, double of) { return std::abs(x) > of - 0.26 && std::abs(y) > of - 0.26; };
-                if (!edge(a.x, b.x, 180) && !edge(a.y, b.y, 90))
-                    svg_.add("M%.2f %.2fL%.2f %.2f", at(a).x, at(a).y, at(b).x, at(b).y);
+                if (!edge(outline[i].x, outline[next].x, 180) && !edge(outline[i].y, outline[next].y, 90))
+                    border += path_data(std::array{points[i], points[next]});
             }
-        svg_.add("\"/>\n");
+        }
+        const std::string quoted = '"' + std::string(colour) + '"';
+        svg_.path(inside, "class=\"shown\" fill-opacity=\"0.26\" fill-rule=\"evenodd\" fill=" + quoted);
+        svg_.path(border, "fill=\"none\" stroke-width=\"1.8\" stroke-linejoin=\"round\" stroke=" + quoted);
     }
 
     void hud(const HudPlacement& hud)
@@ -220,7 +174,7 @@ private:
         const glm::dvec2 middle(hud.azimuth_deg, hud.elevation_deg), half(hud.width_deg / 2, 0);
         svg_.line(at(middle - half), at(middle + half), "stroke=\"#222\" stroke-width=\"1.5\" stroke-dasharray=\"5 3\"");
         const glm::dvec2 below = at(middle) + glm::dvec2(0, 13);
-        svg_.label(below, "head-up display", 11, "#222");
+        label(svg_, below, "head-up display", 11, "#222");
         taken_.push_back(around(below, "head-up display", 11));
         taken_.push_back({at({0, 0}) - 8., at({0, 0}) + 8.}); // the cross straight ahead
     }
@@ -249,8 +203,8 @@ private:
                 }
         if (candidates.empty() && coverage.looks) { // the part is too small for the lattice
             const glm::dvec2 spot = at(azimuth_elevation_deg(*coverage.looks));
-            svg_.circle(spot, 4, (std::string("fill=\"none\" stroke-width=\"1.8\" stroke=\"") + colour + "\"").c_str());
-            svg_.label(spot + glm::dvec2(0, spot.y > top_ + 40 ? -18 : 18), words, size, colour);
+            svg_.circle(spot, 4, std::string("fill=\"none\" stroke-width=\"1.8\" stroke=\"") + colour + "\"");
+            label(svg_, spot + glm::dvec2(0, spot.y > top_ + 40 ? -18 : 18), words, size, colour);
         }
         const glm::dvec3 middle = glm::length(sum) > 0 ? glm::normalize(sum) : glm::dvec3(0, 0, -1);
         double best = -1e9;
@@ -278,7 +232,7 @@ private:
         if (best == -1e9)
             return;
         taken_.push_back(around(found, words, size));
-        svg_.label(found, words, size, colour);
+        label(svg_, found, words, size, colour);
     }
 
     Svg& svg_;
@@ -318,8 +272,8 @@ double draw_output(Svg& svg, const Layout& layout, int number, const Box& box)
     const Output& output = layout.outputs[number];
     const char* colour = colour_of(number);
     const double room = box.to.x - box.from.x;
-    svg.write(box.from + glm::dvec2(0, 14), shortened(output.name, std::size_t(room / 9)), 14,
-        (std::string("font-weight=\"bold\" fill=\"") + colour + "\"").c_str());
+    write(svg, box.from + glm::dvec2(0, 14), shortened(output.name, std::size_t(room / 9)), 14,
+        std::string("font-weight=\"bold\" fill=\"") + colour + "\"");
     std::string words = std::to_string(output.size.x) + " x " + std::to_string(output.size.y);
     if (output.resizable)
         words += ", resizable";
@@ -329,11 +283,11 @@ double draw_output(Svg& svg, const Layout& layout, int number, const Box& box)
         words += ", the operator's preview";
     double y = box.from.y + 20;
     for (const std::string& line : wrapped(words, room, 12))
-        svg.write({box.from.x, y += 14}, line, 12, "fill=\"#444\"");
+        write(svg, {box.from.x, y += 14}, line, 12, "fill=\"#444\"");
     y += 8;
     const double scale = std::min(room / output.size.x, (box.to.y - y) / output.size.y);
     const glm::dvec2 corner(box.from.x, y), size = glm::max(glm::dvec2(output.size) * scale, glm::dvec2(2));
-    svg.rect({corner, corner + size}, "fill=\"#f0f0ec\" stroke=\"#444\"");
+    rect(svg, {corner, corner + size}, "fill=\"#f0f0ec\" stroke=\"#444\"");
     const std::vector<int> layers = layers_of(output);
     for (const Part& part : parts(output.packing))
         for (std::size_t v = 0; v < output.viewports.size(); ++v) {
@@ -343,9 +297,8 @@ double draw_output(Svg& svg, const Layout& layout, int number, const Box& box)
             const glm::dvec2 from(viewport.rect.x, viewport.rect.y), extent(viewport.rect.z, viewport.rect.w);
             const auto in = [&](glm::dvec2 at) { return corner + size * glm::mix(part.box.from, part.box.to, at); };
             const Box shown{in(from), in(from + extent)};
-            svg.rect(shown,
-                (std::string("fill=\"") + colour + "\" fill-opacity=\"0.26\" stroke=\"" + colour + "\" stroke-width=\"1.5\"")
-                    .c_str());
+            rect(svg, shown,
+                std::string("fill=\"") + colour + "\" fill-opacity=\"0.26\" stroke=\"" + colour + "\" stroke-width=\"1.5\"");
             const Eye eye = part.eye == Eye::middle ? viewport.eye : part.eye;
             std::string name;
             if (output.viewports.size() > 1)
@@ -361,16 +314,16 @@ double draw_output(Svg& svg, const Layout& layout, int number, const Box& box)
             const bool several = output.viewports.size() > 1 || part.eye != Eye::middle;
             const bool sizes = several && width_of(extent_words, 11) < room_in.x - 4 && room_in.y > 34;
             if (!name.empty() && width_of(name, 13) < room_in.x - 2 && room_in.y > 15)
-                svg.write(middle + glm::dvec2(0, sizes ? -2 : 4), name, 13, "font-weight=\"bold\" text-anchor=\"middle\"");
+                write(svg, middle + glm::dvec2(0, sizes ? -2 : 4), name, 13, "font-weight=\"bold\" text-anchor=\"middle\"");
             if (sizes)
-                svg.write(middle + glm::dvec2(0, name.empty() ? 4 : 13), extent_words, 11, "text-anchor=\"middle\"");
+                write(svg, middle + glm::dvec2(0, name.empty() ? 4 : 13), extent_words, 11, "text-anchor=\"middle\"");
         }
     return y + size.y;
 }
 
 double draw_outputs(Svg& svg, const Layout& layout, double top)
 {
-    svg.heading({column_left, top + 14}, "Outputs");
+    heading(svg, {column_left, top + 14}, "Outputs");
     const int count = int(layout.outputs.size()), columns = count <= 2 ? 1 : count <= 6 ? 2 : 3;
     const double gap = 24, width = (column_width - gap * (columns - 1)) / columns;
     const double tallest = columns == 1 ? (count == 1 ? 380 : 300) : columns == 2 ? 210 : 150;
@@ -416,7 +369,7 @@ public:
     {
         if (!placed_)
             return top;
-        svg_.heading({column_left, top + 14}, "The room from above, ahead is up");
+        heading(svg_, {column_left, top + 14}, "The room from above, ahead is up");
         const double pad = 34, tallest = 420;
         const glm::dvec2 extent = glm::max(high_ - low_, glm::dvec2(0.1));
         scale_ = std::min((column_width - 2 * pad) / extent.x, (tallest - 2 * pad) / extent.y);
@@ -424,7 +377,7 @@ public:
         const glm::dvec2 corner(column_left, top + 26);
         origin_ = corner + glm::dvec2(column_width / 2 - (low_.x + high_.x) / 2 * scale_, pad - low_.y * scale_);
         frame_ = {corner, corner + size};
-        svg_.rect(frame_, "fill=\"#fbfbf8\" stroke=\"#444\"");
+        rect(svg_, frame_, "fill=\"#fbfbf8\" stroke=\"#444\"");
         for (bool upright : {false, true})
             each([&](const Output&, int number, const Viewport& viewport) { things(viewport, number, upright); });
         eyes();
@@ -470,24 +423,22 @@ private:
             const glm::dvec3 normal = glm::normalize(glm::cross(all[1] - all[0], all[3] - all[0]));
             if ((std::abs(normal.y) < 0.7) != upright)
                 return;
-            svg_.add("<path class=\"wall\" d=\"");
-            bool first = true;
-            for (const glm::dvec3& corner : all) {
-                svg_.add("%s%.1f %.1f", first ? "M" : "L", at(corner).x, at(corner).y);
-                first = false;
-            }
-            svg_.add("Z\" fill=\"%s\" fill-opacity=\"0.12\" stroke=\"%s\" stroke-width=\"3\" stroke-linejoin=\"round\"/>\n",
-                colour, colour);
+            std::vector<glm::dvec2> points;
+            for (const glm::dvec3& corner : all)
+                points.push_back(at(corner));
+            svg_.path(path_data(points, true),
+                std::string("class=\"wall\" fill-opacity=\"0.12\" stroke-width=\"3\" stroke-linejoin=\"round\" fill=\"")
+                    + colour + "\" stroke=\"" + colour + '"');
         }
         if (const SphericalMirror* mirror = std::get_if<SphericalMirror>(&viewport.projection); mirror && upright) {
             svg_.circle(at(mirror->dome_m), mirror->dome_radius_m * scale_,
                 "fill=\"none\" stroke=\"#888\" stroke-width=\"2\" stroke-dasharray=\"6 4\"");
             svg_.circle(at(mirror->mirror_m), mirror->mirror_radius_m * scale_,
-                (std::string("fill=\"#ddd\" stroke-width=\"2\" stroke=\"") + colour + "\"").c_str());
+                std::string("fill=\"#ddd\" stroke-width=\"2\" stroke=\"") + colour + "\"");
             const glm::dvec3 ahead = cockpit_from_picture(mirror->projector.turn) * glm::dvec3(0, 0, -1);
             const glm::dvec2 lens = at(mirror->projector_m), way(ahead.x, ahead.z);
-            svg_.line(lens, lens + way * 26., (std::string("stroke-width=\"2\" stroke=\"") + colour + "\"").c_str());
-            svg_.rect({lens - 5., lens + 5.}, (std::string("fill=\"") + colour + "\"").c_str());
+            svg_.line(lens, lens + way * 26., std::string("stroke-width=\"2\" stroke=\"") + colour + "\"");
+            rect(svg_, {lens - 5., lens + 5.}, std::string("fill=\"") + colour + "\"");
             name(lens + glm::dvec2(0, 17), "projector", colour);
             name(at(mirror->mirror_m), "mirror", colour);
         }
@@ -502,8 +453,9 @@ private:
         });
         for (const glm::dvec3& place : places) {
             const glm::dvec2 eye = at(place);
-            svg_.add("<path d=\"M%.1f %.1fl-6 11h12z\" fill=\"#222\"/>\n", eye.x, eye.y - 8); // the visitor, who looks
-            // ahead
+            // The visitor, who looks ahead.
+            svg_.polygon(
+                std::array{eye - glm::dvec2(0, 8), eye + glm::dvec2(-6, 3), eye + glm::dvec2(6, 3)}, "fill=\"#222\"");
             taken_.push_back({eye - 10., eye + 10.});
         }
         for (const glm::dvec3& place : places)
@@ -533,7 +485,7 @@ private:
             }
         }
         taken_.push_back(around(place, words, 12));
-        svg_.label(place, words, 12, colour);
+        label(svg_, place, words, 12, colour);
     }
 
     void bar(glm::dvec2 corner)
@@ -547,7 +499,7 @@ private:
         svg_.line(corner, corner + glm::dvec2(length * scale_, 0), "stroke=\"#222\" stroke-width=\"3\"");
         char words[32];
         std::snprintf(words, sizeof words, "%g m", length);
-        svg_.write(corner + glm::dvec2(length * scale_ + 8, 4), words, 12);
+        write(svg_, corner + glm::dvec2(length * scale_ + 8, 4), words, 12);
     }
 
     const Layout& layout_;
@@ -574,7 +526,7 @@ double draw_table(Svg& svg, const Layout& layout, const std::vector<Coverage>& c
     const double right = page_width - margin;
     double x = margin;
     for (const Column& column : columns) {
-        svg.write({x, top + 14}, column.title, 14, "font-weight=\"bold\"");
+        write(svg, {x, top + 14}, column.title, 14, "font-weight=\"bold\"");
         x += column.width;
     }
     double y = top + 24;
@@ -587,10 +539,10 @@ double draw_table(Svg& svg, const Layout& layout, const std::vector<Coverage>& c
             const bool named = column.words == &FloorPlanRow::name;
             const auto lines = wrapped(rows[i].*column.words, column.width - (named ? 34 : 16), size);
             if (named)
-                svg.rect({{x, y + 6}, {x + 13, y + 19}},
-                    (std::string("fill=\"") + colour_of(rows[i].output) + "\" fill-opacity=\"0.6\"").c_str());
+                rect(svg, {{x, y + 6}, {x + 13, y + 19}},
+                    std::string("fill=\"") + colour_of(rows[i].output) + "\" fill-opacity=\"0.6\"");
             for (std::size_t n = 0; n < lines.size(); ++n)
-                svg.write({x + (named ? 20 : 0), y + step * double(n + 1)}, lines[n], size);
+                write(svg, {x + (named ? 20 : 0), y + step * double(n + 1)}, lines[n], size);
             most = std::max(most, lines.size());
             x += column.width;
         }
@@ -605,7 +557,7 @@ double draw_overlaps(Svg& svg, const Layout& layout, const std::vector<Coverage>
     const std::vector<std::string> lines = overlap_lines(layout, coverages);
     if (coverages.size() < 2)
         return top;
-    svg.heading({margin, top + 14}, lines.empty() ? "No two viewports overlap" : "What they share");
+    heading(svg, {margin, top + 14}, lines.empty() ? "No two viewports overlap" : "What they share");
     constexpr std::size_t most = 60;
     double y = top + 20;
     const std::size_t count = std::min(lines.size(), most), half = (count + 1) / 2;
@@ -615,11 +567,11 @@ double draw_overlaps(Svg& svg, const Layout& layout, const std::vector<Coverage>
         if (i == half)
             y = top + 20;
         for (const std::string& line : wrapped(lines[i], width - 20, 13))
-            svg.write({margin + (i < half ? 0 : width), y += 18}, line, 13);
+            write(svg, {margin + (i < half ? 0 : width), y += 18}, line, 13);
         lowest = std::max(lowest, y);
     }
     if (lines.size() > most)
-        svg.write({margin, lowest += 18}, "and " + std::to_string(lines.size() - most) + " more", 13);
+        write(svg, {margin, lowest += 18}, "and " + std::to_string(lines.size() - most) + " more", 13);
     return lowest + 22;
 }
 
@@ -629,12 +581,13 @@ std::string draw_floor_plan(
     const Layout& layout, const std::vector<Coverage>& coverages, const std::optional<HudPlacement>& hud)
 {
     Svg svg;
-    svg.write({margin, margin + 20}, layout.name.empty() ? "Layout" : layout.name, 26, "font-weight=\"bold\"");
+    svg.raw("<rect width=\"100%\" height=\"100%\" fill=\"white\"/>");
+    write(svg, {margin, margin + 20}, layout.name.empty() ? "Layout" : layout.name, 26, "font-weight=\"bold\"");
     const bool two_eyes = !coverages.empty() && coverages.front().eye != Eye::middle;
     double left = margin + 44;
     int number = 0;
     for (Eye eye : two_eyes ? std::vector{Eye::left, Eye::right} : std::vector{Eye::middle}) {
-        svg.heading({map_left, left + 14},
+        heading(svg, {map_left, left + 14},
             std::string("What the viewports show")
                 + (eye == Eye::left         ? " the left eye"
                         : eye == Eye::right ? " the right eye"
@@ -648,13 +601,10 @@ std::string draw_floor_plan(
     y = draw_table(svg, layout, coverages, y);
     y = draw_overlaps(svg, layout, coverages, y) + margin - 22;
 
-    Svg page;
-    page.add("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" "
-             "height=\"%.0f\" "
-             "viewBox=\"0 0 %.0f %.0f\" font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\" fill=\"#111\">\n",
-        page_width, y, page_width, y);
-    page.add("<rect width=\"%.0f\" height=\"%.0f\" fill=\"white\"/>\n", page_width, y);
-    return page.text + svg.text + "</svg>\n";
+    const glm::dvec2 size(page_width, y);
+    return svg.drawn(size,
+        "width=\"" + shortest(size.x) + "\" height=\"" + shortest(size.y)
+            + "\" font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\" fill=\"#111\"");
 }
 
 } // namespace starbow

@@ -1,10 +1,11 @@
 #include "commands.h"
 #include "config/json/error.h"
 #include "config/json/whole_file.h"
+#include "config/markup/html.h"
+#include "config/markup/svg.h"
 #include "runtime/commands/options/command_line.h"
-#include "runtime/hud/html.h"
-#include "runtime/operation/diary.h"
 #include "runtime/operation/state_folder.h"
+#include "runtime/operation/usage_statistics.h"
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -35,29 +36,25 @@ std::string time_of(double s)
 
 /// A bar for each hour from the first to the last one with pictures.
 template <class Value>
-std::string bars(const Day& day, int first, int last, const char* colour, int decimals, const Value& value)
+std::string bars(const UsageDay& day, int first, int last, const char* colour, int decimals, const Value& value)
 {
     constexpr double width = 800, height = 180, foot = 24, head = 20;
     double most = 0;
     for (int hour = first; hour <= last; ++hour)
         most = std::max(most, value(day.hours[std::size_t(hour)]));
     const double pitch = width / double(last - first + 1);
-    std::ostringstream out;
-    out << "<svg viewBox=\"0 0 " << width << ' ' << height << "\" role=\"img\">\n";
+    const double ground = height - foot;
+    Svg svg;
     for (int hour = first; hour <= last; ++hour) {
-        const double v = value(day.hours[std::size_t(hour)]), x = pitch * (hour - first);
-        const double tall = most > 0 ? (height - foot - head) * v / most : 0;
-        out << "<rect x=\"" << x + 0.1 * pitch << "\" y=\"" << height - foot - tall << "\" width=\"" << 0.8 * pitch
-            << "\" height=\"" << tall << "\" fill=\"" << colour << "\"/>\n";
-        out << "<text x=\"" << x + 0.5 * pitch << "\" y=\"" << height - 6 << "\" text-anchor=\"middle\">" << hour
-            << "</text>\n";
+        const double v = value(day.hours[std::size_t(hour)]), x = pitch * (hour - first), middle = x + 0.5 * pitch;
+        const double tall = most > 0 ? (ground - head) * v / most : 0;
+        svg.rect({x + 0.1 * pitch, ground - tall}, {x + 0.9 * pitch, ground}, std::string("fill=\"") + colour + '"');
+        svg.text({middle, height - 6}, std::to_string(hour), "text-anchor=\"middle\"");
         if (v > 0)
-            out << "<text x=\"" << x + 0.5 * pitch << "\" y=\"" << height - foot - tall - 4 << "\" text-anchor=\"middle\">"
-                << figure(v, decimals) << "</text>\n";
+            svg.text({middle, ground - tall - 4}, figure(v, decimals), "text-anchor=\"middle\"");
     }
-    out << "<line x1=\"0\" x2=\"" << width << "\" y1=\"" << height - foot << "\" y2=\"" << height - foot
-        << "\" stroke=\"#888\"/>\n</svg>\n";
-    return out.str();
+    svg.line({0, ground}, {width, ground}, "stroke=\"#888\"");
+    return svg.drawn({width, height}, "role=\"img\"");
 }
 
 /// A count with a comma before each three digits.
@@ -74,7 +71,7 @@ std::string row(const std::string& name, const std::string& value)
     return "<tr><td>" + name + "</td><td>" + value + "</td></tr>\n";
 }
 
-std::string page_of(const Day& day, int first, int last, const Tally& all)
+std::string page_of(const UsageDay& day, int first, int last, const UsageCounts& all)
 {
     std::ostringstream out;
     const std::string mean = all.visits > 0 ? time_of(all.visits_s / double(all.visits)) : "none";
@@ -91,13 +88,13 @@ std::string page_of(const Day& day, int first, int last, const Tally& all)
         << row("Commands of remotes, and refused ones", grouped(all.commands) + ", " + grouped(all.refused_commands))
         << row("Greatest memory", figure(1e-6 * double(all.resident_bytes), 0) + " MB") << "</table>\n";
     out << "<h2>Visits by the hour</h2>\n"
-        << bars(day, first, last, "#0b5fa5", 0, [](const Tally& tally) { return double(tally.visits); });
+        << bars(day, first, last, "#0b5fa5", 0, [](const UsageCounts& counts) { return double(counts.visits); });
     out << "<h2>Mean length of a visit, seconds</h2>\n"
         << bars(day, first, last, "#15803d", 0,
-               [](const Tally& tally) { return tally.visits > 0 ? tally.visits_s / double(tally.visits) : 0; });
+               [](const UsageCounts& counts) { return counts.visits > 0 ? counts.visits_s / double(counts.visits) : 0; });
     out << "<h2>Missed refreshes in 100,000 pictures</h2>\n"
-        << bars(day, first, last, "#c2410c", 1, [](const Tally& tally) {
-               return tally.frames() > 0 ? 1e5 * double(tally.missed_refreshes) / double(tally.frames()) : 0;
+        << bars(day, first, last, "#c2410c", 1, [](const UsageCounts& counts) {
+               return counts.frames() > 0 ? 1e5 * double(counts.missed_refreshes) / double(counts.frames()) : 0;
            });
     out << "<h2>Time of the visitors in each scene</h2>\n<table>\n";
     for (const auto& [scene, s] : all.scenes_s)
@@ -110,12 +107,12 @@ int report(const ReportOptions& options)
 {
     const std::filesystem::path state = options.state.empty() ? state_folder() : std::filesystem::path(options.state);
     const std::string date = options.day.empty() ? date_of(std::time(nullptr)) : options.day;
-    const Day day = load_day(state, date);
+    const UsageDay day = load_usage_day(state, date);
     int first = 24, last = -1;
-    Tally all;
+    UsageCounts all;
     for (int hour = 0; hour < 24; ++hour)
-        if (const Tally& tally = day.hours[std::size_t(hour)]; tally.frames() > 0) {
-            all += tally;
+        if (const UsageCounts& counts = day.hours[std::size_t(hour)]; counts.frames() > 0) {
+            all += counts;
             first = std::min(first, hour), last = hour;
         }
     if (last < 0) {

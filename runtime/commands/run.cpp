@@ -50,7 +50,7 @@ ExhibitOptions reopen(const std::filesystem::path& record, const std::string& la
 {
     const RecordHeader header = Replay(record).header();
     const Flown flown = find_flown(record, header, layout, write_log);
-    return {.programme = {.scene = flown.scene, .start = header.start},
+    return {.content = {.scene = flown.scene, .start = header.start},
         .layout = flown.layout,
         .words = words_in(language.empty() ? "en" : language),
         .rules = header.rules,
@@ -173,7 +173,7 @@ int run(const RunOptions& given)
     }
     write_log(LogKind::files_used, "the shipped files are in " + home().string());
     write_log(LogKind::files_used, "the layout is " + exhibit_options.layout.file.string());
-    write_log(LogKind::files_used, "the scene is " + exhibit_options.programme.scene.string());
+    write_log(LogKind::files_used, "the scene is " + exhibit_options.content.scene.string());
     write_log(LogKind::files_used, std::to_string(exhibit_options.profiles.size()) + " profiles of devices are known");
     std::optional<Trace> trace;
     if (!options.trace.empty())

@@ -25,7 +25,7 @@ double eyes_apart(const Layout& layout, const SceneFile& scene)
 
 } // namespace
 
-void Callouts::choose(const Session& session, const GpuWorld& world, Instant& now)
+void Callouts::choose(const Session& session, const GpuWorld& world, PictureState& now)
 {
     if (wants_signs(session))
         sign_ = sign_for(now.shot, things_in(session, world), world.world, world.scene.seconds_per_time_unit(),
@@ -34,9 +34,9 @@ void Callouts::choose(const Session& session, const GpuWorld& world, Instant& no
         sign_.reset();
     if (sign_)
         now.sign = {lines_of(*sign_, session.words), sign_->towards};
-    if (session.choices.beside != Beside::none)
-        now.small_picture = small_picture(
-            session.choices.beside, now.shot, session.programme.start.exposure_ev, telescope_deg_, session.words);
+    if (session.choices.inset != InsetView::none)
+        now.inset = inset_picture(
+            session.choices.inset, now.shot, session.content.start.exposure_ev, telescope_deg_, session.words);
 }
 
 /// The boxes of the world's things. The rules of a flight with a pace hold them; without one they are read at their first
@@ -55,17 +55,17 @@ std::span<const AlignedBox> Callouts::things_in(const Session& session, const Gp
     return *things_;
 }
 
-SmallPicture small_picture(Beside kind, const Shot& shot, double start_ev, double& telescope_deg, const Words& words)
+InsetPicture inset_picture(InsetView kind, const Shot& shot, double start_ev, double& telescope_deg, const Words& words)
 {
-    telescope_deg = kind == Beside::telescope ? telescope_fov_deg(glm::length(shot.u), telescope_deg) : 0;
-    SmallPicture made{.kind = kind, .start_ev = start_ev};
+    telescope_deg = kind == InsetView::telescope ? telescope_fov_deg(glm::length(shot.u), telescope_deg) : 0;
+    InsetPicture made{.kind = kind, .start_ev = start_ev};
     if (telescope_deg > 0) {
         made.fov_deg = telescope_deg;
         char angle[32]; // 30, 1.5, 0.06
         std::snprintf(angle, sizeof angle, "%g", telescope_deg);
-        made.name = words("beside.telescope_angle", {{"angle", words.number(angle)}});
+        made.name = words("inset.telescope_angle", {{"angle", words.number(angle)}});
     } else {
-        made.name = words(beside_words[std::size_t(kind)]);
+        made.name = words(inset_view_words[std::size_t(kind)]);
     }
     return made;
 }

@@ -1,20 +1,20 @@
 #pragma once
 #include "runtime/hud/signs.h"
-#include "runtime/machines/instant.h"
+#include "runtime/machines/picture_state.h"
 #include "session.h"
 
 namespace starbow {
 
-/// The small picture of a kind that is not `none`. start_ev: as beside()'s. telescope_deg: the telescope's field in the
+/// The inset of a kind that is not `none`. start_ev: as inset_shot()'s. telescope_deg: the telescope's field in the
 /// frame before, and then in this one; 0: none.
-SmallPicture small_picture(Beside kind, const Shot& shot, double start_ev, double& telescope_deg, const Words& words);
+InsetPicture inset_picture(InsetView kind, const Shot& shot, double start_ev, double& telescope_deg, const Words& words);
 
-/// Chooses the things that are laid over the picture beside the head-up display: a sign at a thing, and the small picture
+/// Chooses the things that are laid over the picture beside the head-up display: a sign at a thing, and the inset
 /// with its name.
 class Callouts {
 public:
-    /// Adds to an instant, whose shot is known, what the session shows in it.
-    void choose(const Session& session, const GpuWorld& world, Instant& now);
+    /// Adds to a picture, whose shot is known, what the session shows in it.
+    void choose(const Session& session, const GpuWorld& world, PictureState& now);
     /// Another world, layout or quality.
     void forget() { things_.reset(), sign_.reset(); }
 

@@ -126,7 +126,7 @@ int fly_exhibit(const ExhibitOptions& options)
         session.service.stops();
         session.record_replay.end(session.flight(), print_message);
         session.record_replay.close();
-        session.diary.close();
+        session.usage.close();
     });
     DeviceLosses losses(session);
     for (;;) {
@@ -136,10 +136,10 @@ int fly_exhibit(const ExhibitOptions& options)
         std::unique_ptr<RenderContext> context;
         Loss loss;
         bool coarser = false; // the device is opened anew for a level of less memory, and nothing is wrong with it
-        session.service.loads("Loads the world " + session.programme.scene.filename().string() + ".", loading_limit_s);
+        session.service.loads("Loads the world " + session.content.scene.filename().string() + ".", loading_limit_s);
         try {
             context
-                = std::make_unique<RenderContext>(session.programme.scene, device_of(options), session.qualities.spectra());
+                = std::make_unique<RenderContext>(session.content.scene, device_of(options), session.qualities.spectra());
             if (losses.none())
                 log_world(*context);
             {
@@ -171,7 +171,7 @@ int fly_exhibit(const ExhibitOptions& options)
         if (coarser)
             continue;
         if (losses.flew())
-            session.diary.count([](Tally& tally) { ++tally.device_losses; });
+            session.usage.count([](UsageCounts& counts) { ++counts.device_losses; });
         if (!losses.survives(loss))
             return 1;
         if (is_over(session))

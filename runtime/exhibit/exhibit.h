@@ -10,10 +10,10 @@
 #include "config/model/remote_file.h"
 #include "config/model/visiting.h"
 #include "config/model/words.h"
-#include "programme.h"
 #include "runtime/flight/record.h"
 #include "runtime/operation/latency.h"
 #include "runtime/render/frame_renderer.h"
+#include "session_content.h"
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -24,7 +24,7 @@ class Trace;
 
 /// Everything that an exhibit starts with, its files read.
 struct ExhibitOptions {
-    Programme programme;
+    SessionContent content;
     Layout layout;
     Words words; ///< for the visitor's texts
     Flying rules{};
@@ -71,7 +71,7 @@ struct ExhibitOptions {
 };
 
 /// An attraction, counted on from 0: a tour, or the start of the flight where the exhibit has none. Throws InputError.
-Programme attraction_of(const ExhibitOptions& options, const Words& words, std::size_t number);
+SessionContent attraction_of(const ExhibitOptions& options, const Words& words, std::size_t number);
 
 /// Flies until the visitor leaves. Follows changes of the layout's files and of the monitors, and recovers from the loss
 /// of the GPU. Returns the exit status. Throws InputError or vk::SystemError for errors before

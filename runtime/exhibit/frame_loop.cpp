@@ -122,13 +122,13 @@ bool FrameLoop::fly_frame()
     if (controls[Switch::pattern] && master_ && session_.alignment.pattern() != Pattern::none)
         session_.alignment.say(screens_of(session_));
     if (turn_diary(session_, screens_.shown(), context_.pipelines.count())) {
-        remote_.publish_condition(session_.diary);
+        remote_.publish_condition(session_.usage);
         gather_lacks();
     }
     if (!visible) {
         remote_.shown(session_); // there is no picture to wait for
         if (master_) { // but the other machines have some
-            master_->send(shared(next_instant(controls.head)), session_.light.leapt());
+            master_->send(shared(next_picture_state(controls.head)), session_.light.leapt());
             release_frame();
         }
         presenter_window_.show(session_, screens_.monitors());
@@ -140,13 +140,13 @@ bool FrameLoop::fly_frame()
     // Plan, cull, upload and record; FrameRenderer::draw lists the passes.
     const Clock::time_point begun = Clock::now();
     fit_outputs();
-    const Instant instant = next_instant(controls.head);
+    const PictureState picture = next_picture_state(controls.head);
     if (master_)
-        master_->send(shared(instant), session_.light.leapt());
-    const Panel* panel = pictures_.set_up(instant, session_.words, *frame_);
+        master_->send(shared(picture), session_.light.leapt());
+    const Panel* panel = pictures_.set_up(picture, session_.words, *frame_);
     const std::size_t pipelines = context_.pipelines.count();
     begin_commands();
-    frame_->draw(*commands_[0], *commands_[1], instant.shot, panel, screens_.targets());
+    frame_->draw(*commands_[0], *commands_[1], picture.shot, panel, screens_.targets());
     end_commands();
     const std::size_t made = context_.pipelines.count() - pipelines;
     if (made > 0)
@@ -183,7 +183,7 @@ bool FrameLoop::fly_frame()
     ++session_.shown;
     constexpr std::int64_t idle_ns = 2'000'000'000; // else somebody's hand is on a device, and waits for the picture
     if (steady_ns(now) - controls.report_ns > idle_ns)
-        warm_up_at_rest(instant.shot);
+        warm_up_at_rest(picture.shot);
     return true;
 }
 
@@ -273,7 +273,7 @@ std::unique_ptr<WarmUp> FrameLoop::warm_up_in(const Quality& quality)
     try {
         return in_room([&] {
             return std::make_unique<WarmUp>(device_, context_.pipelines, context_.world, session_.layout, quality,
-                session_.programme.start, screens_.format(), session_.options.exposure.automatic,
+                session_.content.start, screens_.format(), session_.options.exposure.automatic,
                 bloom_of(session_.options.exposure, device_.on_processor()));
         });
     } catch (const NoRoom&) {
@@ -356,17 +356,17 @@ void FrameLoop::fit_outputs()
     session_.qualities.follow_sizes(sizes);
 }
 
-Instant FrameLoop::next_instant(const Head& head)
+PictureState FrameLoop::next_picture_state(const Head& head)
 {
     const bool by_hand = session_.source->by_hand(); // a tour's own motion may roll
     const Flight& flight = session_.flight();
     const ShownLight& light = session_.light;
-    Instant now{.shot = shot_of(flight, session_.programme.start.scene, by_hand ? session_.rules.comfort : Comfort()),
+    PictureState now{.shot = shot_of(flight, session_.content.start.scene, by_hand ? session_.rules.comfort : Comfort()),
         .head = head,
         .range = light.curve(),
         .meters = session_.options.exposure.automatic || session_.choices.range || session_.options.exposure.calm,
         .bloom = bloom_of(session_.options.exposure, device_.on_processor()),
-        .black = light.black(),
+        .fade = light.fade(),
         .vignette = session_.rules.comfort.vignette.value_or(Vignette()),
         .vignette_part = by_hand ? flight.vignette : 0,
         .pattern = session_.alignment.pattern()};
@@ -393,11 +393,11 @@ void FrameLoop::release_frame()
             "VK_NV_present_barrier");
 }
 
-SharedInstant FrameLoop::shared(const Instant& now) const
+SharedState FrameLoop::shared(const PictureState& now) const
 {
     const std::filesystem::path coming = worlds_.coming();
     const std::optional<Governor>& governor = session_.qualities.governor();
-    return {.scene = master_->name_of("scenes", session_.programme.scene),
+    return {.scene = master_->name_of("scenes", session_.content.scene),
         .coming = coming.empty() ? "" : master_->name_of("scenes", coming),
         .layout = master_->name_of("layouts", session_.layout.file),
         .layout_digest = master_->layout_digest(),
@@ -405,7 +405,7 @@ SharedInstant FrameLoop::shared(const Instant& now) const
         .language = session_.words.language,
         .quality = governor ? "" : session_.qualities.name(),
         .level = governor ? std::int32_t(governor->level()) : -1,
-        .instant = now};
+        .picture = now};
 }
 
 /// Gives an output the size of its window's picture, or half of it, or a quarter, until the device has room for it.
@@ -504,7 +504,7 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
     session_.refused.clear();
     session_.qualities.forget_refusals();
     screens_.adopt(session_.layout);
-    session_.diary.count([](Tally& tally) { ++tally.layouts; });
+    session_.usage.count([](UsageCounts& counts) { ++counts.layouts; });
     const std::size_t unkept = changes(session_.kept, session_.layout).size();
     write_log(LogKind::layout_applied,
         session_.layout.file.string() + ": applied" + (unkept > 0 ? "; changes made by keys are kept (F5 saves them)" : ""));

@@ -1,8 +1,8 @@
 #pragma once
 #include "callouts.h"
 #include "hud_updater.h"
-#include "instant_pictures.h"
 #include "master.h"
+#include "picture_setup.h"
 #include "presenter_window.h"
 #include "remote_control.h"
 #include "runtime/render/frame_timer.h"
@@ -41,7 +41,7 @@ private:
     void warm_up();
     /// One step of the same while nobody sees that a frame comes late.
     void warm_up_at_rest(const Shot& shot);
-    /// Null where a viewport is too narrow for a small picture. Throws NoRoom.
+    /// Null where a viewport is too narrow for an inset. Throws NoRoom.
     std::unique_ptr<WarmUp> warm_up_in(const Quality& quality);
     /// Another world, layout or quality: the warm-up at rest and the callouts begin anew.
     void forget_drawn() { at_rest_.reset(), rested_ = false, callouts_.forget(), pictures_.forget(); }
@@ -62,7 +62,7 @@ private:
     /// Another state is wanted than the world that is being read.
     void forget_coming();
     /// visitors: false where nobody is there to fly.
-    void show_programme(Programme programme, bool visitors = true);
+    void show_content(SessionContent content, bool visitors = true);
     void show_attraction(std::size_t number);
     void record_visit();
     /// Follows the visit by the frame's signs of somebody, and carries out what it asks for. hands: this frame's.
@@ -76,9 +76,9 @@ private:
     /// Gives the outputs their windows' sizes.
     void fit_outputs();
     /// The session's present state as its pictures depend on it.
-    Instant next_instant(const Head& head);
+    PictureState next_picture_state(const Head& head);
     /// The same for the other machines.
-    SharedInstant shared(const Instant& now) const;
+    SharedState shared(const PictureState& now) const;
     /// Lets all machines show the frame, and keeps the names of those that are not in step.
     void release_frame();
     /// These two enclose FrameRenderer::draw with the timer and the layout transitions of the windows' images. The commands
@@ -106,7 +106,7 @@ private:
     std::size_t most_pipelines_; ///< that are kept
     HudUpdater hud_;
     Callouts callouts_;
-    InstantPictures pictures_;
+    PictureSetup pictures_;
     std::unique_ptr<Master> master_; ///< null: this machine shows all
     std::vector<TurnedNumber> turned_; ///< the builder's changes, for the other machines
     FramePace pace_;

@@ -35,10 +35,10 @@ void FrameLoop::await_worlds(std::vector<Command>& commands)
             = command.kind == CommandKind::scene || command.kind == CommandKind::shot || command.kind == CommandKind::tour;
         std::filesystem::path scene;
         try {
-            scene = leads ? programme_after(session_, command).scene : "";
+            scene = leads ? content_after(session_, command).scene : "";
         } catch (const InputError&) { // it is refused where it is carried out
         }
-        if (scene.empty() || scene == session_.programme.scene) {
+        if (scene.empty() || scene == session_.content.scene) {
             ++i;
             continue;
         }
@@ -63,14 +63,14 @@ void FrameLoop::forget_coming()
     remote_.resume("the exhibit began again meanwhile");
 }
 
-/// Shows a programme, in its world, from the start. Throws InputError, for want of memory, too; then the old world is still
-/// shown.
-void FrameLoop::show_programme(Programme programme, bool visitors)
+/// Shows other content, in its world, from the start. Throws InputError, for want of memory, too; then the old world is
+/// still shown.
+void FrameLoop::show_content(SessionContent content, bool visitors)
 {
-    if (programme.scene != session_.programme.scene) {
-        const LimitedWait loading("the world " + programme.scene.filename().string(), loading_limit_s);
-        session_.service.loads("Loads the world " + programme.scene.filename().string() + ".", loading_limit_s);
-        LoadedScene loaded = worlds_.take(programme.scene);
+    if (content.scene != session_.content.scene) {
+        const LimitedWait loading("the world " + content.scene.filename().string(), loading_limit_s);
+        session_.service.loads("Loads the world " + content.scene.filename().string() + ".", loading_limit_s);
+        LoadedScene loaded = worlds_.take(content.scene);
         GpuWorld world = in_room([&] { return upload_scene(context_, std::move(loaded), session_.qualities.spectra()); });
         forget_drawn(); // it draws the old world
         exchange_world(context_, std::move(world), [&] {
@@ -79,7 +79,7 @@ void FrameLoop::show_programme(Programme programme, bool visitors)
         log_world(context_);
         fresh_ = true; // the first frame of a world is a part of its loading
     }
-    begin_programme(session_, std::move(programme), visitors);
+    begin_content(session_, std::move(content), visitors);
     return_free_memory(); // nobody sees a pause here
 }
 
@@ -101,7 +101,7 @@ void FrameLoop::apply_command(const Command& command, Requests& requests)
             forget_coming();
             forget_directions(session_);
             frame_->adopt(session_.qualities.next(device_));
-            show_programme(session_.options.programme);
+            show_content(session_.options.content);
             session_.lab.reset();
             session_.alignment.show_first();
             if (const std::int64_t touched_ns = session_.attendance.visit().touched_ns; touched_ns > 0)
@@ -111,7 +111,7 @@ void FrameLoop::apply_command(const Command& command, Requests& requests)
         case CommandKind::scene:
         case CommandKind::shot:
         case CommandKind::tour:
-            show_programme(programme_after(session_, command));
+            show_content(content_after(session_, command));
             if (!session_.attendance.in_hand())
                 session_.attendance.begin(); // by the docent
             break;
@@ -124,7 +124,7 @@ void FrameLoop::apply_command(const Command& command, Requests& requests)
         default:
             starbow::apply_command(session_, command, requests);
         }
-        session_.diary.count([](Tally& tally) { ++tally.commands; });
+        session_.usage.count([](UsageCounts& counts) { ++counts.commands; });
         remote_.note("");
         presenter_.note(command, "", session_.words);
         write_log(LogKind::command_done, words);
@@ -132,7 +132,7 @@ void FrameLoop::apply_command(const Command& command, Requests& requests)
         remote_.note("the GPU was lost meanwhile; the same command again is right");
         throw; // a loss; a lack of memory is none, and a NoRoom
     } catch (const std::exception& error) {
-        session_.diary.count([](Tally& tally) { ++tally.refused_commands; });
+        session_.usage.count([](UsageCounts& counts) { ++counts.refused_commands; });
         session_.docent.refusal = one_line(error.what());
         remote_.note(session_.docent.refusal);
         presenter_.note(command, session_.docent.refusal, session_.words);

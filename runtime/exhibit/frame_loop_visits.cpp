@@ -18,7 +18,7 @@ VisitSigns signs_of(const Session& session)
 }
 
 /// True where the flight begins at rest, and is the visitor's own.
-bool begins_at_rest(const Session& session) { return !session.tour() && session.programme.start.u == glm::dvec3(0); }
+bool begins_at_rest(const Session& session) { return !session.tour() && session.content.start.u == glm::dvec3(0); }
 
 /// Somebody else attends: only what tells a visitor where to begin begins again.
 void wait_for_visitor(Session& session)
@@ -36,10 +36,10 @@ void wait_for_visitor(Session& session)
 void FrameLoop::show_attraction(std::size_t number)
 {
     try {
-        show_programme(attraction_of(session_.options, session_.words, number), false);
+        show_content(attraction_of(session_.options, session_.words, number), false);
     } catch (const InputError& error) {
         write_log(LogKind::attraction_refused, one_line(error.what()) + "; the start of the flight is shown in its place");
-        show_programme(session_.options.programme, false);
+        show_content(session_.options.content, false);
     }
 }
 
@@ -64,8 +64,8 @@ Requests FrameLoop::attend(const Controls& hands, std::int64_t dt_ns)
     const VisitEvents events = attendance.advance(signs_of(session_), dt_ns);
     const Visit& visit = attendance.visit();
     if (visit.phase == VisitPhase::entering && visit.phase_ns == 0
-        && session_.options.programme.scene != session_.programme.scene)
-        worlds_.open(session_.options.programme.scene); // while the picture fades
+        && session_.options.content.scene != session_.content.scene)
+        worlds_.open(session_.options.content.scene); // while the picture fades
     if (events.ends && (attendance.attends() || events.length_s > 0))
         count_visit(session_, events.length_s);
     if (!attendance.attends()) {
@@ -94,7 +94,7 @@ void FrameLoop::change_visitors(const VisitEvents& events)
     if (events.shows_attraction)
         show_attraction(session_.attendance.visit().attraction);
     if (events.begins) {
-        show_programme(session_.options.programme);
+        show_content(session_.options.content);
         record_visit();
     }
     if (events.ends && session_.options.visit_over)

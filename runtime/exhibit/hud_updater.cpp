@@ -7,7 +7,7 @@ namespace starbow {
 /// True while the choices of one-button flying are shown in turn.
 static bool scans(const Session& session) { return by_one_button(session) && session.source->by_hand(); }
 
-std::optional<Written> HudUpdater::update(const Session& session, const SceneFile& scene, double exposure_ev)
+std::optional<HudText> HudUpdater::update(const Session& session, const SceneFile& scene, double exposure_ev)
 {
     const Clock::time_point now = Clock::now();
     const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
@@ -74,7 +74,7 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
     const Flight& flight = session.flight();
     Readings shown = readings(flight, scene, by_hand ? session.rules.comfort : Comfort());
     shown.frames_per_s = rate_;
-    show_on(session.choices.information, session.programme.start.time * scene.seconds_per_time_unit(), shown);
+    show_on(session.choices.information, session.content.start.time * scene.seconds_per_time_unit(), shown);
     shown.mode = flight.mode, shown.frozen = flight.frozen, shown.lever = flight.lever;
     if (const TourPlayer* tour = session.tour()) {
         shown.prompt = tour->prompt(words);

@@ -1,5 +1,5 @@
 #pragma once
-#include "runtime/machines/instant.h"
+#include "runtime/machines/picture_state.h"
 #include "session.h"
 #include <chrono>
 
@@ -10,14 +10,14 @@ class HudUpdater {
 public:
     /// The text in the next frame. There is none if the visitor has switched the display off, and beside a test pattern
     /// without a message to the builder.
-    std::optional<Written> update(const Session& session, const SceneFile& scene, double exposure_ev);
-    const Written& written() const { return written_; } ///< the last text, also where it is not shown
+    std::optional<HudText> update(const Session& session, const SceneFile& scene, double exposure_ev);
+    const HudText& written() const { return written_; } ///< the last text, also where it is not shown
 
 private:
     using Clock = std::chrono::steady_clock;
     Readings readings_of(const Session& session, const SceneFile& scene, double exposure_ev) const;
 
-    Written written_;
+    HudText written_;
     Clock::time_point written_at_{}, since_ = Clock::now();
     int frames_ = 0;
     double rate_ = 0; ///< frames a second

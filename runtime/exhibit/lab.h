@@ -3,7 +3,7 @@
 #include "runtime/hud/lab_log.h"
 #include "runtime/hud/lab_panel.h"
 #include "runtime/hud/lab_plot.h"
-#include "runtime/machines/instant.h"
+#include "runtime/machines/picture_state.h"
 #include "runtime/render/frame_renderer.h"
 #include <chrono>
 

@@ -39,7 +39,7 @@ ConfigMessage config_of(const ExhibitOptions& options, FileDigests of_layout)
     std::error_code error;
     add("the program", {fs::read_symlink("/proc/self/exe", error)});
     add(options.words.file.filename().string(), {options.words.file});
-    const fs::path& scene = options.programme.scene;
+    const fs::path& scene = options.content.scene;
     const fs::path gltf = open_scene(scene).gltf;
     for (const fs::path& file : {scene, gltf})
         if (!file.empty())

@@ -116,25 +116,25 @@ void Master::describe(std::vector<MachineHealth>& machines) const
         put(name, node.in, node.frame_ms, node.refused);
 }
 
-void Master::send(const SharedInstant& shared, bool leapt)
+void Master::send(const SharedState& shared, bool leapt)
 {
     const bool leads = this->leads();
-    const auto& on = shared.instant.instruments;
+    const auto& on = shared.picture.instruments;
     if (!leads)
         page_ = 0; // the nodes will lack it
     else if (on && on->panel && std::exchange(page_, on->panel_number) != page_)
         bus_.send(page_of(*on->panel, on->panel_number));
     StateMessage state{++frame_, {}};
     try {
-        state.instant = bytes_of(shared);
+        state.bytes = bytes_of(shared);
     } catch (const InputError& error) { // without its texts it is short
         if (std::exchange(too_long_, one_line(error.what())) != one_line(error.what()))
             write_limited(LogKind::state_unread, too_long_ + "; the other machines show no text meanwhile");
-        SharedInstant shorter = shared;
-        shorter.instant.hud.reset(), shorter.instant.sign.reset(), shorter.instant.small_picture.reset();
-        state.instant = bytes_of(shorter);
+        SharedState shorter = shared;
+        shorter.picture.hud.reset(), shorter.picture.sign.reset(), shorter.picture.inset.reset();
+        state.bytes = bytes_of(shorter);
     }
-    digest_ = digest_of_instant(state.instant);
+    digest_ = digest_of_state(state.bytes);
     gate_.begin(frame_, digest_, leapt);
     begun_ = Clock::now();
     if (!leads)

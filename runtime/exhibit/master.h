@@ -2,7 +2,7 @@
 #include "exhibit.h"
 #include "runtime/machines/frame_log.h"
 #include "runtime/machines/gate.h"
-#include "runtime/machines/instant_bytes.h"
+#include "runtime/machines/shared_state.h"
 #include "runtime/operation/machine_health.h"
 
 namespace starbow {
@@ -18,10 +18,10 @@ public:
     /// The digest of the layout's files, which the nodes compare with their own.
     std::uint64_t layout_digest() const { return layout_digest_; }
 
-    /// Sends the next frame's instant, before it the instruments' page if that is a new one; the nodes draw it while the
+    /// Sends the next frame's state, before it the instruments' page if that is a new one; the nodes draw it while the
     /// master does. leapt: the picture has nothing to do with the one before. While another master of this exhibit leads,
     /// nothing is sent.
-    void send(const SharedInstant& shared, bool leapt);
+    void send(const SharedState& shared, bool leapt);
     /// True where somebody waits until the master has drawn the frame: nodes in step, or the log of frames.
     bool awaits_drawing() const { return log_.is_open() || gate_.somebody_in(); }
     /// A sentence about what keeps it from leading: the network, or another master; empty: nothing.

@@ -47,8 +47,8 @@ MenuPage switches_of(const Session& session)
     const Effects& on = session.flight().effects;
     MenuPage page{.title = words("menu.show"),
         .items = {switch_of(words, "menu.range", {.kind = CommandKind::range}, session.choices.range),
-            next_of(words, "menu.beside", beside_words[std::size_t(session.choices.beside)], CommandKind::beside,
-                name_of(after(session.choices.beside))),
+            next_of(words, "menu.inset", inset_view_words[std::size_t(session.choices.inset)], CommandKind::inset,
+                name_of(after(session.choices.inset))),
             next_of(words, "menu.information", display_words[std::size_t(session.choices.information)],
                 CommandKind::information, name_of(after(session.choices.information)))},
         .stays = true};

@@ -2,8 +2,8 @@
 #include "config/json/error.h"
 #include "config/model/shipped.h"
 #include "exhibit_renderer.h"
-#include "instant_pictures.h"
 #include "node_layout.h"
+#include "picture_setup.h"
 #include "runtime/machines/frame_log.h"
 #include "runtime/machines/gate.h"
 #include "runtime/machines/page_bytes.h"
@@ -35,7 +35,7 @@ public:
         : options_(options)
         , layout_(options)
         , bus_(place_of(options.machines.value()), Bus::Role::node, write_log)
-        , scene_(options.programme.scene)
+        , scene_(options.content.scene)
         , context_(scene_, device_of(options), Qualities(options).spectra())
         , screens_(context_.device, options.layout, options.node)
         , words_(options.words)
@@ -60,19 +60,19 @@ public:
     const Device& device() const { return context_.device; }
 
 private:
-    Quality quality_of(const SharedInstant& shared) const;
+    Quality quality_of(const SharedState& shared) const;
     Quality quality() const;
     void make_frame(const Layout& layout, std::optional<PreparedLayout> prepared = {});
     void listen();
     void follow_files();
     void apply(LayoutLoader::Loaded loaded);
     void take(const StateMessage& state);
-    void follow(const SharedInstant& shared);
+    void follow(const SharedState& shared);
     void open_world(const std::string& scene);
-    double blackness() const;
+    double fade() const;
     bool lacks_page() const;
     void await_page();
-    void draw(const SharedInstant& shared, bool fresh);
+    void draw(const SharedState& shared, bool fresh);
     void await_go(std::int64_t number);
 
     const ExhibitOptions& options_;
@@ -82,18 +82,18 @@ private:
     std::string scene_name_; ///< as the master names it; empty: the options'
     RenderContext context_;
     WorldLoader worlds_;
-    std::string coming_; ///< SharedInstant's
+    std::string coming_; ///< SharedState's
     Screens screens_;
     Words words_;
     std::string language_;
     std::unique_ptr<FrameRenderer> frame_;
-    std::optional<std::pair<std::int32_t, std::string>> chosen_; ///< SharedInstant's level and quality; none: not yet
-    InstantPictures pictures_;
+    std::optional<std::pair<std::int32_t, std::string>> chosen_; ///< SharedState's level and quality; none: not yet
+    PictureSetup pictures_;
     vk::raii::Fence done_;
     vk::raii::CommandBuffers commands_;
     std::optional<std::uint64_t> master_; ///< as the bus's
     std::optional<StateMessage> state_; ///< the last one
-    std::optional<SharedInstant> shared_; ///< read from it
+    std::optional<SharedState> shared_; ///< read from it
     bool fresh_ = false; ///< it is not drawn yet
     bool was_in_step_ = false; ///< this node has drawn one exactly
     std::int64_t page_number_ = 0; ///< of the page
@@ -112,7 +112,7 @@ private:
     long shown_ = 0;
 };
 
-Quality Node::quality_of(const SharedInstant& shared) const
+Quality Node::quality_of(const SharedState& shared) const
 {
     const Device& device = context_.device;
     if (shared.level >= 0 && std::size_t(shared.level) < options_.ladder.size())
@@ -165,7 +165,7 @@ void Node::listen()
 void Node::take(const StateMessage& state)
 {
     try {
-        SharedInstant shared = instant_of(state.instant);
+        SharedState shared = shared_state_of(state.bytes);
         follow(shared);
         shared_ = std::move(shared), state_ = state, fresh_ = true;
         heard_ = Clock::now();
@@ -179,7 +179,7 @@ void Node::take(const StateMessage& state)
 }
 
 /// Opens what another state needs. Throws InputError; then the old one is shown.
-void Node::follow(const SharedInstant& shared)
+void Node::follow(const SharedState& shared)
 {
     if (shared.scene != scene_name_) {
         const std::filesystem::path scene = shipped_file("scenes", shared.scene);
@@ -199,8 +199,8 @@ void Node::follow(const SharedInstant& shared)
         layout_.turn(*std::move(turned), shared.turned);
     }
     const World& world = context_.world.world;
-    if (shared.instant.instruments)
-        for (const auto& mark : shared.instant.instruments->marks)
+    if (shared.picture.instruments)
+        for (const auto& mark : shared.picture.instruments->marks)
             if (mark
                 && (mark->frame < 0 || std::size_t(mark->frame) >= std::max<std::size_t>(world.frames.size(), 1)
                     || (mark->clock && *mark->clock >= world.instances.size())))
@@ -261,7 +261,7 @@ void Node::apply(LayoutLoader::Loaded loaded)
 }
 
 /// The part of black while the master is away.
-double Node::blackness() const
+double Node::fade() const
 {
     return shared_ ? std::clamp((seconds(Clock::now() - heard_) - patience_s) / fade_s, 0.0, 1.0) : 1;
 }
@@ -278,34 +278,34 @@ bool Node::step(Service& service)
     listen();
     if (fresh_)
         await_page();
-    const double black = blackness();
+    const double faded = fade();
     if (away_)
         service.waits(bus_.lack().empty() ? "Waits for the master." : "Waits for the network: " + bus_.lack() + ".");
     else
         service.shows("Shows " + std::to_string(screens_.shown()) + " outputs of the node " + options_.node + ".");
-    if (!fresh_ && (black == 0 || (black == 1 && dark_))) {
+    if (!fresh_ && (faded == 0 || (faded == 1 && dark_))) {
         bus_.wait(std::chrono::milliseconds(5));
         return true;
     }
-    if (black > 0 && !std::exchange(away_, true))
+    if (faded > 0 && !std::exchange(away_, true))
         write_limited(LogKind::master_away, "no state from the master for half a second; the outputs fade to black");
     if (!screens_.acquire()) {
         bus_.wait(std::chrono::milliseconds(20));
         return true;
     }
-    SharedInstant shared = shared_.value_or(SharedInstant{});
-    if (shared.instant.instruments && page_number_ != 0)
-        shared.instant.instruments->panel = shared.instant.instruments->panel_number != 0 ? &page_ : nullptr;
-    shared.instant.black = std::max(shared.instant.black, glm::smoothstep(0.0, 1.0, black));
+    SharedState shared = shared_.value_or(SharedState{});
+    if (shared.picture.instruments && page_number_ != 0)
+        shared.picture.instruments->panel = shared.picture.instruments->panel_number != 0 ? &page_ : nullptr;
+    shared.picture.fade = std::max(shared.picture.fade, glm::smoothstep(0.0, 1.0, faded));
     draw(shared, std::exchange(fresh_, false));
-    dark_ = black == 1;
+    dark_ = faded == 1;
     return true;
 }
 
 /// True where the state names a page that is still to come.
 bool Node::lacks_page() const
 {
-    const auto& on = shared_ ? shared_->instant.instruments : std::nullopt;
+    const auto& on = shared_ ? shared_->picture.instruments : std::nullopt;
     return on && on->panel_number != 0 && on->panel_number != page_number_;
 }
 
@@ -318,7 +318,7 @@ void Node::await_page()
 }
 
 /// Only a frame that is exactly the master's counts as ready: one with another layout's file, or without its page, is not.
-void Node::draw(const SharedInstant& shared, bool fresh)
+void Node::draw(const SharedState& shared, bool fresh)
 {
     const Clock::time_point begun = Clock::now();
     Device& device = context_.device;
@@ -326,13 +326,13 @@ void Node::draw(const SharedInstant& shared, bool fresh)
     for (std::size_t i = 0; i < screens_.targets().size(); ++i)
         if (const Target& target = screens_.targets()[i]; target.view)
             frame_->resize(i, glm::ivec2(target.extent.width, target.extent.height));
-    const Panel* panel = pictures_.set_up(shared.instant, words_, *frame_);
+    const Panel* panel = pictures_.set_up(shared.picture, words_, *frame_);
     for (vk::raii::CommandBuffer& commands : commands_) {
         commands.reset();
         commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     }
     screens_.begin_pictures(*commands_[1]);
-    frame_->draw(*commands_[0], *commands_[1], shared.instant.shot, panel, screens_.targets());
+    frame_->draw(*commands_[0], *commands_[1], shared.picture.shot, panel, screens_.targets());
     screens_.end_pictures(*commands_[1]);
     for (const vk::raii::CommandBuffer& commands : commands_)
         commands.end();
@@ -342,7 +342,7 @@ void Node::draw(const SharedInstant& shared, bool fresh)
     if (fresh) {
         const bool exact = layout_.is_of(shared) && !lacks_page();
         // Another digest, for the log.
-        const std::uint64_t digest = digest_of_instant(state_->instant) + (exact ? 0 : 1);
+        const std::uint64_t digest = digest_of_state(state_->bytes) + (exact ? 0 : 1);
         const double drawn_ms = 1e3 * seconds(Clock::now() - begun);
         if (exact) {
             bus_.send(ReadyMessage{options_.node, number, digest, drawn_ms, screens_.barrier(), frame_->own_samples()});

@@ -40,7 +40,7 @@ void NodeLayout::compare(const ConfigMessage& master, bool was_in_step)
         write_limited(LogKind::node_refused, why);
 }
 
-std::optional<Layout> NodeLayout::turned_by(const SharedInstant& shared)
+std::optional<Layout> NodeLayout::turned_by(const SharedState& shared)
 {
     const bool other_name = std::exchange(named_, shared.layout) != shared.layout;
     if (shared.layout_digest != digest_) {

@@ -1,7 +1,7 @@
 #pragma once
 #include "layout_loader.h"
 #include "machine_files.h"
-#include "runtime/machines/instant_bytes.h"
+#include "runtime/machines/shared_state.h"
 
 namespace starbow {
 
@@ -21,10 +21,10 @@ public:
 
     /// The layout by a state's numbers, if it is another than the shown one. A layout of another name is loaded. Throws
     /// InputError where there is none of that name, or a number is none.
-    std::optional<Layout> turned_by(const SharedInstant& shared);
+    std::optional<Layout> turned_by(const SharedState& shared);
     void turn(Layout layout, std::vector<TurnedNumber> numbers);
     /// True where the shown layout is the one of the state.
-    bool is_of(const SharedInstant& shared) const { return shared.layout_digest == digest_ && shared.turned == numbers_; }
+    bool is_of(const SharedState& shared) const { return shared.layout_digest == digest_ && shared.turned == numbers_; }
 
     LayoutLoader loader;
     /// A loaded layout that is shown from now on, without turned numbers: the next state has them.

@@ -9,10 +9,10 @@ namespace starbow {
 ExhibitOptions open_exhibit(const Exhibit& exhibit)
 {
     Words words = words_in(exhibit.language);
-    Programme programme = !exhibit.tour.empty() ? programme_of_tour(exhibit.tour, words)
-        : !exhibit.shot.empty()                 ? programme_of_shot(exhibit.shot)
-                                                : programme_of_scene(exhibit.scene);
-    ExhibitOptions options{.programme = std::move(programme),
+    SessionContent content = !exhibit.tour.empty() ? content_of_tour(exhibit.tour, words)
+        : !exhibit.shot.empty()                    ? content_of_shot(exhibit.shot)
+                                                   : content_of_scene(exhibit.scene);
+    ExhibitOptions options{.content = std::move(content),
         .layout = load_layout(shipped_file("layouts", exhibit.layout)),
         .words = std::move(words)};
     options.rules = exhibit.flying;

@@ -88,12 +88,12 @@ void RemoteControl::shown(const Session& session)
     pending_.clear(), noted_ = 0;
 }
 
-void RemoteControl::publish_condition(const Diary& diary)
+void RemoteControl::publish_condition(const UsageStatistics& usage)
 {
     if (!remote_)
         return;
     Condition& condition = remote_->next_condition();
-    condition.metrics = diary.exposition();
+    condition.metrics = usage.exposition();
     condition.log = last_lines();
     remote_->publish_condition();
 }

@@ -61,10 +61,10 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
             alignment_.say(one_line(error.what()));
         }
     }
-    if (controls[Switch::beside])
-        beside_ = after(beside_);
+    if (controls[Switch::inset])
+        inset_ = after(inset_);
     now_.head = controls.head;
-    now_.black = light_.black();
+    now_.fade = light_.fade();
 }
 
 std::vector<std::vector<std::uint8_t>> ReplayRenderer::picture(
@@ -75,9 +75,9 @@ std::vector<std::vector<std::uint8_t>> ReplayRenderer::picture(
     now_.range = light_.curve();
     now_.vignette_part = flight.vignette;
     now_.pattern = alignment_.pattern();
-    now_.small_picture.reset();
-    if (beside_ != Beside::none)
-        now_.small_picture = small_picture(beside_, now_.shot, start_ev_, telescope_deg_, words_);
+    now_.inset.reset();
+    if (inset_ != InsetView::none)
+        now_.inset = inset_picture(inset_, now_.shot, start_ev_, telescope_deg_, words_);
     pictures_.set_up(now_, words_, renderer_.frame());
     return renderer_.picture(now_.shot, hud);
 }

@@ -1,6 +1,6 @@
 #pragma once
 #include "alignment_mode.h"
-#include "instant_pictures.h"
+#include "picture_setup.h"
 #include "runtime/flight/flight.h"
 #include "runtime/flight/record.h"
 #include "runtime/render/offscreen.h"
@@ -12,12 +12,12 @@ namespace starbow {
 class ReplayRenderer {
 public:
     /// pattern: the outputs' first test pattern. start_ev: the flight's first exposure, EV. words: for the
-    /// small picture's name. comfort: of the flight's rules.
+    /// inset's name. comfort: of the flight's rules.
     ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev, Words words,
         const Comfort& comfort = {});
 
     /// Applies a frame's controls to the pictures: head, test patterns, the builder's changes, exposure,
-    /// the small picture. Changes add up,
+    /// the inset. Changes add up,
     /// so every frame must be applied. flight: after the frame. Writes no layout.
     void take(const RecordEntry& entry, const Flight& flight);
 
@@ -38,10 +38,10 @@ private:
     double start_ev_;
     Words words_;
     Comfort comfort_;
-    Beside beside_ = Beside::none; ///< the small picture
+    InsetView inset_ = InsetView::none; ///< the inset
     double telescope_deg_ = 0; ///< its telescope's field; 0: none
-    InstantPictures pictures_;
-    Instant now_;
+    PictureSetup pictures_;
+    PictureState now_;
 };
 
 } // namespace starbow

@@ -59,9 +59,9 @@ HandsRules hands_rules_of(const ExhibitOptions& options)
 
 } // namespace
 
-Visiting counted_by(const Programme& programme)
+Visiting counted_by(const SessionContent& content)
 {
-    return {.idle_s = programme.tour ? programme.tour->again_after_s : Visiting().idle_s, .ask_s = 0, .fade_s = 0};
+    return {.idle_s = content.tour ? content.tour->again_after_s : Visiting().idle_s, .ask_s = 0, .fade_s = 0};
 }
 
 std::string command_name_of(const std::filesystem::path& file)
@@ -71,9 +71,9 @@ std::string command_name_of(const std::filesystem::path& file)
 
 void describe(const Session& session, ExhibitState& out)
 {
-    const Programme& programme = session.programme;
-    out.scene = command_name_of(programme.scene), out.shot = command_name_of(programme.shot);
-    out.tour = command_name_of(programme.tour_name);
+    const SessionContent& content = session.content;
+    out.scene = command_name_of(content.scene), out.shot = command_name_of(content.shot);
+    out.tour = command_name_of(content.tour_name);
     static_cast<Choices&>(out) = session.choices;
     const Flight& flight = session.flight();
     out.paused = session.source->paused();
@@ -108,35 +108,35 @@ bool seeks_goals(const Session& session)
 
 void count_visit(Session& session, double length_s)
 {
-    session.diary.count([&](Tally& tally) { ++tally.visits, tally.visits_s += length_s; });
+    session.usage.count([&](UsageCounts& counts) { ++counts.visits, counts.visits_s += length_s; });
 }
 
-Programme attraction_of(const ExhibitOptions& options, const Words& words, std::size_t number)
+SessionContent attraction_of(const ExhibitOptions& options, const Words& words, std::size_t number)
 {
     const std::vector<std::string>& attract = options.visiting->attract;
     if (attract.empty())
-        return options.programme;
+        return options.content;
     const std::string& name = attract[number % attract.size()];
-    return name.ends_with(".jsonl") ? programme_of_record(name) : programme_of_tour(name, words);
+    return name.ends_with(".jsonl") ? content_of_record(name) : content_of_tour(name, words);
 }
 
 std::uint64_t digest(const Session& session)
 {
-    const auto& [language, information, beside, range, one_button, left_handed] = session.choices;
-    std::string text = session.programme.scene.string() + '\n' + session.programme.tour_name + '\n' + language + '\n'
+    const auto& [language, information, inset, range, one_button, left_handed] = session.choices;
+    std::string text = session.content.scene.string() + '\n' + session.content.tour_name + '\n' + language + '\n'
         + session.words("hud.speed") + '\n';
     for (const int number : {int(session.alignment.pattern()), session.tutorial.lesson, int(session.light.locked()),
-             int(session.lab.shows_anything()), int(session.menu.open), int(information), int(beside), int(range),
+             int(session.lab.shows_anything()), int(session.menu.open), int(information), int(inset), int(range),
              int(one_button), int(left_handed), int(session.goals.current)})
         text += std::to_string(number) + ' ';
     return digest(text, digest(session.flight()));
 }
 
-Flying rules_in(const ExhibitOptions& options, Flying rules, const Programme& programme)
+Flying rules_in(const ExhibitOptions& options, Flying rules, const SessionContent& content)
 {
     // A record's rules have those of its first world.
     const bool bounded = options.visiting || options.rules.boundary, paced = options.paced_flight || options.rules.pace;
-    const SceneFile scene = open_scene(programme.scene);
+    const SceneFile scene = open_scene(content.scene);
     rules.solids = solid_globes(scene);
     if (options.exposure.calm)
         rules = calm_rules(rules);
@@ -152,19 +152,19 @@ Flying rules_in(const ExhibitOptions& options, Flying rules, const Programme& pr
 std::unique_ptr<Recorder> recorder_of(const ExhibitOptions& options, const Flying& rules)
 {
     return std::make_unique<Recorder>(options.record,
-        header_of(options.programme.scene, options.layout, options.programme.start, rules, options.exposure,
+        header_of(options.content.scene, options.layout, options.content.start, rules, options.exposure,
             pattern_names[std::size_t(options.pattern)]),
         write_log);
 }
 
 Session::Session(const ExhibitOptions& given)
     : options(given)
-    , attendance(given.visiting.value_or(counted_by(given.programme)), given.visiting.has_value())
+    , attendance(given.visiting.value_or(counted_by(given.content)), given.visiting.has_value())
     , choices(first_choices(given))
     , words(given.words)
-    , programme(given.visiting ? attraction_of(given, given.words, 0) : given.programme)
-    , rules(given.replay.empty() ? rules_in(given, given.rules, programme) : given.rules)
-    , source(source_of(programme, rules, !given.visiting))
+    , content(given.visiting ? attraction_of(given, given.words, 0) : given.content)
+    , rules(given.replay.empty() ? rules_in(given, given.rules, content) : given.rules)
+    , source(source_of(content, rules, !given.visiting))
     , tutorial(tutorial_at(flight()))
     , record_replay(record_replay_of(given, rules))
     , devices(given.profiles, given.layout.head_tracker, write_log)
@@ -177,18 +177,18 @@ Session::Session(const ExhibitOptions& given)
     , alignment(given.pattern)
     , lab(given.log, given.log_every_s, words)
     , speaker(given.speech ? std::make_unique<Speaker>() : nullptr)
-    , diary(given.state, given.textfile)
+    , usage(given.state, given.textfile)
 {
 }
 
-std::unique_ptr<FlightSource> source_of(const Programme& programme, const Flying& rules, bool visitors)
+std::unique_ptr<FlightSource> source_of(const SessionContent& content, const Flying& rules, bool visitors)
 {
-    if (!programme.record.empty() && !visitors)
-        return std::make_unique<ShownRecord>(programme.record);
-    const double unit_s = open_scene(programme.scene).seconds_per_time_unit();
-    if (programme.tour)
-        return std::make_unique<TourPlayer>(*programme.tour, rules, unit_s, visitors);
-    return std::make_unique<HandFlight>(programme.start, rules, unit_s);
+    if (!content.record.empty() && !visitors)
+        return std::make_unique<ShownRecord>(content.record);
+    const double unit_s = open_scene(content.scene).seconds_per_time_unit();
+    if (content.tour)
+        return std::make_unique<TourPlayer>(*content.tour, rules, unit_s, visitors);
+    return std::make_unique<HandFlight>(content.start, rules, unit_s);
 }
 
 std::string describe(const Skew& skew)
@@ -297,7 +297,7 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
 void count_frame(Session& session, double frame_s, double refresh_hz)
 {
     session.frame_s = session.frame_s > 0 ? glm::mix(session.frame_s, frame_s, 0.05) : frame_s;
-    session.diary.count([&](Tally& tally) { tally.add_frame(frame_s, frame_s * refresh_hz > 1.5); });
+    session.usage.count([&](UsageCounts& counts) { counts.add_frame(frame_s, frame_s * refresh_hz > 1.5); });
 }
 
 bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelines)
@@ -311,15 +311,15 @@ bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelin
     const Hid& hid = session.devices.hid();
     const std::size_t unplugged = hid.unplugged();
     const double visited_s = session.attendance.take_visited_s();
-    session.diary.count([&](Tally& tally) {
-        tally.resident_bytes = std::max<std::uint64_t>(tally.resident_bytes, own.resident_bytes);
-        tally.worst_skew_s = std::max(tally.worst_skew_s, skew_s);
-        tally.unplugged += unplugged - session.unplugged;
+    session.usage.count([&](UsageCounts& counts) {
+        counts.resident_bytes = std::max<std::uint64_t>(counts.resident_bytes, own.resident_bytes);
+        counts.worst_skew_s = std::max(counts.worst_skew_s, skew_s);
+        counts.unplugged += unplugged - session.unplugged;
         if (visited_s > 0)
-            tally.scenes_s[session.programme.scene.stem()] += visited_s;
+            counts.scenes_s[session.content.scene.stem()] += visited_s;
     });
     session.unplugged = unplugged;
-    return session.diary.turn(std::time(nullptr),
+    return session.usage.turn(std::time(nullptr),
         {.uptime_s = seconds(now - session.began),
             .resident_bytes = own.resident_bytes,
             .files = own.files,
@@ -336,7 +336,7 @@ bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelin
 void seek_goals(Session& session, const SceneFile& scene, std::int64_t dt_ns)
 {
     if (seeks_goals(session) && !session.flight().frozen)
-        session.goals = advance(session.goals, scene.goals, session.flight().ship, ship_at(session.programme.start),
+        session.goals = advance(session.goals, scene.goals, session.flight().ship, ship_at(session.content.start),
             scene.seconds_per_time_unit(), dt_ns);
 }
 
@@ -347,7 +347,7 @@ void step(Session& session, RecordEntry& entry, const Metered& metered)
     const bool over = session.source->over();
     session.source->advance(controls, entry.dt_ns);
     if (session.tour() && session.source->over() && !over && session.attendance.in_hand())
-        session.diary.count([](Tally& tally) { ++tally.tours_finished; });
+        session.usage.count([](UsageCounts& counts) { ++counts.tours_finished; });
     apply(session.choices, controls);
     const bool replays = session.record_replay.replays();
     if (replays)
@@ -360,7 +360,7 @@ void step(Session& session, RecordEntry& entry, const Metered& metered)
             .range = session.choices.range,
             .locks = controls[Switch::lock_exposure],
             .replays = replays,
-            .black = std::max(session.docent.black(), session.attendance.black()),
+            .fade = std::max(session.docent.fade(), session.attendance.fade()),
             .directed_ev = session.docent.exposure_ev(),
             .dt_s = dt_s});
     session.record_replay.keep(entry, session.flight());

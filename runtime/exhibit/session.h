@@ -13,10 +13,10 @@
 #include "runtime/flight/menu.h"
 #include "runtime/flight/record_replay.h"
 #include "runtime/flight/tutorial.h"
-#include "runtime/operation/diary.h"
 #include "runtime/operation/service.h"
 #include "runtime/operation/skew.h"
 #include "runtime/operation/speaker.h"
+#include "runtime/operation/usage_statistics.h"
 #include "runtime/visit/attendance.h"
 #include "runtime/visit/docent.h"
 #include "runtime/visit/shown_light.h"
@@ -45,7 +45,7 @@ struct Session {
     std::vector<std::pair<std::string, std::string>> languages{}; ///< names and own words, as read when the menu opened
     std::string coming{}; ///< the visitors' name of a world that is being read; empty: none
 
-    Programme programme; ///< the shown one
+    SessionContent content; ///< the shown one
     Flying rules; ///< of the visitors' flight in it
     std::unique_ptr<FlightSource> source; ///< of its flight
     GoalState goals{}; ///< the visitor's, in this world
@@ -71,11 +71,11 @@ struct Session {
     std::unique_ptr<Speaker> speaker; ///< null where the exhibit does not speak
     std::string spoken{}; ///< the moment of the last text
     double frame_s = 0; ///< the mean time of the last frames, s
-    Diary diary;
+    UsageStatistics usage;
     std::size_t unplugged = 0; ///< devices, as last counted
     Skew skew{};
     Clock::time_point began = Clock::now(), last = began;
-    Clock::time_point turned{}; ///< the diary
+    Clock::time_point turned{}; ///< the usage statistics
     long shown = 0; ///< frames
     bool complaints = false; ///< the validation layers had messages on a lost device
 
@@ -97,7 +97,7 @@ void describe(const Session& session, ExhibitState& out);
 /// The visitor's choices at the start of each visit.
 Choices first_choices(const ExhibitOptions& options);
 /// The rules by which visits are counted where somebody else attends to them.
-Visiting counted_by(const Programme& programme);
+Visiting counted_by(const SessionContent& content);
 /// True where the choices of one-button flying are the visitor's controls.
 bool by_one_button(const Session& session);
 /// True where the goals of the world are requested of the visitor: in a free flight, on the displays for visitors and
@@ -109,12 +109,12 @@ void count_visit(Session& session, double length_s);
 std::uint64_t digest(const Session& session);
 /// A recorder of the exhibit's flight from its start on. Throws InputError as Recorder does.
 std::unique_ptr<Recorder> recorder_of(const ExhibitOptions& options, const Flying& rules);
-/// The rules in a programme's world, which has its globes' grounds, a boundary where nobody attends to the visitors, and a
+/// The rules in the content's world, which has its globes' grounds, a boundary where nobody attends to the visitors, and a
 /// pace where the exhibit has one.
-Flying rules_in(const ExhibitOptions& options, Flying rules, const Programme& programme);
-/// The source of a programme's flight, at its beginning. visitors: false where nobody is there to fly, and to answer a
+Flying rules_in(const ExhibitOptions& options, Flying rules, const SessionContent& content);
+/// The source of the content's flight, at its beginning. visitors: false where nobody is there to fly, and to answer a
 /// tour's questions. Throws InputError.
-std::unique_ptr<FlightSource> source_of(const Programme& programme, const Flying& rules, bool visitors);
+std::unique_ptr<FlightSource> source_of(const SessionContent& content, const Flying& rules, bool visitors);
 /// The options of an exhibit's device, with windows.
 Device::Options device_of(const ExhibitOptions& options);
 /// Logs the remarks on a newly loaded world and its spectral level.
@@ -135,7 +135,8 @@ std::string describe(const Skew& skew);
 bool read_controls(Session& session, std::span<GLFWwindow* const> windows, RecordEntry& entry);
 /// Counts a frame. frame_s: the time since the frame before was presented.
 void count_frame(Session& session, double frame_s, double refresh_hz);
-/// Turns the diary once a second; call it each frame. Returns true when the exposition of the counts is a new one.
+/// Turns the usage statistics once a second; call it each frame. Returns true when the exposition of the counts is a new
+/// one.
 bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelines);
 
 /// Follows the visitor's way through the world's goals, where the display is for visitors or guides.

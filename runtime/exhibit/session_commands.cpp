@@ -20,7 +20,7 @@ void choose(Session& session, const Command& command)
     if (command.kind == CommandKind::language) {
         Words words = words_in(command.text);
         if (TourPlayer* tour = session.source->tour())
-            tour->reword(*(session.programme.tour = tour_in(session.programme.tour_name, words)));
+            tour->reword(*(session.content.tour = tour_in(session.content.tour_name, words)));
         session.words = std::move(words);
         keep_language(session.options.state, command.text);
     }
@@ -60,7 +60,7 @@ void apply_command(Session& session, const Command& command, Requests& requests)
     case CommandKind::one_button:
     case CommandKind::left_handed:
     case CommandKind::language:
-    case CommandKind::beside:
+    case CommandKind::inset:
     case CommandKind::information:
         choose(session, command);
         break;
@@ -107,28 +107,28 @@ void apply_command(Session& session, const Command& command, Requests& requests)
     }
 }
 
-Programme programme_after(const Session& session, const Command& command)
+SessionContent content_after(const Session& session, const Command& command)
 {
     switch (command.kind) {
     case CommandKind::scene:
-        return programme_of_scene(command.text);
+        return content_of_scene(command.text);
     case CommandKind::shot:
-        return programme_of_shot(command.text);
+        return content_of_shot(command.text);
     case CommandKind::tour:
-        return programme_of_tour(command.text, session.words);
+        return content_of_tour(command.text, session.words);
     default:
-        return session.options.programme;
+        return session.options.content;
     }
 }
 
-void begin_programme(Session& session, Programme programme, bool visitors)
+void begin_content(Session& session, SessionContent content, bool visitors)
 {
-    Flying rules = rules_in(session.options, session.options.rules, programme);
+    Flying rules = rules_in(session.options, session.options.rules, content);
     rules.max_gamma = session.docent.max_gamma().value_or(rules.max_gamma);
-    session.source = source_of(programme, rules, visitors);
-    session.programme = std::move(programme);
+    session.source = source_of(content, rules, visitors);
+    session.content = std::move(content);
     session.rules = std::move(rules);
-    session.attendance.count_by(counted_by(session.programme));
+    session.attendance.count_by(counted_by(session.content));
     session.tutorial = tutorial_at(session.flight());
     session.goals = {};
     session.lab.forget();

@@ -9,11 +9,11 @@ namespace starbow {
 /// device, belong to FrameLoop.
 void apply_command(Session& session, const Command& command, Requests& requests);
 
-/// The programme that a command leads to: scene, shot, tour, or reset to the exhibit's own. Throws InputError.
-Programme programme_after(const Session& session, const Command& command);
+/// The content that a command leads to: scene, shot, tour, or reset to the exhibit's own. Throws InputError.
+SessionContent content_after(const Session& session, const Command& command);
 
-/// Shows a programme from its start. visitors: false where nobody is there to fly, and to answer a tour's questions.
-void begin_programme(Session& session, Programme programme, bool visitors = true);
+/// Shows the content from its start. visitors: false where nobody is there to fly, and to answer a tour's questions.
+void begin_content(Session& session, SessionContent content, bool visitors = true);
 
 /// Gives the builder's keys back for ten minutes, and says so.
 void unlock_builders_keys(Session& session);
@@ -21,10 +21,10 @@ void unlock_builders_keys(Session& session);
 /// Another visitor's hands come: what the last ones have left tilted, open or held counts once it has reported again.
 void forget_hands(Session& session);
 
-/// Everything that a visitor can change, but for the programme and the instruments, is as the exhibit's file says.
+/// Everything that a visitor can change, but for the content and the instruments, is as the exhibit's file says.
 void forget_visitor(Session& session);
 
-/// The same of all that a docent can change, but for the layout. Show a programme afterwards.
+/// The same of all that a docent can change, but for the layout. Show content afterwards.
 void forget_directions(Session& session);
 
 } // namespace starbow

@@ -6,7 +6,7 @@ namespace {
 /// The moment in a tour. It changes when a text shall begin.
 std::string moment_of(const Session& session, const TourPlayer& tour)
 {
-    return session.programme.tour_name + "/" + std::to_string(tour.step()) + (tour.answered() ? "a" : "") + "/"
+    return session.content.tour_name + "/" + std::to_string(tour.step()) + (tour.answered() ? "a" : "") + "/"
         + session.words.language;
 }
 

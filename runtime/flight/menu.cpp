@@ -39,7 +39,7 @@ void back(MenuState& menu)
         menu = {.open = true, .nudged = menu.nudged};
 }
 
-std::optional<Command> take(MenuState& menu, const MenuPage& page)
+std::optional<Command> choose(MenuState& menu, const MenuPage& page)
 {
     const auto& leads = page.items[menu.item].leads;
     if (const auto* other = std::get_if<std::size_t>(&leads)) {
@@ -81,7 +81,7 @@ std::optional<Command> advance(
     else if (pressed[Switch::home] || pressed[Switch::undo])
         back(menu);
     else if (pressed[Switch::stop])
-        return take(menu, page);
+        return choose(menu, page);
     return {};
 }
 

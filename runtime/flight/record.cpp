@@ -98,13 +98,13 @@ Shot read_start(const Place& place)
 {
     reject_unknown_members(place, {"time", "position", "u", "ship_from_cockpit", "effects", "exposure_ev"});
     Shot start;
-    take(place, "time", start.time, any_place);
-    take(place, "position", start.position, any_place);
-    take(place, "u", start.u, any_place);
+    read_optional(place, "time", start.time, any_place);
+    read_optional(place, "position", start.position, any_place);
+    read_optional(place, "u", start.u, any_place);
     take_turn(place, "ship_from_cockpit", start.ship_from_cockpit);
     if (auto p = find_member(place, "effects"))
         start.effects = read<Effects>(*p);
-    take(place, "exposure_ev", start.exposure_ev, {-60, 60});
+    read_optional(place, "exposure_ev", start.exposure_ev, {-60, 60});
     return start;
 }
 
@@ -112,8 +112,8 @@ Pace read_pace(const Place& place)
 {
     reject_unknown_members(place, {"per_s2", "least", "things"});
     Pace pace;
-    take(place, "per_s2", pace.per_s2, {0, 1e30});
-    take(place, "least", pace.least, {0, 1e15});
+    read_optional(place, "per_s2", pace.per_s2, {0, 1e30});
+    read_optional(place, "least", pace.least, {0, 1e15});
     for (const Place& thing : items(member(place, "things"), 0, 10'000, "things")) {
         const std::vector<Place> at = items(thing, 6, 6, "numbers (the lowest corner, the highest)");
         AlignedBox& box = pace.things.emplace_back();
@@ -154,19 +154,19 @@ Flying read_rules(const Place& place)
     if (auto p = find_member(place, "boundary")) {
         reject_unknown_members(*p, {"centre", "radius"});
         Boundary& boundary = rules.boundary.emplace();
-        take(*p, "centre", boundary.centre, any_place);
-        take(*p, "radius", boundary.radius, {0, 1e15});
+        read_optional(*p, "centre", boundary.centre, any_place);
+        read_optional(*p, "radius", boundary.radius, {0, 1e15});
     }
     if (auto p = find_member(place, "solids"))
         rules.solids = read_solids(*p);
     rules.mode = chosen(member(place, "mode"), flight_modes);
     constexpr Range any{0, 1e9};
-    take(place, "max_gamma", rules.max_gamma, {1, 1e9, true});
-    take(place, "turn_deg_per_s", rules.turn_deg_per_s, any);
-    take(place, "roll_deg_per_s", rules.roll_deg_per_s, any);
-    take(place, "turn_jerk_deg_per_s3", rules.turn_jerk_deg_per_s3, any);
-    take(place, "rapidity_per_s", rules.rapidity_per_s, any);
-    take(place, "rapidity_jerk_per_s2", rules.rapidity_jerk_per_s2, any);
+    read_optional(place, "max_gamma", rules.max_gamma, {1, 1e9, true});
+    read_optional(place, "turn_deg_per_s", rules.turn_deg_per_s, any);
+    read_optional(place, "roll_deg_per_s", rules.roll_deg_per_s, any);
+    read_optional(place, "turn_jerk_deg_per_s3", rules.turn_jerk_deg_per_s3, any);
+    read_optional(place, "rapidity_per_s", rules.rapidity_per_s, any);
+    read_optional(place, "rapidity_jerk_per_s2", rules.rapidity_jerk_per_s2, any);
     return rules;
 }
 
@@ -211,34 +211,34 @@ RecordEntry read_entry(const Place& top)
         entry.skipped_ns = whole(*p, most_ns);
     if (auto p = find_member(top, "exposure_ev"))
         entry.exposure_ev = number(*p, {-1e3, 1e3});
-    take(top, "light", entry.light, {0, 1});
-    take(top, "ranged", entry.ranged);
+    read_optional(top, "light", entry.light, {0, 1});
+    read_optional(top, "ranged", entry.ranged);
     if (auto p = find_member(top, "range_goal"))
         entry.range_goal = read_range_goal(*p);
     bool unseen = false;
-    take(top, "unseen", unseen);
+    read_optional(top, "unseen", unseen);
     entry.shown = !unseen;
     Controls& controls = entry.controls;
     controls.time_ns = entry.dt_ns + entry.skipped_ns;
     if (auto p = find_member(top, "lever"))
         controls.lever = number(*p, {0, 1});
-    take(top, "faster", controls.throttle_rate, any_rate);
-    take(top, "push", controls.push, any_rate);
-    take(top, "turn", controls.turn, any_rate);
-    take(top, "look_rad", controls.look_rad, any_rate);
-    take(top, "head_m", controls.head.moved_m, any_rate);
+    read_optional(top, "faster", controls.throttle_rate, any_rate);
+    read_optional(top, "push", controls.push, any_rate);
+    read_optional(top, "turn", controls.turn, any_rate);
+    read_optional(top, "look_rad", controls.look_rad, any_rate);
+    read_optional(top, "head_m", controls.head.moved_m, any_rate);
     take_turn(top, "head_turned", controls.head.turned);
-    take(top, "exposure", controls.exposure, any_rate);
+    read_optional(top, "exposure", controls.exposure, any_rate);
     if (auto p = find_member(top, "choose"))
         controls.choose = integer(*p, -1000, 1000);
     if (auto p = find_member(top, "turn_by"))
         controls.turn_by = integer(*p, -1000, 1000);
     for (const SwitchEntry& one : all_switches) {
         bool pressed = false;
-        take(top, std::string(one.name), pressed);
+        read_optional(top, std::string(one.name), pressed);
         controls.set(one.which, pressed);
     }
-    take(top, "taken", controls.taken);
+    read_optional(top, "taken", controls.taken);
     if (auto p = find_member(top, "commands"))
         for (const Place& command : items(*p, 1, 1000, "commands"))
             entry.commands.push_back(read_command(command));
@@ -251,7 +251,7 @@ RecordCheck read_check(const Place& top)
     RecordCheck check;
     check.ticks = whole(member(top, "ticks"), most_ns);
     check.digest = read_digest(member(top, "digest"));
-    take(top, "last", check.last);
+    read_optional(top, "last", check.last);
     return check;
 }
 
@@ -393,7 +393,7 @@ RecordHeader parse_record_header(const std::string& file, std::string line)
     header.start.scene = header.scene;
     header.rules = read_rules(member(top, "flying"));
     header.exposing = read_exposing(member(top, "exposure"));
-    take(top, "calm", header.exposing.calm);
+    read_optional(top, "calm", header.exposing.calm);
     return header;
 }
 

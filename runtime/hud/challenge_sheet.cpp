@@ -1,5 +1,5 @@
 #include "challenge_sheet.h"
-#include "html.h"
+#include "config/markup/html.h"
 #include <sstream>
 
 namespace starbow {

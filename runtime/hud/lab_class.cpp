@@ -2,7 +2,8 @@
 #include "config/json/csv.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
-#include "html.h"
+#include "config/markup/html.h"
+#include "config/markup/svg.h"
 #include "lab_log.h"
 #include <algorithm>
 #include <cmath>
@@ -36,17 +37,19 @@ std::string figure(double value, const char* form)
 }
 
 /// A mark at a place; hollow, and around a filled one, for what was seen.
-std::string mark(std::size_t group, bool by_eye, double x, double y)
+void mark(Svg& svg, std::size_t group, bool by_eye, glm::dvec2 at)
 {
-    return "<use href=\"#m" + std::to_string(shape_of(group)) + "\" transform=\"translate(" + figure(x, "%.1f") + " "
-        + figure(y, "%.1f") + (by_eye ? ")scale(1.4)\" " : ")\" ")
-        + (by_eye ? std::string("fill=\"none\" stroke=\"") : std::string("stroke=\"#fff\" stroke-width=\"0.6\" fill=\""))
-        + colour_of(group) + (by_eye ? "\" stroke-width=\"1.2\"/>\n" : "\"/>\n");
+    svg.raw("<use href=\"#m" + std::to_string(shape_of(group)) + "\" transform=\"translate(" + shortest(at.x) + ' '
+        + shortest(at.y) + (by_eye ? ")scale(1.4)\" " : ")\" ")
+        + (by_eye ? "fill=\"none\" stroke=\"" : "stroke=\"#fff\" stroke-width=\"0.6\" fill=\"") + colour_of(group)
+        + (by_eye ? "\" stroke-width=\"1.2\"/>" : "\"/>"));
 }
 
 std::string key_mark(std::size_t group, bool by_eye)
 {
-    return "<svg class=\"key\" viewBox=\"-8 -8 16 16\">" + mark(group, by_eye, 0, 0) + "</svg>";
+    Svg svg;
+    mark(svg, group, by_eye, {8, 8});
+    return svg.drawn({16, 16}, "class=\"key\"");
 }
 
 std::string drawing(const LabClass& all, Plot plot, const Words& words)
@@ -62,34 +65,29 @@ std::string drawing(const LabClass& all, Plot plot, const Words& words)
     const auto y_of = [&](double y) { return bottom - (bottom - top) * axes.up(y); };
     const PlotWords& keys = plot_words[std::size_t(plot)];
 
-    std::ostringstream out;
-    out << "<svg viewBox=\"0 0 " << width << ' ' << height << "\" role=\"img\" aria-label=\""
-        << escaped_html(words(keys.title)) << "\">\n";
-    for (double x : axes.x_ticks)
-        out << "<path class=\"grid\" d=\"M" << figure(x_of(x), "%.1f") << ' ' << top << "V" << bottom << "\"/><text x=\""
-            << figure(x_of(x), "%.1f") << "\" y=\"" << bottom + 20 << "\" text-anchor=\"middle\">"
-            << words.number(figure(x, "%.6g")) << "</text>\n";
-    for (double y : axes.y_ticks)
-        out << "<path class=\"grid\" d=\"M" << left << ' ' << figure(y_of(y), "%.1f") << "H" << right << "\"/><text x=\""
-            << left - 8 << "\" y=\"" << figure(y_of(y) + 5, "%.1f") << "\" text-anchor=\"end\">"
-            << words.number(figure(y, "%.6g")) << "</text>\n";
-    out << "<text x=\"" << right << "\" y=\"" << bottom + 48 << "\" text-anchor=\"end\">" << escaped_html(words(keys.x))
-        << "</text>\n<text x=\"" << left - 50 << "\" y=\"" << top - 18 << "\">" << escaped_html(words(keys.y))
-        << "</text>\n";
+    Svg svg;
+    for (double x : axes.x_ticks) {
+        svg.line({x_of(x), top}, {x_of(x), bottom}, "class=\"grid\"");
+        svg.text({x_of(x), bottom + 20}, words.number(figure(x, "%.6g")), "text-anchor=\"middle\"");
+    }
+    for (double y : axes.y_ticks) {
+        svg.line({left, y_of(y)}, {right, y_of(y)}, "class=\"grid\"");
+        svg.text({left - 8, y_of(y) + 5}, words.number(figure(y, "%.6g")), "text-anchor=\"end\"");
+    }
+    svg.text({right, bottom + 48}, words(keys.x), "text-anchor=\"end\"");
+    svg.text({left - 50, top - 18}, words(keys.y));
     std::vector<double> labelled;
     for (double speed : speeds) {
-        out << "<path class=\"theory\" d=\"";
-        const std::vector<glm::dvec2> curve = theory_curve(plot, speed);
-        for (std::size_t i = 0; i < curve.size(); ++i)
-            out << (i == 0 ? "M" : "L") << figure(x_of(curve[i].x), "%.1f") << ' ' << figure(y_of(curve[i].y), "%.1f");
-        out << "\"/>\n";
-        const double y = y_of(curve.back().y);
+        std::vector<glm::dvec2> curve = theory_curve(plot, speed);
+        for (glm::dvec2& at : curve)
+            at = {x_of(at.x), y_of(at.y)};
+        svg.path(path_data(curve), "class=\"theory\"");
+        const double y = curve.back().y;
         if (plot != Plot::doppler
             || std::any_of(labelled.begin(), labelled.end(), [&](double other) { return std::abs(y - other) < 15; }))
             continue;
         labelled.push_back(y);
-        out << "<text class=\"speed\" x=\"" << right + 4 << "\" y=\"" << figure(y + 4, "%.1f") << "\">β "
-            << words.number(figure(speed / std::hypot(1.0, speed), "%.3g")) << "</text>\n";
+        svg.text({right + 4, y + 4}, "β " + words.number(figure(speed / std::hypot(1.0, speed), "%.3g")), "class=\"speed\"");
     }
     // A mark on the same place as another of its group would only make the page larger.
     for (std::size_t i = 0; i < all.groups.size(); ++i) {
@@ -98,11 +96,10 @@ std::string drawing(const LabClass& all, Plot plot, const Words& words)
             const double x = x_of(point.x), y = y_of(point.y);
             if (point.y > 0 && x >= left - 1 && x <= right + 1 && y >= top - 1 && y <= bottom + 1
                 && drawn.insert({std::lround(x), std::lround(y), point.by_eye}).second)
-                out << mark(i, point.by_eye, x, y);
+                mark(svg, i, point.by_eye, {x, y});
         }
     }
-    out << "</svg>\n";
-    return out.str();
+    return svg.drawn({width, height}, "role=\"img\" aria-label=\"" + escaped_html(words(keys.title)) + '"');
 }
 
 /// A mean with its sign, and a spread, in percent.

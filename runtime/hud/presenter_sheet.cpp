@@ -157,8 +157,8 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
         words(comparisons[std::size_t(compared)]), compared != Comparison::none)
         .usable
         = state.own_effects;
-    step('X', "presenter.beside", {.kind = Order::beside, .text = name_of(after(state.beside))},
-        words(beside_words[std::size_t(state.beside)]), state.beside != Beside::none);
+    step('X', "presenter.inset", {.kind = Order::inset, .text = name_of(after(state.inset))},
+        words(inset_view_words[std::size_t(state.inset)]), state.inset != InsetView::none);
     step('I', "remote.information", {.kind = Order::information, .text = std::string(name_of(after(state.information)))},
         words(display_words[std::size_t(state.information)]), false);
     deed(down, "↓", "presenter.darker", brighter(-exposure_step_ev)).state = exposure_text(state.exposure_ev, words);

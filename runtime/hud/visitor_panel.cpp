@@ -11,9 +11,9 @@ namespace {
 constexpr double wide = 1 / panel_aspect, right_edge = wide - 0.12;
 
 // The dial at the left, open below; angles clockwise from straight up, radians.
-constexpr glm::dvec2 dial_middle{0.62, 0.47};
-constexpr double dial_radius = 0.375, dial_width = 0.055;
-constexpr double dial_end = 0.75 * std::numbers::pi; ///< from -dial_end to dial_end
+constexpr glm::dvec2 gauge_middle{0.62, 0.47};
+constexpr double gauge_radius = 0.375, gauge_width = 0.055;
+constexpr double gauge_end = 0.75 * std::numbers::pi; ///< from -gauge_end to gauge_end
 
 constexpr double left_of_lines = 1.25, clock_radius = 0.1;
 constexpr double first_line = 0.26, below_first = 0.28; ///< baselines
@@ -75,20 +75,20 @@ double line_distance(const glm::dvec2& at, const glm::dvec2& end, double width)
     return glm::length(at - along * end) - 0.5 * width;
 }
 
-void draw_dial(Panel& panel, double part)
+void draw_speed_gauge(Panel& panel, double part)
 {
-    const glm::dvec2 reach(dial_radius + dial_width);
+    const glm::dvec2 reach(gauge_radius + gauge_width);
     const auto arc = [&](double from, double to, double strength) {
-        draw_shape(panel, dial_middle - reach, dial_middle + reach, strength,
-            [&](const glm::dvec2& at) { return ring_distance(at - dial_middle, dial_radius, dial_width, from, to); });
+        draw_shape(panel, gauge_middle - reach, gauge_middle + reach, strength,
+            [&](const glm::dvec2& at) { return ring_distance(at - gauge_middle, gauge_radius, gauge_width, from, to); });
     };
-    const double now = dial_end * (2 * part - 1);
-    arc(-dial_end, dial_end, 0.35);
-    arc(-dial_end, now, 1);
+    const double now = gauge_end * (2 * part - 1);
+    arc(-gauge_end, gauge_end, 0.35);
+    arc(-gauge_end, now, 1);
     const glm::dvec2 way(std::sin(now), -std::cos(now));
-    const glm::dvec2 tip = dial_middle + (dial_radius + 0.75 * dial_width) * way,
-                     back = dial_middle + (dial_radius - 0.9 * dial_width) * way;
-    draw_shape(panel, dial_middle - reach, dial_middle + reach, 1,
+    const glm::dvec2 tip = gauge_middle + (gauge_radius + 0.75 * gauge_width) * way,
+                     back = gauge_middle + (gauge_radius - 0.9 * gauge_width) * way;
+    draw_shape(panel, gauge_middle - reach, gauge_middle + reach, 1,
         [&](const glm::dvec2& at) { return line_distance(at - back, tip - back, 0.035); });
 }
 
@@ -128,7 +128,7 @@ std::string switched_off(const Effects& on, const Words& words)
 
 } // namespace
 
-double dial_part(double beta_deficit) { return 1 - std::sqrt(beta_deficit / (2 - beta_deficit)); }
+double gauge_part(double beta_deficit) { return 1 - std::sqrt(beta_deficit / (2 - beta_deficit)); }
 
 std::string shown_percent(double beta_deficit, const Words& words)
 {
@@ -179,8 +179,8 @@ std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings
         const double size = fitting(typesetter, text, room, largest);
         lines.push_back({text, x - 0.5 * width_of(typesetter, text, size), baseline, size});
     };
-    middle(shown_percent(readings.beta_deficit, words), dial_middle.x, dial_middle.y + 0.09, 0.52, 0.24);
-    middle(words("say.of_light"), dial_middle.x, 0.94, 0.9, least_lettering);
+    middle(shown_percent(readings.beta_deficit, words), gauge_middle.x, gauge_middle.y + 0.09, 0.52, 0.24);
+    middle(words("say.of_light"), gauge_middle.x, 0.94, 0.9, least_lettering);
 
     const double times_s[] = {readings.ship_s, readings.world_s};
     constexpr Key keys[] = {"say.clock_board", "say.clock_world"};
@@ -224,7 +224,7 @@ std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings
 
 void write_visitor_panel(Panel& panel, const Typesetter& typesetter, const Readings& readings, const Words& words)
 {
-    draw_dial(panel, dial_part(readings.beta_deficit));
+    draw_speed_gauge(panel, gauge_part(readings.beta_deficit));
     draw_clock(panel, clocks[0], readings.ship_s);
     draw_clock(panel, clocks[1], readings.world_s);
     const double unit = panel.size.y;

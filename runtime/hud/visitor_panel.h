@@ -23,7 +23,7 @@ std::string shown_percent(double beta_deficit, const Words& words);
 
 /// The part of the dial that a speed fills: 1 - 1/D, where D = sqrt((1 + beta) / (1 - beta)) is the frequency seen straight
 /// ahead over the frequency emitted. 0 at rest; 1 only at the speed of light.
-double dial_part(double beta_deficit);
+double gauge_part(double beta_deficit);
 
 /// The lines of the display for visitors, or for guides, as readings.information says.
 std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings& readings, const Words& words);

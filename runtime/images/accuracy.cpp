@@ -1,6 +1,8 @@
 #include "accuracy.h"
 #include "config/json/csv.h"
 #include "config/json/reader.h"
+#include "config/markup/html.h"
+#include "config/markup/svg.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdarg>
@@ -18,15 +20,6 @@ std::string text(const char* format, ...)
     std::vsnprintf(buffer, sizeof buffer, format, list);
     va_end(list);
     return buffer;
-}
-
-/// Escapes text for XML and HTML.
-std::string safe(const std::string& plain)
-{
-    std::string all;
-    for (char c : plain)
-        all += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
-    return all;
 }
 
 /// One error as charts and tables show it.
@@ -83,8 +76,8 @@ struct Chart {
     }
 };
 
-std::string drawn(
-    const std::vector<MeasuredSetting>& all, const std::vector<bool>& best, const Metric& metric, double left, double top)
+void draw(Svg& svg, const std::vector<MeasuredSetting>& all, const std::vector<bool>& best, const Metric& metric,
+    glm::dvec2 corner)
 {
     double first = 1e300, last = 0, low = 1e300, high = -1e300;
     for (const MeasuredSetting& one : all) {
@@ -94,44 +87,40 @@ std::string drawn(
     const bool decibels = !metric.less_is_better;
     const double room = 0.08 * (high - low) + 1e-3;
     low = decibels ? low - room : std::max(low, 1e-4) / 1.15, high = decibels ? high + room : std::max(high, 2e-4) * 1.15;
-    const Chart c{left + 62, top + 34, 400, 260, first / 1.12, last * 1.12, low, high, decibels};
-    std::string out = text("<text x=\"%.0f\" y=\"%.0f\" class=\"head\">%s <tspan class=\"unit\">%s</tspan></text>\n",
-        left + 62, top + 18, metric.name, metric.unit);
-    out += text(
-        "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" class=\"box\"/>\n", c.left, c.top, c.width, c.height);
-    for (double at : decibels ? even_steps(low, high) : log_steps(low, high))
-        out += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"grid\"/><text x=\"%.1f\" y=\"%.1f\" "
-                    "class=\"tick\" text-anchor=\"end\">%.4g</text>\n",
-            c.left, c.left + c.width, c.y(at), c.y(at), c.left - 6, c.y(at) + 4, at);
-    for (double at : log_steps(c.first_ms, c.last_ms))
-        out += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"grid\"/><text x=\"%.1f\" y=\"%.1f\" "
-                    "class=\"tick\" text-anchor=\"middle\">%.4g</text>\n",
-            c.x(at), c.x(at), c.top, c.top + c.height, c.x(at), c.top + c.height + 16, at);
-    out += text("<text x=\"%.1f\" y=\"%.1f\" class=\"tick\" text-anchor=\"middle\">milliseconds a frame</text>\n",
-        c.left + c.width / 2, c.top + c.height + 32);
-    std::vector<const MeasuredSetting*> line;
+    const Chart c{corner.x + 62, corner.y + 34, 400, 260, first / 1.12, last * 1.12, low, high, decibels};
+    const double right = c.left + c.width, bottom = c.top + c.height;
+    svg.text(corner + glm::dvec2(62, 18), metric.name, "class=\"head\"");
+    svg.text({right, corner.y + 18}, metric.unit, "class=\"unit\" text-anchor=\"end\"");
+    svg.rect({c.left, c.top}, {right, bottom}, "class=\"box\"");
+    for (double at : decibels ? even_steps(low, high) : log_steps(low, high)) {
+        svg.line({c.left, c.y(at)}, {right, c.y(at)}, "class=\"grid\"");
+        svg.text({c.left - 6, c.y(at) + 4}, text("%.4g", at), "class=\"tick\" text-anchor=\"end\"");
+    }
+    for (double at : log_steps(c.first_ms, c.last_ms)) {
+        svg.line({c.x(at), c.top}, {c.x(at), bottom}, "class=\"grid\"");
+        svg.text({c.x(at), bottom + 16}, text("%.4g", at), "class=\"tick\" text-anchor=\"middle\"");
+    }
+    svg.text({c.left + c.width / 2, bottom + 32}, "milliseconds a frame", "class=\"tick\" text-anchor=\"middle\"");
+    const auto place = [&](const MeasuredSetting& one) { return glm::dvec2(c.x(one.ms), c.y(metric.of(one))); };
+    std::vector<glm::dvec2> line;
     for (std::size_t i = 0; i < all.size(); ++i)
         if (best[i])
-            line.push_back(&all[i]);
-    std::sort(line.begin(), line.end(), [](auto* a, auto* b) { return a->ms < b->ms; });
-    out += "<polyline class=\"frontier\" points=\"";
-    for (const MeasuredSetting* one : line)
-        out += text("%.1f,%.1f ", c.x(one->ms), c.y(metric.of(*one)));
-    out += "\"/>\n";
+            line.push_back(place(all[i]));
+    std::ranges::sort(line, {}, &glm::dvec2::x);
+    svg.polyline(line, "class=\"frontier\"");
     for (std::size_t i = 0; i < all.size(); ++i) {
         const MeasuredSetting& one = all[i];
-        const char* kind = one.setting.shipped ? "shipped" : best[i] ? "best" : "other";
-        out += text("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" class=\"%s\"><title>", c.x(one.ms), c.y(metric.of(one)),
-            one.setting.shipped ? "6" : "4", kind);
-        out += safe(one.setting.name) + text(": %.1f ms, %.4g</title></circle>\n", one.ms, metric.of(one));
+        const bool shipped = one.setting.shipped;
+        svg.circle(place(one), shipped ? 6 : 4,
+            shipped       ? "class=\"shipped\""
+                : best[i] ? "class=\"best\""
+                          : "class=\"other\"",
+            one.setting.name + text(": %.1f ms, %.4g", one.ms, metric.of(one)));
     }
     double below = -7; // names alternate above and below their points, because neighbours would overlap
     for (const MeasuredSetting& one : all)
         if (one.setting.shipped)
-            out += text("<text x=\"%.1f\" y=\"%.1f\" class=\"name\">", c.x(one.ms) + 5,
-                       c.y(metric.of(one)) + (below = 8 - below))
-                + safe(one.setting.name) + "</text>\n";
-    return out;
+            svg.text(place(one) + glm::dvec2(5, below = 8 - below), one.setting.name, "class=\"name\"");
 }
 
 } // namespace
@@ -269,21 +258,23 @@ std::string accuracy_csv(const std::vector<MeasuredSetting>& all)
 std::string accuracy_chart(const std::vector<MeasuredSetting>& all, const std::string& title)
 {
     const std::vector<bool> best = frontier(all);
-    std::string out
-        = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1000 760\" font-family=\"sans-serif\">\n"
-          "<style>.box{fill:none;stroke:#888}.grid{stroke:#ddd}.tick{font-size:12px;fill:#333}.head{font-size:16px;"
-          "font-weight:bold}.unit{font-size:13px;font-weight:normal;fill:#555}.name{font-size:13px;font-weight:bold;"
-          "fill:#a33c00;stroke:#fff;stroke-width:3;paint-order:stroke}"
-          ".frontier{fill:none;stroke:#0072b2;stroke-width:2}.other{fill:#999;fill-opacity:.55}"
-          ".best{fill:#0072b2}.shipped{fill:#d55e00;stroke:#fff;stroke-width:1.5}</style>\n"
-          "<rect width=\"1000\" height=\"760\" fill=\"#fff\"/>\n";
-    out += "<text x=\"62\" y=\"30\" class=\"head\">" + safe(title) + "</text>\n";
-    out += "<text x=\"62\" y=\"50\" class=\"unit\">Lower is better, further left is faster. Orange: the shipped settings; "
-           "blue: what "
-           "no other setting beats in FLIP and time.</text>\n";
+    Svg svg;
+    svg.raw("<style>.box{fill:none;stroke:#888}.grid{stroke:#ddd}.tick{font-size:12px;fill:#333}.head{font-size:16px;"
+            "font-weight:bold}.unit{font-size:13px;font-weight:normal;fill:#555}.name{font-size:13px;font-weight:bold;"
+            "fill:#a33c00;stroke:#fff;stroke-width:3;paint-order:stroke}"
+            ".frontier{fill:none;stroke:#0072b2;stroke-width:2}.other{fill:#999;fill-opacity:.55}"
+            ".best{fill:#0072b2}.shipped{fill:#d55e00;stroke:#fff;stroke-width:1.5}</style>");
+    const glm::dvec2 size(1000, 760);
+    svg.rect({0, 0}, size, "fill=\"#fff\"");
+    svg.text({62, 30}, title, "class=\"head\"");
+    svg.text({62, 50},
+        "Lower is better, further left is faster. Orange: the shipped settings; blue: what no other setting beats in FLIP "
+        "and "
+        "time.",
+        "class=\"unit\"");
     for (std::size_t i = 0; i < 4; ++i)
-        out += drawn(all, best, metrics[i], i % 2 == 0 ? 0 : 500, i < 2 ? 62 : 408);
-    return out + "</svg>\n";
+        draw(svg, all, best, metrics[i], {i % 2 == 0 ? 0 : 500, i < 2 ? 62 : 408});
+    return svg.drawn(size, "font-family=\"sans-serif\"");
 }
 
 std::string accuracy_page(const std::vector<MeasuredSetting>& all, const MeasuredOn& on)
@@ -300,7 +291,7 @@ std::string accuracy_page(const std::vector<MeasuredSetting>& all, const Measure
           "text-align:right}td:first-child,th:first-child{text-align:left}tr.best td:first-child{color:#0072b2;"
           "font-weight:bold}tr.shipped td:first-child{color:#a33c00;font-weight:bold}svg{width:100%}</style>"
           "</head><body>\n<h1>Speed and accuracy</h1>\n";
-    out += "<p>" + safe(on.what) + ". " + safe(on.machine)
+    out += "<p>" + escaped_html(on.what) + ". " + escaped_html(on.machine)
         + text(". Frame times are medians of %d rounds, each in turn with the default setting. Errors are against the "
                "reference, "
                "%d rays a pixel, on the picture as it is shown.</p>\n",
@@ -315,7 +306,7 @@ std::string accuracy_page(const std::vector<MeasuredSetting>& all, const Measure
                    m.setting.shipped ? "shipped"
                        : best[i]     ? "best"
                                      : "other")
-            + safe(m.setting.name)
+            + escaped_html(m.setting.name)
             + text(
                 "</td><td>%.1f</td><td>%.2f</td><td>%.0f</td><td>%.2f</td><td>%d</td><td>%.4f</td><td>%.1f</td><td>%.2f</td>"
                 "<td>%.2f</td><td>%.3f</td><td>%.4f</td><td>%.1e</td></tr>\n",

@@ -18,7 +18,7 @@ struct Cursor {
     std::size_t at = 0, end = 0;
     bool broken = false;
 
-    template <class T> T take()
+    template <class T> T read()
     {
         T value{};
         if (broken || end - at < sizeof(T))
@@ -31,7 +31,7 @@ struct Cursor {
     std::string name()
     {
         std::string text;
-        while (const char c = take<char>())
+        while (const char c = read<char>())
             text += c;
         broken = broken || text.size() > 255;
         return text;
@@ -55,9 +55,9 @@ std::string printable(std::string text)
 bool read_channels(Cursor in, Header& header)
 {
     for (std::string name = in.name(); !name.empty(); name = in.name()) {
-        const auto type = in.take<std::int32_t>();
-        in.take<std::int32_t>(); // linear, reserved
-        const auto x_step = in.take<std::int32_t>(), y_step = in.take<std::int32_t>();
+        const auto type = in.read<std::int32_t>();
+        in.read<std::int32_t>(); // linear, reserved
+        const auto x_step = in.read<std::int32_t>(), y_step = in.read<std::int32_t>();
         if (type != float_samples || x_step != 1 || y_step != 1 || !header.channels.insert(name).second)
             return false;
     }
@@ -70,17 +70,17 @@ bool read_attribute(const std::string& name, Cursor in, Header& header)
     if (name == "channels")
         return read_channels(in, header);
     if (name == "compression") {
-        header.compression = in.take<unsigned char>();
+        header.compression = in.read<unsigned char>();
         return size == 1 && (header.compression == no_compression || header.compression == zip_compression);
     }
     if (name == "dataWindow") {
-        const auto x0 = in.take<std::int32_t>(), y0 = in.take<std::int32_t>();
-        header.width = std::int64_t(in.take<std::int32_t>()) + 1, header.height = std::int64_t(in.take<std::int32_t>()) + 1;
+        const auto x0 = in.read<std::int32_t>(), y0 = in.read<std::int32_t>();
+        header.width = std::int64_t(in.read<std::int32_t>()) + 1, header.height = std::int64_t(in.read<std::int32_t>()) + 1;
         return size == 16 && x0 == 0 && y0 == 0 && header.width >= 1 && header.width <= most_across && header.height >= 1
             && header.height <= most_across;
     }
     if (name == "lineOrder") // tinyexr would turn the others' pictures upside down
-        return size == 1 && in.take<unsigned char>() == 0;
+        return size == 1 && in.read<unsigned char>() == 0;
     if (name == "displayWindow")
         return size == 16;
     if (name == "screenWindowCenter")
@@ -94,15 +94,15 @@ std::string exr_fault(const std::vector<unsigned char>& bytes)
 {
     Cursor in{bytes, 0, bytes.size()};
     constexpr std::uint32_t long_names = 0x400;
-    if (in.take<std::uint32_t>() != 20000630)
+    if (in.read<std::uint32_t>() != 20000630)
         return "is not an EXR file; a file that Starbow wrote is right";
-    if ((in.take<std::uint32_t>() & ~long_names) != 2)
+    if ((in.read<std::uint32_t>() & ~long_names) != 2)
         return "is an EXR file of another kind; a plain image in rows, version 2, is right";
 
     Header header;
     for (std::string name = in.name(); !name.empty(); name = in.name()) {
         in.name(); // the attribute's type
-        const auto size = in.take<std::uint32_t>();
+        const auto size = in.read<std::uint32_t>();
         if (in.broken || size > in.end - in.at)
             return "breaks off inside its header; a whole file is right";
         if (!header.attributes.insert(name).second || !read_attribute(name, {bytes, in.at, in.at + size}, header))
@@ -117,12 +117,12 @@ std::string exr_fault(const std::vector<unsigned char>& bytes)
     const std::int64_t rows_per_block = header.compression == zip_compression ? 16 : 1;
     const std::int64_t row_bytes = header.width * 4 * std::int64_t(header.channels.size());
     for (std::int64_t row = 0; row < header.height; row += rows_per_block) {
-        const auto place = in.take<std::uint64_t>();
+        const auto place = in.read<std::uint64_t>();
         if (in.broken || place > bytes.size())
             return "breaks off at row " + std::to_string(row) + "; a whole file is right";
         Cursor block{bytes, place, bytes.size()};
-        const auto number = block.take<std::int32_t>();
-        const auto size = block.take<std::int32_t>();
+        const auto number = block.read<std::int32_t>();
+        const auto size = block.read<std::int32_t>();
         const std::int64_t full = row_bytes * std::min(rows_per_block, header.height - row);
         // Deflate packs at most 1032 to 1; a larger claim would reserve memory in vain.
         const bool fits = header.compression == zip_compression

@@ -416,8 +416,8 @@ void Bus::send(const StateMessage& state)
         return;
     starbow_machines_State sample{};
     sample.frame = state.frame;
-    sample.instant._buffer = const_cast<std::uint8_t*>(state.instant.data());
-    sample.instant._length = sample.instant._maximum = std::uint32_t(state.instant.size());
+    sample.instant._buffer = const_cast<std::uint8_t*>(state.bytes.data());
+    sample.instant._length = sample.instant._maximum = std::uint32_t(state.bytes.size());
     sample.exhibit = lent(place_.exhibit);
     sample.master = state.master, sample.led_ms = state.led_ms;
     topics_->state.write(sample);

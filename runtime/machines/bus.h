@@ -16,7 +16,7 @@ namespace starbow {
 /// A frame that is to be drawn: the state's bytes, at most most_state_bytes.
 struct StateMessage {
     std::int64_t frame = 0;
-    std::vector<std::uint8_t> instant;
+    std::vector<std::uint8_t> bytes; ///< of a SharedState
     std::uint64_t master = 0; ///< as Rival's
     std::int64_t led_ms = 0;
 };
@@ -26,7 +26,7 @@ constexpr std::size_t most_state_bytes = 4096;
 struct ReadyMessage {
     std::string node;
     std::int64_t frame = 0;
-    std::uint64_t digest = 0; ///< of the instant's bytes
+    std::uint64_t digest = 0; ///< of the state's bytes
     double frame_ms = 0; ///< that it took to draw
     bool barrier = false; ///< its screens change with those of the others
     std::vector<ViewSamples> samples{}; ///< of its views; none where nothing is metered
@@ -49,7 +49,7 @@ struct ConfigMessage {
     FileDigests layout; ///< the layout's own, then its calibrations
 };
 
-/// A picture of the instruments' readings, which an instant names by its number.
+/// A picture of the instruments' readings, which a state names by its number.
 struct PageMessage {
     std::int64_t number = 0;
     std::int32_t width = 0, height = 0; ///< pixels

@@ -109,7 +109,7 @@ void look_at(const Instruments& on, Faults& faults)
         faults.outside("the scale's place", on.scale_place[i], -most_page_side, most_page_side);
 }
 
-void look_at(const Instant& now, Faults& faults)
+void look_at(const PictureState& now, Faults& faults)
 {
     look_at(now.shot, faults);
     faults.outside("the head's way", now.head.moved_m, 100);
@@ -117,7 +117,7 @@ void look_at(const Instant& now, Faults& faults)
     if (now.range)
         look_at(*now.range, faults);
     faults.outside("the bloom", now.bloom, 0, 1);
-    faults.outside("the part of black", now.black, 0, 1);
+    faults.outside("the part of black", now.fade, 0, 1);
     faults.outside("the vignette's elevation", now.vignette.elevation_deg, -90, 90);
     faults.outside("the vignette's clear part", now.vignette.clear_deg, 0, 180);
     faults.outside("the vignette's soft part", now.vignette.soft_deg, 0.001, 180);
@@ -133,11 +133,11 @@ void look_at(const Instant& now, Faults& faults)
             faults.when(line.size() > most_sign_letters, "has a sign with too long a line");
         faults.no_unit("a sign in a direction whose square is", glm::dot(now.sign->towards, now.sign->towards));
     }
-    if (now.small_picture) {
-        faults.when(now.small_picture->kind == Beside::none, "has a small picture of nothing");
-        faults.outside("the small picture's exposure", now.small_picture->start_ev, -1000, 1000);
-        faults.outside("the small picture's field", now.small_picture->fov_deg, 1e-9, 170);
-        faults.when(now.small_picture->name.size() > most_sign_letters, "has a small picture with too long a name");
+    if (now.inset) {
+        faults.when(now.inset->kind == InsetView::none, "has an inset of nothing");
+        faults.outside("the inset's exposure", now.inset->start_ev, -1000, 1000);
+        faults.outside("the inset's field", now.inset->fov_deg, 1e-9, 170);
+        faults.when(now.inset->name.size() > most_sign_letters, "has an inset with too long a name");
     }
     if (now.instruments)
         look_at(*now.instruments, faults);
@@ -164,7 +164,7 @@ std::string fault_of(const StateMessage& state)
 {
     Faults faults;
     faults.outside("the frame", double(state.frame), 0, double(last_frame));
-    faults.when(state.instant.empty() || state.instant.size() > most_state_bytes, "has no instant of 1 to 4096 bytes");
+    faults.when(state.bytes.empty() || state.bytes.size() > most_state_bytes, "has no state of 1 to 4096 bytes");
     faults.when(state.led_ms < 0, "says a time below 0");
     return faults.first;
 }
@@ -211,14 +211,14 @@ std::string fault_of(const PageMessage& page)
     return faults.first;
 }
 
-std::string fault_of(const SharedInstant& shared)
+std::string fault_of(const SharedState& shared)
 {
     Faults faults;
     faults.when(shared.scene.empty(), "has no scene");
     faults.when(shared.level < -1, "has a level below -1");
     for (const TurnedNumber& number : shared.turned)
         faults.outside("a turned number", number.value, -1e6, 1e6);
-    look_at(shared.instant, faults);
+    look_at(shared.picture, faults);
     return faults.first;
 }
 

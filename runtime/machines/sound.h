@@ -1,6 +1,6 @@
 #pragma once
 #include "bus.h"
-#include "instant_bytes.h"
+#include "shared_state.h"
 
 namespace starbow {
 
@@ -12,6 +12,6 @@ std::string fault_of(const ReadyMessage& ready);
 std::string fault_of(const GoMessage& go);
 std::string fault_of(const ConfigMessage& config);
 std::string fault_of(const PageMessage& page);
-std::string fault_of(const SharedInstant& shared);
+std::string fault_of(const SharedState& shared);
 
 } // namespace starbow

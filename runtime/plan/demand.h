@@ -14,7 +14,7 @@ struct ViewRequest {
     double parallax_rad = 0; ///< greatest angle, in the world, between a pixel's direction and the texel it reads
     double dark_D = 0; ///< light of a smaller D shows nothing on the view's screen
     int rays = 1; ///< along each side of a pixel, if more than all views' have: so many times coarser ones need no mips
-    bool beside = false; ///< of the small picture, whose pixels do not raise the limit of texels
+    bool beside = false; ///< of the inset, whose pixels do not raise the limit of texels
 };
 
 /// One rest frame's part of a cube map: the directions and densities that the views request, boosted by the frame's own

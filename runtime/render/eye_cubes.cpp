@@ -1,5 +1,5 @@
 #include "eye_cubes.h"
-#include "config/model/beside.h"
+#include "config/model/inset_view.h"
 #include "runtime/operation/trace.h"
 #include "runtime/plan/cull.h"
 #include "runtime/plan/scratch.h"
@@ -123,10 +123,10 @@ void EyeCubes::observe_inset(Inset& inset)
     all.back().now_m = place;
 }
 
-/// True if the small picture is a telescope that looks into the first view's own light, only finer, from the same cube map.
-bool EyeCubes::looks_closer(const Inset& inset) const { return inset.fov_deg < beside_fov_deg && !state_.reprojects(); }
+/// True if the inset is a telescope that looks into the first view's own light, only finer, from the same cube map.
+bool EyeCubes::looks_closer(const Inset& inset) const { return inset.fov_deg < inset_fov_deg && !state_.reprojects(); }
 
-/// True if another small picture is warped from the cube map of the frame's first view: where neither is aberrated. Light
+/// True if another inset is warped from the cube map of the frame's first view: where neither is aberrated. Light
 /// that arrives at one event is the same for all observers there, but at another aberration they need other directions
 /// finely, so that the common cube map would have the texels of both. At the same aberration it has mips for the small
 /// picture alone, or that takes several rays a pixel; on two cores, without a GPU, a frame at gamma 4 took 1.28 and 1.27
@@ -141,7 +141,7 @@ bool EyeCubes::shares_cube(const Observer& inset, const Observer& first) const
         && (light == StoredLight::unshifted || light == world_.stored_light(first.shot.effects));
 }
 
-/// The least numbers that are exact for the small picture. Where nothing moves, none of its light is shifted.
+/// The least numbers that are exact for the inset. Where nothing moves, none of its light is shifted.
 StoredLight EyeCubes::inset_light(const Observer& inset) const
 {
     Effects on = inset.shot.effects;
@@ -171,7 +171,7 @@ StoredLight EyeCubes::light_of(std::size_t eye) const
 
 int EyeCubes::rays_of(const ViewState& view) const
 {
-    // A pixel of the small picture is about four of the others', and they have about a texel each.
+    // A pixel of the inset is about four of the others', and they have about a texel each.
     constexpr int shared_rays = 2;
     const bool shared = view.observer != all[view.eye].observer;
     return shared ? std::max(state_.quality.pixel_rays, shared_rays) : state_.quality.pixel_rays;
@@ -242,7 +242,7 @@ void EyeCubes::request_views(std::size_t i, double pre_exposure, const Probe* pr
         if (at > 0)
             request.bounds = bounding_spheres(world_.world, eye_event);
         if (!all_here) {
-            // Views of other machines leave; the small picture and the probes stay, as each machine may show them.
+            // Views of other machines leave; the inset and the probes stay, as each machine may show them.
             RestFrameRequest& own = eye.own_requests[at];
             own = request;
             std::size_t number = 0;

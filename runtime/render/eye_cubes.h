@@ -44,9 +44,9 @@ public:
 
     /// Computes the observers for the instant that is drawn; returns the greatest e^rapidity of any.
     double observe();
-    /// The same for the small picture's observer, after observe(), and chooses the cube map that it is warped from.
+    /// The same for the inset's observer, after observe(), and chooses the cube map that it is warped from.
     void observe_inset(Inset& inset);
-    void forget_inset(); ///< there is no small picture any more
+    void forget_inset(); ///< there is no inset any more
     /// The processor's part: plans the cube maps, culls and uploads. pre_exposure applies to cube maps that are drawn
     /// anew. probe: further rays that the probed view's eye must see, or null.
     void plan(double pre_exposure, const Probe* probe);
@@ -69,7 +69,7 @@ public:
 
     std::vector<EyeCube> all;
     std::vector<CubeMapPlan> plans; ///< one for each eye
-    std::vector<Observer> observers; ///< the views', then the small picture's
+    std::vector<Observer> observers; ///< the views', then the inset's
 
 private:
     std::size_t eye_for(const ViewState& view);
@@ -90,8 +90,8 @@ private:
     FrameState& state_;
     const ViewSet& views_;
     SeenStars& stars_;
-    bool inset_observed_ = false; ///< the last observer is the small picture's
-    bool inset_eye_ = false; ///< the last eye is the small picture's, because it can share no other cube map
+    bool inset_observed_ = false; ///< the last observer is the inset's
+    bool inset_eye_ = false; ///< the last eye is the inset's, because it can share no other cube map
     bool drawn_ = false; ///< the cube maps may be shown once more
     int shown_ = 0; ///< number of frames that have shown them
     PlanScratch scratch_;

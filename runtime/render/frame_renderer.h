@@ -1,5 +1,5 @@
 #pragma once
-#include "config/model/beside.h"
+#include "config/model/inset_view.h"
 #include "view_measurement.h"
 #include "view_meter.h"
 
@@ -17,7 +17,7 @@ public:
     FrameRenderer(const FrameRenderer&) = delete; // its parts know each other by reference
     FrameRenderer& operator=(const FrameRenderer&) = delete;
 
-    /// The whole frame: observers, plan, culling and upload; cube maps; meter and probes; the small picture; then each
+    /// The whole frame: observers, plan, culling and upload; cube maps; meter and probes; the inset; then each
     /// output's views, instruments, head-up display and finish. hud: the panel, or null. targets: one for each output. An
     /// output without a view is left out: it is minimised, or its monitor is away.
     void draw(vk::CommandBuffer commands, const Shot& shot, const Panel* hud, std::span<const Target> targets)
@@ -71,9 +71,9 @@ public:
     void meter(bool on) { state_.meters = on; }
     /// Lays callouts over all views, beside the head-up display, from the next frame on. They must last until it is drawn.
     void place(std::span<const Callout> callouts) { passes_.place(callouts); }
-    /// Draws a small picture of another shot of the same event as well, from the next frame on; not while a test pattern is
+    /// Draws an inset of another shot of the same event as well, from the next frame on; not while a test pattern is
     /// shown. width: pixels. The device must have finished the frame before. Throws NoRoom; then there is none.
-    void show_inset(const Shot& shot, int width, double fov_deg = beside_fov_deg);
+    void show_inset(const Shot& shot, int width, double fov_deg = inset_fov_deg);
     void drop_inset(); ///< the device must have finished the frame before
     const Image& inset_picture() const { return views_.inset->picture; } ///< of the last frame; only while there is one
     /// Sets the overlay of all views and the probes from the next frame on; none: at no cost. In a world whose depth is

@@ -12,7 +12,7 @@ Inset::Inset(Device& device, const Pipelines& pipelines, int width, double fov_d
               vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled
                   | vk::ImageUsageFlagBits::eTransferSrc}))
 {
-    name_object(device, picture, "small picture");
+    name_object(device, picture, "inset");
     MapStore store(std::filesystem::path{}); // a flat view has a matrix
     const Layout layout = one_view(Planar{.fov_y_deg = fov_deg}, {width, int(width * aspect)});
     view.compiled = compile_output(store, layout, 0, layout.outputs[0].size).front();
@@ -20,9 +20,9 @@ Inset::Inset(Device& device, const Pipelines& pipelines, int width, double fov_d
     const std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 4},
         {vk::DescriptorType::eUniformTexelBuffer, 2}, {vk::DescriptorType::eCombinedImageSampler, 17}};
     pool = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
-    name_object(device, pool, "small picture: descriptor pool");
+    name_object(device, pool, "inset: descriptor pool");
     view.warp_set = std::move(device.device.allocateDescriptorSets({*pool, *pipelines.layouts.warp_set}).front());
-    name_object(device, view.warp_set, "small picture: descriptor set");
+    name_object(device, view.warp_set, "inset: descriptor set");
 }
 
 } // namespace starbow

@@ -179,7 +179,7 @@ void ViewPasses::draw_inset(vk::CommandBuffer commands)
 {
     if (!views_.inset)
         return;
-    const Label label(device_, commands, "small picture");
+    const Label label(device_, commands, "inset");
     const ViewState& view = views_.inset->view;
     const Image& picture = views_.inset->picture;
     if (stars_.on()) {

@@ -33,7 +33,7 @@ public:
     void fade_output(vk::CommandBuffer commands, const Target& target);
     /// The measured channels of one layer of an output's first canvas.
     void record_measured(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const MeasureTarget& target);
-    /// The small picture, if there is one: stars and cube map, without glow.
+    /// The inset, if there is one: stars and cube map, without glow.
     void draw_inset(vk::CommandBuffer commands);
     /// The stars alone, the first part of warp_layer. exposure: factor of their light.
     void draw_stars(

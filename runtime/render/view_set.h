@@ -91,7 +91,7 @@ public:
     std::vector<MapImage> maps;
     PanelPass::Place hud_place;
     MapStore store;
-    std::unique_ptr<Inset> inset; ///< null: no small picture
+    std::unique_ptr<Inset> inset; ///< null: no inset
 
 private:
     std::optional<glm::dvec3> direction(const ViewState& view, std::size_t output, const glm::dvec2& pixel) const;

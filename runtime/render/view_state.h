@@ -8,7 +8,7 @@ namespace starbow {
 
 /// A view of the layout with its objects on the device.
 struct ViewState {
-    std::size_t output = 0; ///< index into ViewSet::outputs; none for the small picture
+    std::size_t output = 0; ///< index into ViewSet::outputs; none for the inset
     std::size_t eye = 0; ///< index of its eye's cube map in EyeCubes::all
     std::size_t observer = 0; ///< index into EyeCubes::observers
     CompiledView compiled;

@@ -75,7 +75,7 @@ int small_part(int whole, double part)
     return int(std::has_single_bit(unsigned(whole)) ? std::bit_floor(small) : small + std::has_single_bit(small));
 }
 
-/// The part of a layout's sides that its small picture has.
+/// The part of a layout's sides that its inset has.
 double shrinking(const Layout& layout)
 {
     int longest = small_side;
@@ -92,7 +92,7 @@ Layout small_layout(Layout layout)
     return layout;
 }
 
-/// The quality with which a small picture's plans are of the same kinds as the layout's.
+/// The quality with which an inset's plans are of the same kinds as the layout's.
 Quality small_quality(Quality quality, const Layout& layout)
 {
     quality.image_cost_texels *= shrinking(layout) * shrinking(layout);

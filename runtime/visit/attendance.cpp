@@ -29,14 +29,14 @@ Requests Attendance::lead_home(const FlightSource& source, const Controls& hands
     }
     // From the world's end the way leads backwards, and nothing is seen: it is left out, once the ship has slowed down.
     goes_home_ |= homing && homing->from_boundary && homing->leg == HomingLeg::way;
-    if (!goes_home_ && home_black_ == 1) {
+    if (!goes_home_ && home_fade_ == 1) {
         wait_for_throttle(hands, rests, requests);
         if (hands.throttle_rate > 0) // a key that is still held, too
             requests.set(Switch::stop);
     }
     const double half_s = std::max(rules_.fade_s / 2, 1e-3);
-    home_black_ = std::clamp(home_black_ + (goes_home_ ? dt_s : -dt_s) / half_s, 0.0, 1.0);
-    if (goes_home_ && home_black_ == 1) {
+    home_fade_ = std::clamp(home_fade_ + (goes_home_ ? dt_s : -dt_s) / half_s, 0.0, 1.0);
+    if (goes_home_ && home_fade_ == 1) {
         requests.set(Switch::reset);
         goes_home_ = false;
     }

@@ -36,7 +36,7 @@ public:
     /// True while somebody's visit goes on.
     bool knows_visitor() const { return in_hand() && (attends_ || visit_.touched_ns > 0); }
     /// The part of black over the picture.
-    double black() const { return std::max(home_black_, blackness(visit_, rules_)); }
+    double fade() const { return std::max(home_fade_, fade_of(visit_, rules_)); }
     /// Seconds until the visit ends by itself, where that is said; otherwise none.
     std::optional<double> seconds_left() const { return starbow::seconds_left(visit_, rules_); }
     /// The time with a visitor since the last call, s.
@@ -47,7 +47,7 @@ private:
     bool attends_;
     Visit visit_;
     bool goes_home_ = false; ///< through black, as the way is too long to be flown
-    double home_black_ = 0; ///< the part of black on that way
+    double home_fade_ = 0; ///< the part of black on that way
     double visited_s_ = 0;
 };
 

@@ -32,7 +32,7 @@ bool Docent::apply_command(const Command& command)
 void Docent::advance(double dt_s)
 {
     constexpr double to_black_s = 1.5;
-    black_ = std::clamp(black_ + (fades_ ? dt_s : -dt_s) / to_black_s, 0.0, 1.0);
+    fade_ = std::clamp(fade_ + (fades_ ? dt_s : -dt_s) / to_black_s, 0.0, 1.0);
 }
 
 } // namespace starbow

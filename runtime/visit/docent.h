@@ -5,7 +5,7 @@
 
 namespace starbow {
 
-/// A docent's directions to a running exhibit that are neither a programme nor a visitor's choice.
+/// A docent's directions to a running exhibit that are neither content nor a visitor's choice.
 class Docent {
 public:
     /// Carries out fade, exposure, caption, hold, speed limit and restart. Returns false, and changes nothing, for any other
@@ -17,7 +17,7 @@ public:
     void forget() { *this = {}; }
 
     bool fades() const { return fades_; } ///< to black, and stays so
-    double black() const { return black_; } ///< the part of black over the picture
+    double fade() const { return fade_; } ///< the part of black over the picture
     bool holds() const { return holds_; } ///< the visitors' devices do nothing
     double exposure_ev() const { return exposure_ev_; } ///< added to every picture's
     const std::string& caption() const { return caption_; } ///< on the head-up display; empty: none
@@ -27,7 +27,7 @@ public:
 
 private:
     bool fades_ = false, holds_ = false, restarts_ = false;
-    double black_ = 0, exposure_ev_ = 0;
+    double fade_ = 0, exposure_ev_ = 0;
     std::string caption_{};
     std::optional<double> max_gamma_{};
 };

@@ -57,9 +57,9 @@ double ShownLight::wanted_ev(const LightInputs& now) const
 /// Limits the turns of a calm exhibit's exposure and of its way to black.
 void ShownLight::keep_calm(const LightInputs& now)
 {
-    constexpr double black_per_s = 2; // the fastest way to black and back, its part in a second
-    calm_black_ = followed(calm_black_, black_, now.dt_s, black_per_s, 0);
-    black_ = *calm_black_.value;
+    constexpr double fade_per_s = 2; // the fastest way to black and back, its part in a second
+    calm_fade_ = followed(calm_fade_, fade_, now.dt_s, fade_per_s, 0);
+    fade_ = *calm_fade_.value;
     SlowTurns before = std::exchange(calm_ev_, {});
     const bool ranged = curve().has_value();
     if (std::exchange(calm_range_, ranged) != ranged)
@@ -81,7 +81,7 @@ void ShownLight::advance(RecordEntry& entry, const LightInputs& now)
                             : adapted(exposure_, metered.ev, now.dt_s, rules_, begun_ev_);
     entry.exposure_ev = exposure_.ev;
     follow_range(entry, now, metered);
-    black_ = now.black;
+    fade_ = now.fade;
     ev_ = wanted_ev(now);
     if (rules_.calm)
         keep_calm(now);

@@ -22,7 +22,7 @@ struct LightInputs {
     bool range = false; ///< a curve shows everything at once
     bool locks = false; ///< the exposure's lock is turned
     bool replays = false; ///< the entry holds the measurements of the recorded flight
-    double black = 0; ///< the wanted part of black over the picture
+    double fade = 0; ///< the wanted part of black over the picture
     double directed_ev = 0; ///< a docent's change of the exposure
     double dt_s = 0;
 };
@@ -38,7 +38,7 @@ public:
 
     /// Follows a frame. entry: receives the measurements that a replay reads.
     void advance(RecordEntry& entry, const LightInputs& now);
-    /// Another programme: the exposure begins with its first view.
+    /// Other content: the exposure begins with its first view.
     void begin() { leaps_.reset(); }
     /// Another visitor: no lock holds the exposure, and a curve begins with the next view.
     void forget_visitor() { range_ = {}, exposure_.locked = false; }
@@ -49,7 +49,7 @@ public:
     const std::optional<RangeCurve>& curve() const { return range_.follower.shown; }
     bool locked() const { return exposure_.locked; } ///< the automatic exposure
     /// The part of black, smoothed, with the part of the light that a calm exhibit takes away.
-    double black() const { return 1 - (1 - glm::smoothstep(0.0, 1.0, black_)) * light_; }
+    double fade() const { return 1 - (1 - glm::smoothstep(0.0, 1.0, fade_)) * light_; }
     /// True where the picture has nothing to do with the one before.
     bool leapt() const { return leapt_; }
 
@@ -64,11 +64,11 @@ private:
     Exposure exposure_{};
     double begun_ev_ = 0; ///< the exposure with which the present view began
     RangeMode range_{};
-    std::optional<Leaps> leaps_{}; ///< of the last picture; none before the first one of a programme
+    std::optional<Leaps> leaps_{}; ///< of the last picture; none before the first one of new content
     bool leapt_ = false;
-    double ev_ = 0, black_ = 0;
+    double ev_ = 0, fade_ = 0;
     // The limits of a calm exhibit:
-    SlowTurns calm_ev_{}, calm_black_{};
+    SlowTurns calm_ev_{}, calm_fade_{};
     bool calm_range_ = false; ///< calm_ev_ is that of a curve
     FlashGuard flash_guard_{};
     double light_ = 1; ///< the part of the picture's light that it keeps

@@ -9,7 +9,7 @@ std::int64_t whole_ns(double seconds) { return std::llround(1e9 * seconds); }
 double in_seconds(std::int64_t ns) { return 1e-9 * double(ns); }
 
 /// To black takes half of the fade, and back the other half.
-std::int64_t to_black_ns(const Visiting& rules) { return whole_ns(rules.fade_s / 2); }
+std::int64_t to_fade_ns(const Visiting& rules) { return whole_ns(rules.fade_s / 2); }
 
 bool darkens(VisitPhase phase)
 {
@@ -48,24 +48,20 @@ void end(Visit& visit, VisitEvents& events)
 {
     events.ends = events.shows_attraction = true;
     events.length_s = in_seconds(visit.touched_ns);
-    visit = {.black_ns = visit.black_ns};
+    visit = {.fade_ns = visit.fade_ns};
 }
 
 } // namespace
 
-Visit begun(Visit visit)
-{
-    return {.phase = VisitPhase::flying, .black_ns = visit.black_ns, .attraction = visit.attraction};
-}
+Visit begun(Visit visit) { return {.phase = VisitPhase::flying, .fade_ns = visit.fade_ns, .attraction = visit.attraction}; }
 
 bool in_hand(const Visit& visit) { return visit.phase == VisitPhase::flying || visit.phase == VisitPhase::asking; }
 
 Visit advance(Visit visit, const Visiting& rules, const VisitSigns& signs, std::int64_t dt_ns, VisitEvents& events)
 {
-    visit.black_ns
-        = std::clamp(visit.black_ns + (darkens(visit.phase) ? dt_ns : -dt_ns), std::int64_t(0), to_black_ns(rules));
+    visit.fade_ns = std::clamp(visit.fade_ns + (darkens(visit.phase) ? dt_ns : -dt_ns), std::int64_t(0), to_fade_ns(rules));
     visit.phase_ns += dt_ns;
-    const bool black = visit.black_ns == to_black_ns(rules);
+    const bool black = visit.fade_ns == to_fade_ns(rules);
     switch (visit.phase) {
     case VisitPhase::attract:
     case VisitPhase::changing:
@@ -102,10 +98,10 @@ Visit advance(Visit visit, const Visiting& rules, const VisitSigns& signs, std::
     return visit;
 }
 
-double blackness(const Visit& visit, const Visiting& rules)
+double fade_of(const Visit& visit, const Visiting& rules)
 {
-    const std::int64_t whole = to_black_ns(rules);
-    return whole > 0 ? double(visit.black_ns) / double(whole) : 0;
+    const std::int64_t whole = to_fade_ns(rules);
+    return whole > 0 ? double(visit.fade_ns) / double(whole) : 0;
 }
 
 std::optional<double> seconds_left(const Visit& visit, const Visiting& rules)

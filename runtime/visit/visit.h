@@ -23,7 +23,7 @@ inline constexpr std::array visit_phase_names{"attract", "changing", "entering",
 struct Visit {
     VisitPhase phase = VisitPhase::attract;
     std::int64_t phase_ns = 0; ///< time in the phase
-    std::int64_t black_ns = 0; ///< of half the fade: how much of the way to black
+    std::int64_t fade_ns = 0; ///< of half the fade: how much of the way to black
     std::int64_t idle_ns = 0; ///< without a touch, in the phases that know a visitor
     std::int64_t visit_ns = 0, touched_ns = 0; ///< time since the visit began; then, at the last touch
     std::size_t attraction = 0; ///< counted on from 0
@@ -47,14 +47,14 @@ struct VisitEvents {
 /// The visit dt_ns nanoseconds later. events: receives its changes.
 Visit advance(Visit visit, const Visiting& rules, const VisitSigns& signs, std::int64_t dt_ns, VisitEvents& events);
 
-/// A visit that a docent begins: without a fade, and without a programme of its own.
+/// A visit that a docent begins: without a fade, and without content of its own.
 Visit begun(Visit visit);
 
 /// True while a visitor's controls have an effect.
 bool in_hand(const Visit& visit);
 
 /// The part of black over the picture, from 0 to 1.
-double blackness(const Visit& visit, const Visiting& rules);
+double fade_of(const Visit& visit, const Visiting& rules);
 
 /// Seconds until the visit ends by itself, while the question is shown and shortly before the longest visit's end; otherwise
 /// none.

@@ -61,7 +61,7 @@ bool read_levels(const std::filesystem::path& path, std::uint64_t key, const Wor
     return levels == kept.levels.size() && pieces == kept.pieces.size();
 }
 
-void take(Kept&& kept, World& world)
+void adopt(Kept&& kept, World& world)
 {
     world.indices = std::move(kept.indices);
     world.clusters = std::move(kept.clusters);
@@ -134,7 +134,7 @@ bool read_kept_levels(const std::filesystem::path& file, std::uint64_t key, Worl
     Kept kept;
     if (!read_levels(file, key, world, kept))
         return false;
-    take(std::move(kept), world);
+    adopt(std::move(kept), world);
     return true;
 }
 

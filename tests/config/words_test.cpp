@@ -51,7 +51,7 @@ TEST(Words, LanguagesHaveTheSameKeysAndPlaceholders)
 }
 
 /// The sources and the remote's page name every key of the languages' files, except tours' texts, goals'
-/// (tests/flight/goals_test.cpp), the small pictures', effects, modes of flight and the decimal sign.
+/// (tests/flight/goals_test.cpp), the insets', effects, modes of flight and the decimal sign.
 TEST(Words, EveryKeyIsUsedInTheSources)
 {
     std::string sources;
@@ -60,7 +60,7 @@ TEST(Words, EveryKeyIsUsedInTheSources)
             if (entry.is_regular_file())
                 sources += read_text(entry.path());
     for (const auto& [key, text] : words().texts) {
-        const bool elsewhere = key.starts_with("tour.") || key.starts_with("goal.") || key.starts_with("beside.")
+        const bool elsewhere = key.starts_with("tour.") || key.starts_with("goal.") || key.starts_with("inset.")
             || key.starts_with("flight.") || key.starts_with("menu.scene.") || key.starts_with("menu.tour.")
             || key == "decimal_sign";
         const bool of_effect = std::ranges::any_of(

@@ -167,8 +167,8 @@ struct Weights {
         return place;
     }
 
-    /// Interpolates between the centres of four pixels, and extrapolates to the picture's edge. Beside a hole it returns the
-    /// pixel's own weight, and nothing where no pixel is lit.
+    /// Interpolates between the centres of four pixels, and extrapolates to the picture's edge. InsetView a hole it returns
+    /// the pixel's own weight, and nothing where no pixel is lit.
     std::optional<double> at(std::size_t i, const dvec2& place) const
     {
         const OutputWeights& weights_of_output = outputs[i];

@@ -485,10 +485,11 @@ TEST(WarpFormatsTest, TheNameDecidesWhereTheContentSaysNothing)
 {
     for (const WarpFormat* format : warp_formats())
         for (const std::string_view ending : format->endings)
-            if (!ending.empty())
+            if (!ending.empty()) {
                 EXPECT_TRUE(
                     read("a" + std::string(ending), small_samples().at(format->name)).format.starts_with(format->name))
                     << ending;
+            }
 }
 
 } // namespace

@@ -33,7 +33,7 @@ public:
         : layout_(window())
         , renderer_(context.device, context.pipelines, context.world, layout_, quality(), false)
     {
-        options_.programme = programme_of_scene(scene);
+        options_.content = content_of_scene(scene);
         options_.layout = layout_;
         options_.words = starbow::testing::words();
         options_.exposure.calm = calm;
@@ -51,7 +51,7 @@ public:
     {
         Session session(options_);
         FlashLimiter calm_hands;
-        const Shot& start = options_.programme.start;
+        const Shot& start = options_.content.start;
         ReplayRenderer pictures(renderer_, Pattern::none, options_.exposure, start.exposure_ev, options_.words);
         pictures.meter(true);
         FlashCounter counter(pixels_, 1);

@@ -20,7 +20,7 @@ using starbow::testing::controls_with;
 /// The light of the view, as the exposure that it would be metered with: any function that differs from place to place.
 double metered_in(const Session& session)
 {
-    double sum = double(session.programme.scene.string().size() % 7);
+    double sum = double(session.content.scene.string().size() % 7);
     const glm::dvec3 at = session.flight().ship.position.total(), u = session.flight().ship.u.total();
     for (int i = 0; i < 3; ++i)
         sum += 2 * std::sin(at[i] / 3 + i) - std::log1p(std::abs(u[i]));
@@ -56,10 +56,10 @@ struct Live {
     std::optional<double> drawn;
 };
 
-ExhibitOptions options_of(const Programme& programme)
+ExhibitOptions options_of(const SessionContent& content)
 {
     ExhibitOptions options;
-    options.programme = programme;
+    options.content = content;
     options.layout = load_layout(shipped_file("layouts", "desk"));
     options.words = words_in("en");
     options.paced = false;
@@ -74,11 +74,11 @@ std::vector<std::string> names_in(const std::string& kind)
     return names;
 }
 
-Programme programme_of(const std::string& kind, const std::string& name)
+SessionContent content_of(const std::string& kind, const std::string& name)
 {
-    return kind == "scenes" ? programme_of_scene(name)
-        : kind == "shots"   ? programme_of_shot(name)
-                            : programme_of_tour(name, words_in("en"));
+    return kind == "scenes" ? content_of_scene(name)
+        : kind == "shots"   ? content_of_shot(name)
+                            : content_of_tour(name, words_in("en"));
 }
 
 double number_in(const nlohmann::json& object, const char* name) { return object.value(name, 0.); }
@@ -89,7 +89,7 @@ nlohmann::json read(const std::string& kind, const std::string& name)
         testing::read_text(testing::source_dir() / "config" / kind / (name + ".json")), nullptr, true, true);
 }
 
-/// The exposure of the programme's first still, from its files' words.
+/// The exposure of the content's first still, from its files' words.
 double first_ev(const std::string& kind, const std::string& name)
 {
     const nlohmann::json file = read(kind, name);
@@ -121,15 +121,15 @@ TEST(Leaps, EveryProgrammeBeginsWithTheExposureOfItsStill)
         for (const std::string& name : names_in(kind))
             all.emplace_back(kind, name);
     ASSERT_GT(all.size(), 50u);
-    Live live(options_of(programme_of_shot("avenue-gamma4")));
-    // From each programme to the next one in three orders; with STARBOW_ALL_CASES from each to each.
+    Live live(options_of(content_of_shot("avenue-gamma4")));
+    // From each content to the next one in three orders; with STARBOW_ALL_CASES from each to each.
     const std::vector<std::size_t> strides{1, 7, 19};
     const std::size_t every = testing::all_cases() ? all.size() : strides.size();
     for (std::size_t order = 0; order < every; ++order)
         for (std::size_t i = 0; i < all.size(); ++i) {
             const std::size_t stride = every == all.size() ? order + 1 : strides[order];
             const auto& [kind, name] = all[i * stride % all.size()];
-            begin_programme(live.session, programme_of(kind, name));
+            begin_content(live.session, content_of(kind, name));
             live.frame({}, 1e-3);
             expect_still(live, first_ev(kind, name), kind + " " + name);
             live.fly_away();
@@ -151,13 +151,13 @@ TEST(Leaps, ATouchOutOfAnAttractionIsABeginning)
         options.visiting->attract = attractions;
         options.paced = false;
         Live live(options);
-        const double start_ev = options.programme.start.exposure_ev;
+        const double start_ev = options.content.start.exposure_ev;
         for (std::size_t i = 0; i < attractions.size(); ++i)
             for (const int seconds : {0, 1, 20, 90}) {
-                begin_programme(live.session, attraction_of(live.options, live.session.words, i), false);
+                begin_content(live.session, attraction_of(live.options, live.session.words, i), false);
                 for (int s = 0; s < seconds; ++s)
                     live.frame({}, 1);
-                begin_programme(live.session, live.options.programme);
+                begin_content(live.session, live.options.content);
                 live.frame({}, 1e-3);
                 expect_still(live, start_ev, name + " after " + std::to_string(seconds) + " s of " + attractions[i]);
             }
@@ -167,14 +167,14 @@ TEST(Leaps, ATouchOutOfAnAttractionIsABeginning)
 TEST(Leaps, AResetLeadsToTheStartsExposure)
 {
     for (const std::string& name : names_in("shots")) {
-        Live live(options_of(programme_of_shot(name)));
+        Live live(options_of(content_of_shot(name)));
         live.frame();
         live.fly_away();
         live.frame(controls_with(Switches{Switch::reset}), 1e-3);
         expect_still(live, first_ev("shots", name), name);
         live.fly_away();
         forget_directions(live.session); // as the command reset does
-        begin_programme(live.session, live.options.programme);
+        begin_content(live.session, live.options.content);
         live.frame(controls_with(Switches{Switch::reset}), 1e-3);
         expect_still(live, first_ev("shots", name), name + ", by the docent");
     }
@@ -186,7 +186,7 @@ TEST(Leaps, ToursHandOverWithTheirOwnExposure)
     for (const std::string& name : names_in("tours")) {
         const nlohmann::json file = read("tours", name);
         for (const double rest_s : {0.3, 4.}) { // how long the visitor stays in each step
-            Live live(options_of(programme_of_tour(name, words_in("en"))));
+            Live live(options_of(content_of_tour(name, words_in("en"))));
             live.frame();
             std::size_t step = 0;
             bool flew = false;
@@ -214,7 +214,7 @@ TEST(Leaps, ToursHandOverWithTheirOwnExposure)
 TEST(Leaps, TenSecondsBackAndAStopAreAdaptedToAtOnce)
 {
     for (const bool stops : {false, true}) {
-        Live live(options_of(programme_of_shot("avenue-rest")));
+        Live live(options_of(content_of_shot("avenue-rest")));
         live.frame();
         const double offset = first_ev("shots", "avenue-rest") - metered_in(live.session);
         live.frame();
@@ -229,7 +229,7 @@ TEST(Leaps, TenSecondsBackAndAStopAreAdaptedToAtOnce)
 /// A record that is played again leaps as the flight did, and shows the same exposures.
 TEST(Leaps, AReplayHasTheFlightsExposures)
 {
-    ExhibitOptions options = options_of(programme_of_shot("avenue-gamma4"));
+    ExhibitOptions options = options_of(content_of_shot("avenue-gamma4"));
     options.record = testing::scratch("leaps.jsonl");
     std::vector<double> shown;
     {

@@ -1,8 +1,8 @@
 // Several machines show what one would: each draws its own outputs of the same instants, which it has from their bytes.
 #include "config/model/shipped.h"
-#include "runtime/exhibit/instant_pictures.h"
-#include "runtime/machines/instant_bytes.h"
+#include "runtime/exhibit/picture_setup.h"
 #include "runtime/machines/page_bytes.h"
+#include "runtime/machines/shared_state.h"
 #include "tests/support/gpu_environment.h"
 #include <cstring>
 
@@ -29,7 +29,7 @@ public:
     bool shows(std::size_t output) const { return node_.empty() || layout_.outputs[output].node == node_; }
 
     /// The pictures of its outputs; of others, empty ones.
-    std::vector<std::vector<std::byte>> draw(const Instant& now)
+    std::vector<std::vector<std::byte>> draw(const PictureState& now)
     {
         using Stage = vk::PipelineStageFlagBits2;
         using Access = vk::AccessFlagBits2;
@@ -64,7 +64,7 @@ private:
     std::string node_;
     Words words_;
     FrameRenderer frame_;
-    InstantPictures pictures_;
+    PictureSetup pictures_;
     std::vector<Image> images_;
 };
 
@@ -80,29 +80,29 @@ Layout layout_of(const std::string& name)
     return layout;
 }
 
-/// Instants of one flight: at rest with a text, at speed with a head that moves, at gamma 100 with a small picture, a
+/// Instants of one flight: at rest with a text, at speed with a head that moves, at gamma 100 with an inset, a
 /// pattern, a fade.
-std::vector<Instant> instants(const Shot& start)
+std::vector<PictureState> states(const Shot& start)
 {
     const auto at = [&](double gamma) {
-        Instant now{.shot = start};
+        PictureState now{.shot = start};
         now.shot.u = start.ship_from_cockpit * dvec3(0, 0, -u_of_gamma(gamma));
         now.shot.time += gamma;
         now.meters = true;
         return now;
     };
-    std::vector<Instant> all;
-    Instant& rest = all.emplace_back(at(1));
-    rest.hud = Written{1, readings(Ship(), avenue().world.scene, {})};
+    std::vector<PictureState> all;
+    PictureState& rest = all.emplace_back(at(1));
+    rest.hud = HudText{1, readings(Ship(), avenue().world.scene, {})};
     rest.hud->readings.caption = Caption{"You rest", {"go", "stay"}, 1};
-    Instant& fast = all.emplace_back(at(4));
+    PictureState& fast = all.emplace_back(at(4));
     fast.head = {{0.1, 0.05, -0.02}, glm::dquat(0.995, 0.0, 0.0998, 0.0)};
-    fast.hud = Written{2, readings(Ship(), avenue().world.scene, {})};
+    fast.hud = HudText{2, readings(Ship(), avenue().world.scene, {})};
     fast.sign = ShownSign{{"behind you"}, glm::normalize(dvec3(0.2, 0.1, -1))};
-    Instant& faster = all.emplace_back(at(100));
-    faster.small_picture = SmallPicture{.kind = Beside::at_rest, .name = "at rest"};
-    faster.shot.exposure_ev = -3, faster.black = 0.25;
-    Instant& measured = all.emplace_back(at(2));
+    PictureState& faster = all.emplace_back(at(100));
+    faster.inset = InsetPicture{.kind = InsetView::at_rest, .name = "at rest"};
+    faster.shot.exposure_ev = -3, faster.fade = 0.25;
+    PictureState& measured = all.emplace_back(at(2));
     measured.instruments = Instruments{.overlay = Overlay::grid};
     measured.vignette_part = 0.7;
     all.emplace_back(at(1)).pattern = Pattern::names;
@@ -121,7 +121,7 @@ double drawn_part(const FrameRenderer& frame)
     return drawn / all;
 }
 
-void expect_union(const GpuWorld& world, const Layout& layout, const std::vector<Instant>& all, const std::string& name)
+void expect_union(const GpuWorld& world, const Layout& layout, const std::vector<PictureState>& all, const std::string& name)
 {
     Machine whole(world, layout, "");
     std::vector<std::unique_ptr<Machine>> nodes;
@@ -129,18 +129,18 @@ void expect_union(const GpuWorld& world, const Layout& layout, const std::vector
         nodes.push_back(std::make_unique<Machine>(world, layout, node));
     for (std::size_t i = 0; i < all.size(); ++i) {
         const auto wanted = whole.draw(all[i]);
-        const std::vector<std::uint8_t> bytes = bytes_of({.scene = "avenue", .instant = all[i]});
+        const std::vector<std::uint8_t> bytes = bytes_of({.scene = "avenue", .picture = all[i]});
         bool all_there = true;
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             if (k == 1 && i == 1) {
                 all_there = false;
                 continue; // this one was away for a frame
             }
-            const auto seen = nodes[k]->draw(instant_of(bytes).instant);
+            const auto seen = nodes[k]->draw(shared_state_of(bytes).picture);
             for (std::size_t output = 0; output < seen.size(); ++output)
                 if (nodes[k]->shows(output)) {
                     EXPECT_EQ(seen[output], wanted[output])
-                        << name << ", " << layout.outputs[output].name << ", instant " << i;
+                        << name << ", " << layout.outputs[output].name << ", picture " << i;
                 }
         }
         // One exposure: the master's, from the samples of all.
@@ -148,7 +148,7 @@ void expect_union(const GpuWorld& world, const Layout& layout, const std::vector
         for (std::size_t k = 1; k < nodes.size(); ++k)
             master.add_samples(nodes[k]->frame().own_samples());
         if (all_there) {
-            EXPECT_EQ(master.metered(), whole.frame().metered()) << name << ", instant " << i;
+            EXPECT_EQ(master.metered(), whole.frame().metered()) << name << ", picture " << i;
             EXPECT_TRUE(all[i].pattern != Pattern::none || master.metered()) << name;
         }
         if (name == "cave5" && i == 0) {
@@ -168,7 +168,7 @@ TEST(Machines, TogetherTheyShowWhatOneWould)
 {
     const Shot start = load_shot(shipped_file("shots", "avenue-rest"));
     for (const char* name : {"desk", "wall3", "dome2", "cave5", "passive-pair", "stereo", "mirror"})
-        expect_union(avenue().world, layout_of(name), instants(start), name);
+        expect_union(avenue().world, layout_of(name), states(start), name);
 }
 
 /// A builder turns numbers at the master: the nodes have them by the state's bytes, in the same frame.
@@ -185,17 +185,17 @@ TEST(Machines, TheSameWhileABuilderTurnsNumbers)
         std::vector<std::unique_ptr<Machine>> nodes;
         for (const std::string& node : nodes_of(layout))
             nodes.push_back(std::make_unique<Machine>(avenue().world, layout, node));
-        const Instant now = instants(start)[1];
+        const PictureState now = states(start)[1];
         const auto before = whole.draw(now);
         whole.adopt(turned);
         const auto wanted = whole.draw(now);
         EXPECT_NE(wanted, before) << name;
-        const auto bytes = bytes_of({.scene = "avenue", .turned = turned_numbers(layout, turned), .instant = now});
+        const auto bytes = bytes_of({.scene = "avenue", .turned = turned_numbers(layout, turned), .picture = now});
         for (const auto& node : nodes) {
             node->draw(now); // in the file's layout
-            const SharedInstant shared = instant_of(bytes);
+            const SharedState shared = shared_state_of(bytes);
             node->adopt(with_turned(layout, shared.turned));
-            const auto seen = node->draw(shared.instant);
+            const auto seen = node->draw(shared.picture);
             for (std::size_t output = 0; output < seen.size(); ++output)
                 if (node->shows(output)) {
                     EXPECT_EQ(seen[output], wanted[output]) << name << ", " << layout.outputs[output].name;
@@ -212,7 +212,7 @@ TEST(Machines, TheSameWithThePageOfTheInstruments)
     Panel panel = plate({360, 240}, 20);
     for (std::size_t i = 0; i < panel.texels.size(); i += 7)
         panel.texels[i] = 255;
-    Instant now = instants(start)[0];
+    PictureState now = states(start)[0];
     Instruments& on = now.instruments.emplace();
     on.panel_number = 5, on.scale_place = {0.2f, 0.3f, 0.5f, 0.1f};
     Machine whole(avenue().world, layout, "");
@@ -221,14 +221,14 @@ TEST(Machines, TheSameWithThePageOfTheInstruments)
     const auto wanted = whole.draw(now);
     EXPECT_NE(wanted, without);
     const PageMessage page = page_of(panel, 5);
-    const auto bytes = bytes_of({.scene = "avenue", .instant = now});
+    const auto bytes = bytes_of({.scene = "avenue", .picture = now});
     for (const std::string& name : nodes_of(layout)) {
         Machine node(avenue().world, layout, name);
-        SharedInstant shared = instant_of(bytes);
-        EXPECT_EQ(shared.instant.instruments->panel_number, page.number);
+        SharedState shared = shared_state_of(bytes);
+        EXPECT_EQ(shared.picture.instruments->panel_number, page.number);
         const Panel come = panel_of(page);
-        shared.instant.instruments->panel = &come;
-        const auto seen = node.draw(shared.instant);
+        shared.picture.instruments->panel = &come;
+        const auto seen = node.draw(shared.picture);
         for (std::size_t output = 0; output < seen.size(); ++output)
             if (node.shows(output)) {
                 EXPECT_EQ(seen[output], wanted[output]) << layout.outputs[output].name;
@@ -240,7 +240,7 @@ TEST(Machines, TheSameWithMovingBodies)
 {
     const Shot start = load_shot(shipped_file("shots", "clocks-passing"));
     const GpuWorld world = upload_scene(avenue(), load_scene(shipped_file("scenes", "clocks")));
-    expect_union(world, layout_of("dome2"), instants(start), "clocks");
+    expect_union(world, layout_of("dome2"), states(start), "clocks");
 }
 
 } // namespace starbow::gpu_test::machines_gpu_test

@@ -24,7 +24,7 @@ ExhibitOptions copy(const std::string& node, const std::string& yaw = "-30")
     const std::filesystem::path file = scratch(node) / std::filesystem::path("walls.json");
     std::filesystem::rename(scratch(node + "-walls.json"), file);
     ExhibitOptions options{
-        .programme = {.scene = shipped_file("scenes", "avenue")}, .layout = load_layout(file), .words = words_in("en")};
+        .content = {.scene = shipped_file("scenes", "avenue")}, .layout = load_layout(file), .words = words_in("en")};
     options.node = node;
     return options;
 }
@@ -35,7 +35,7 @@ double yaw_of(const Layout& layout) { return std::get<Planar>(layout.outputs[0].
 Layout turned(const Layout& layout, double tenths) { return adjusted(layout, adjustables(layout)[0], tenths); }
 
 /// The state of a master with this layout.
-SharedInstant said(const ExhibitOptions& master, const Layout& shown)
+SharedState said(const ExhibitOptions& master, const Layout& shown)
 {
     return {.layout = master.layout.file.string(),
         .layout_digest = digest_of(digests_of(master.layout)),
@@ -68,7 +68,7 @@ TEST(NodeLayoutTest, TheMastersNumbersAreShownAndKept)
 
     // The builder turns.
     const Layout shown = turned(master.layout, 5);
-    const SharedInstant state = said(master, shown);
+    const SharedState state = said(master, shown);
     EXPECT_FALSE(node.is_of(state)) << "not before it has taken them";
     std::optional<Layout> next = node.turned_by(state);
     ASSERT_TRUE(next);
@@ -79,9 +79,8 @@ TEST(NodeLayoutTest, TheMastersNumbersAreShownAndKept)
 
     // He keeps it in the master's file: the node's file becomes the same, its comment with it.
     patch_file(master.layout.file, changes(master.layout, shown));
-    const ExhibitOptions kept{
-        .programme = master.programme, .layout = load_layout(master.layout.file), .words = master.words};
-    const SharedInstant after = said(kept, kept.layout);
+    const ExhibitOptions kept{.content = master.content, .layout = load_layout(master.layout.file), .words = master.words};
+    const SharedState after = said(kept, kept.layout);
     EXPECT_FALSE(node.turned_by(after)) << "the same picture until its own file is read";
     EXPECT_FALSE(node.is_of(after));
     node.compare(config_of(master, digests_of(kept.layout)), true);
@@ -161,7 +160,7 @@ TEST(NodeLayoutTest, AnotherLayoutIsLoadedByItsName)
     EXPECT_TRUE(node.is_of(said(other, other.layout)));
     EXPECT_EQ(yaw_of(node.shown()), -40);
     // One that is not here: said once, and the shown one stays.
-    SharedInstant missing = said(other, other.layout);
+    SharedState missing = said(other, other.layout);
     missing.layout = "no-such-layout", missing.layout_digest = 1;
     EXPECT_THROW(node.turned_by(missing), InputError);
     EXPECT_FALSE(node.turned_by(missing));

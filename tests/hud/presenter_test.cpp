@@ -171,7 +171,7 @@ TEST(Presenter, ASecondPressWithinAFrameGoesOnFromTheFirst)
     EXPECT_EQ(twice('E'), shows(Effect::headlight, false));
     EXPECT_EQ(twice('F'), shows(Effect::false_colours, false));
     EXPECT_EQ(twice('C'), (Command{.kind = comparison, .text = "no-light-delay"}));
-    EXPECT_EQ(twice('X'), (Command{.kind = beside, .text = "aberration"}));
+    EXPECT_EQ(twice('X'), (Command{.kind = inset, .text = "aberration"}));
     EXPECT_EQ(twice('I'), (Command{.kind = information, .text = "laboratory"}));
     EXPECT_EQ(twice('O'), on(one_button, false));
     EXPECT_EQ(twice('N'), on(left_handed, false));

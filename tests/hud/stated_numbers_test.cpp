@@ -276,7 +276,7 @@ TEST(StatedNumbers, GoalsAreCheckedWithThem)
     const double light_m_s = file_of("scenes/gamow.json")["light_speed_m_s"];
     EXPECT_NEAR(0.5 * (from("gamow.tram", "beta") + to("gamow.tram", "beta")) * light_m_s, 3, 1e-9);
     EXPECT_NEAR(1 - 1 / gamma_of(3 / light_m_s), 0.2, 1e-12);
-    // Beside what moves: the speeds that count lie around its own.
+    // InsetView what moves: the speeds that count lie around its own.
     const struct {
         const char* goal;
         double beta;

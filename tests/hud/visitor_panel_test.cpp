@@ -58,7 +58,7 @@ TEST(VisitorPanel, TheDialFillsWithTheDopplerFactorAhead)
 {
     double before = -1;
     for (double rapidity = 0; rapidity < 16; rapidity += 0.25) {
-        const double part = dial_part(at_rapidity(rapidity).beta_deficit);
+        const double part = gauge_part(at_rapidity(rapidity).beta_deficit);
         EXPECT_NEAR(part, -std::expm1(-rapidity), 1e-8) << rapidity; // 1 - 1/e^rapidity
         EXPECT_GT(part, before);
         EXPECT_LT(part, 1);

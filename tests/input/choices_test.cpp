@@ -14,7 +14,7 @@ TEST(ChoicesTest, ACommandChangesItsOwnChoice)
         const Command command{.kind = rule.kind,
             .on = true,
             .number = 2,
-            .text = rule.kind == CommandKind::beside    ? "telescope"
+            .text = rule.kind == CommandKind::inset     ? "telescope"
                 : rule.kind == CommandKind::information ? "guide"
                 : rule.kind == CommandKind::comparison  ? "galilean"
                                                         : "de",
@@ -25,7 +25,7 @@ TEST(ChoicesTest, ACommandChangesItsOwnChoice)
         EXPECT_EQ(chooses, choices != Choices()) << rule.name;
         EXPECT_EQ(static_cast<const Choices&>(after(ExhibitState(), command)), choices) << rule.name;
         const int changed = (choices.language == "de") + (choices.information == Information::guide)
-            + (choices.beside == Beside::telescope) + choices.range + choices.one_button + choices.left_handed;
+            + (choices.inset == InsetView::telescope) + choices.range + choices.one_button + choices.left_handed;
         EXPECT_EQ(changed, chooses) << rule.name;
     }
     EXPECT_EQ(choosing, 6);
@@ -40,7 +40,7 @@ TEST(ChoicesTest, SwitchesLeadThroughAllValuesAndBack)
         ++displays;
     } while (choices != Choices() && displays < 100);
     do {
-        apply(choices, Switches{Switch::beside});
+        apply(choices, Switches{Switch::inset});
         ++pictures;
     } while (choices != Choices() && pictures < 100);
     EXPECT_EQ(displays, 3);

@@ -31,7 +31,7 @@ TEST(Command, EveryKindComesBackFromItsWords)
         {{"headlight", "on"}, effect_command(Effect::headlight, true)},
         {{"false-colours", "on"}, effect_command(Effect::false_colours, true)},
         {{"unlock"}, {CommandKind::unlock, false, 0, ""}},
-        {{"beside", "at-rest"}, {CommandKind::beside, false, 0, "at-rest"}},
+        {{"beside", "at-rest"}, {CommandKind::inset, false, 0, "at-rest"}},
         {{"information", "guide"}, {CommandKind::information, false, 0, "guide"}},
         {{"exposure", "-1.5"}, {CommandKind::exposure, false, -1.5}}, {{"range", "on"}, {CommandKind::range, true, 0, ""}},
         {{"slow-motion", "on"}, {CommandKind::slow_motion, true, 0, ""}},

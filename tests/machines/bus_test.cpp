@@ -83,7 +83,7 @@ TEST(BusTest, ALateNodeReceivesTheLastStateAndItsWordsReachTheMaster)
                 return state && !configs.empty();
             }))
             return false;
-        const bool right = state->frame == 7 && state->instant == std::vector<std::uint8_t>(1000, 7)
+        const bool right = state->frame == 7 && state->bytes == std::vector<std::uint8_t>(1000, 7)
             && configs[0].node == "master" && configs[0].files == FileDigests{{"the program", "11"}, {"en.json", "33"}}
             && configs[0].layout == FileDigests{{"dome.json", "22"}};
         bus.send(ReadyMessage{"left", state->frame, 99, 12.5, true});
@@ -217,7 +217,7 @@ TEST(BusTest, AnotherExhibitsMessagesAreLeftOut)
                 if (config.files != FileDigests{{"the program", "11"}})
                     _exit(2);
             const std::optional<GoMessage> go = node.go();
-            if ((state && state->instant != std::vector<std::uint8_t>{7}) || (go && go->frame >= 1000000))
+            if ((state && state->bytes != std::vector<std::uint8_t>{7}) || (go && go->frame >= 1000000))
                 _exit(3);
             heard += go.has_value();
             return heard >= 20 && has(said, "of another exhibit, 'another dome', and this one is 'dome'");
@@ -265,7 +265,7 @@ TEST(BusTest, ANodeFollowsOneMasterUntilItIsGone)
                     _exit(2);
             if (!state)
                 return false;
-            if (state->instant[0] == 7) {
+            if (state->bytes[0] == 7) {
                 if (others > 0)
                     _exit(3);
                 if (++own == 1 && write(heard[1], "x", 1) != 1)

@@ -1,8 +1,8 @@
 // What an exhibit keeps about itself in plain files: damage changes it to a harmless value, or is noticed, and stops
 // nothing.
 #include "runtime/operation/crash_counter.h"
-#include "runtime/operation/diary.h"
 #include "runtime/operation/last_language.h"
+#include "runtime/operation/usage_statistics.h"
 #include "tests/support/damage.h"
 #include <nlohmann/json.hpp>
 
@@ -57,29 +57,29 @@ TEST(KeptState, ADamagedDayIsNoticed)
     parts.tm_year = 126, parts.tm_mon = 10, parts.tm_mday = 23, parts.tm_hour = 9, parts.tm_isdst = -1;
     const std::time_t nine = std::mktime(&parts);
     {
-        Diary diary(folder);
+        UsageStatistics diary(folder);
         diary.turn(nine, {});
-        diary.count([](Tally& tally) {
-            tally.add_frame(0.016, false);
-            tally.add_frame(0.3, true);
-            tally.visits = 17, tally.visits_s = 1234.5, tally.scenes_s["avenue"] = 99.25;
+        diary.count([](UsageCounts& counts) {
+            counts.add_frame(0.016, false);
+            counts.add_frame(0.3, true);
+            counts.visits = 17, counts.visits_s = 1234.5, counts.scenes_s["avenue"] = 99.25;
         });
     }
     const fs::path file = day_file(folder, "2026-11-23");
     const std::string whole = read_text(file);
-    const auto text_of = [](const Day& day) {
+    const auto text_of = [](const UsageDay& day) {
         std::string text;
-        for (const Tally& tally : day.hours)
-            text += tally.frames() > 0 || tally.visits > 0 ? json_of(tally).dump() : "-";
+        for (const UsageCounts& counts : day.hours)
+            text += counts.frames() > 0 || counts.visits > 0 ? json_of(counts).dump() : "-";
         return text;
     };
-    const std::string right = text_of(load_day(folder, "2026-11-23"));
+    const std::string right = text_of(load_usage_day(folder, "2026-11-23"));
     EXPECT_NE(right, text_of({}));
     int same = 0, noticed = 0;
     for_each_damage(whole, [&](const std::string& damaged, const std::string& how) {
         write_bytes(file, damaged);
         try {
-            EXPECT_EQ(text_of(load_day(folder, "2026-11-23")), right) << how;
+            EXPECT_EQ(text_of(load_usage_day(folder, "2026-11-23")), right) << how;
             ++same; // a space became another, or the checksum lost its name
         } catch (const InputError& error) {
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << how;
@@ -93,17 +93,17 @@ TEST(KeptState, ADamagedDayIsNoticed)
     other[whole.find("1234.5")] = '3';
     write_bytes(file, other);
     {
-        Diary diary(folder);
+        UsageStatistics diary(folder);
         diary.turn(nine, {});
-        diary.count([](Tally& tally) { tally.visits = 1; });
-        diary.count([](Tally& tally) { tally.add_frame(0.016, false); });
+        diary.count([](UsageCounts& counts) { counts.visits = 1; });
+        diary.count([](UsageCounts& counts) { counts.add_frame(0.016, false); });
     }
-    EXPECT_EQ(load_day(folder, "2026-11-23").hours[9].visits, 1u);
+    EXPECT_EQ(load_usage_day(folder, "2026-11-23").hours[9].visits, 1u);
     // A day of a version without checksums.
     nlohmann::json old = nlohmann::json::parse(whole);
     old.erase("sum");
     write_bytes(file, old.dump());
-    EXPECT_EQ(text_of(load_day(folder, "2026-11-23")), right);
+    EXPECT_EQ(text_of(load_usage_day(folder, "2026-11-23")), right);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
-// What is laid over the views: a small picture shows its own shot pixel for pixel, a sign's arrow ends at the thing, and
+// What is laid over the views: an inset shows its own shot pixel for pixel, a sign's arrow ends at the thing, and
 // nothing else changes.
-#include "config/model/beside.h"
+#include "config/model/inset_view.h"
 #include "runtime/hud/signs.h"
 #include "tests/support/gpu_environment.h"
 
@@ -32,11 +32,11 @@ std::vector<ivec2> changed(const Bytes& a, const Bytes& b, ivec2 of)
 TEST(Callouts, TheSmallPictureIsShownAsItIs)
 {
     // Over the whole view, so that its pixels are the view's.
-    const double half = std::tan(glm::radians(0.5 * beside_fov_deg));
-    OffscreenRenderer whole = renderer(avenue().world, one_view(Planar{beside_fov_deg}, size), false);
+    const double half = std::tan(glm::radians(0.5 * inset_fov_deg));
+    OffscreenRenderer whole = renderer(avenue().world, one_view(Planar{inset_fov_deg}, size), false);
     const Shot moving = in_flight();
     const Bytes bare = whole.picture(moving)[0];
-    const Shot resting = starbow::beside(moving, Beside::at_rest, moving.exposure_ev);
+    const Shot resting = starbow::inset_shot(moving, InsetView::at_rest, moving.exposure_ev);
     const Bytes wanted = whole.picture(resting)[0];
     whole.frame().show_inset(resting, size.x);
     const Callout callout{.picture = &whole.frame().inset_picture(),
@@ -56,7 +56,7 @@ TEST(Callouts, TheSmallPictureIsShownAsItIs)
     whole.frame().drop_inset();
     whole.frame().repeatable(true);
     const Bytes alone = whole.picture(moving)[0];
-    OffscreenRenderer fresh = renderer(avenue().world, one_view(Planar{beside_fov_deg}, size), false);
+    OffscreenRenderer fresh = renderer(avenue().world, one_view(Planar{inset_fov_deg}, size), false);
     fresh.frame().repeatable(true);
     EXPECT_EQ(alone, fresh.picture(moving)[0]);
 }

@@ -176,8 +176,8 @@ GpuWorld clocks_world()
     return upload(device(), pipelines(), std::move(world), scene, stars_in_depth(*scene.stars));
 }
 
-constexpr double dial_radius = 1.9;
-Dial clock_at(double x) { return {{x, 0, 0}, {1, 0, 0}, {0, 1, 0}, dial_radius}; }
+constexpr double gauge_radius = 1.9;
+Dial clock_at(double x) { return {{x, 0, 0}, {1, 0, 0}, {0, 1, 0}, gauge_radius}; }
 const std::vector<double> row = {-10, -5, 0, 5, 10};
 
 /// The paper's figure, calculated by hand: readings relative to the middle clock's, and angles from the motion in degrees.

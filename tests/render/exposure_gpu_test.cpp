@@ -174,8 +174,8 @@ void expect_in_range(double lamps, const std::vector<double>& gammas)
                     const double D = numbers.D(i), sky = sky_colour(numbers.world(i), scene["sky"]).r * D * D * D;
                     if ((doppler && gamma > 1) || D > 1.5 || light.g > 1.02 * sky)
                         continue;
-                    // Beside the lamps the sky's darkest part keeps six bits: 1.5 bytes. Dither adds half a step, rounding
-                    // another half.
+                    // InsetView the lamps the sky's darkest part keeps six bits: 1.5 bytes. Dither adds half a step,
+                    // rounding another half.
                     const double expected = byte_of_grey(sky * std::exp2(ev));
                     for (int k = 0; k < 3; ++k)
                         ASSERT_NEAR(picture[4 * i + k], expected, 2.5)

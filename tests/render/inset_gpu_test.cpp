@@ -1,6 +1,6 @@
-// The small picture is warped from the cube map of the frame's own views. It must be the picture of its own shot, and the
+// The inset is warped from the cube map of the frame's own views. It must be the picture of its own shot, and the
 // frame's own picture must stay.
-#include "config/model/beside.h"
+#include "config/model/inset_view.h"
 #include "shaders/physics/physics.h"
 #include "tests/support/layouts.h"
 #include "tests/support/small_world.h"
@@ -11,7 +11,7 @@ namespace {
 
 using starbow::testing::small_shipped_layout;
 using Bytes = std::vector<std::uint8_t>;
-constexpr std::array kinds = {Beside::at_rest, Beside::aberration, Beside::doppler, Beside::headlight};
+constexpr std::array kinds = {InsetView::at_rest, InsetView::aberration, InsetView::doppler, InsetView::headlight};
 constexpr int width = 160;
 constexpr ivec2 size(width, int(width* Inset::aspect));
 
@@ -66,28 +66,28 @@ Layout shipped(const std::string& name)
     return load_layout(starbow::testing::source_dir() / "config/layouts" / (name + ".json"));
 }
 
-/// Compares the small pictures of a frame with those of their own shots, drawn alone from a cube map of their own, and the
-/// frame's large picture with the one without them. shared: the small picture comes from the large one's cube map; it must
+/// Compares the insets of a frame with those of their own shots, drawn alone from a cube map of their own, and the
+/// frame's large picture with the one without them. shared: the inset comes from the large one's cube map; it must
 /// then be about as near to a fine picture as one with a cube map of its own.
 void compare(const GpuWorld& world, const Layout& layout, const Shot& ship, const Quality& quality, bool shared)
 {
     OffscreenRenderer whole(device(), pipelines(), world, layout, quality, false);
-    const Layout alone = one_view(Planar{beside_fov_deg}, size);
+    const Layout alone = one_view(Planar{inset_fov_deg}, size);
     OffscreenRenderer own(device(), pipelines(), world, alone, quality, false);
     OffscreenRenderer fine(device(), pipelines(), world, alone, reference_quality(), false);
     for (OffscreenRenderer* one : {&whole, &own})
         one->frame().repeatable(true);
     const std::vector<Bytes> bare = whole.picture(ship);
-    for (const Beside kind : kinds) {
+    for (const InsetView kind : kinds) {
         SCOPED_TRACE(name_of(kind));
         const dvec3 eye_m = whole.frame().views().probed_view().cube_m;
         const Shot event = at_eye(ship, eye_m, layout.stereo, world.scene);
-        whole.frame().show_inset(starbow::beside(ship, kind, 0.5), width);
+        whole.frame().show_inset(starbow::inset_shot(ship, kind, 0.5), width);
         const std::vector<Bytes> with = whole.picture(ship);
-        const Bytes shown = inset_of(whole), apart = own.picture(starbow::beside(event, kind, 0.5))[0];
+        const Bytes shown = inset_of(whole), apart = own.picture(starbow::inset_shot(event, kind, 0.5))[0];
         if (shared) {
-            const Bytes wanted = fine.picture(starbow::beside(event, kind, 0.5))[0];
-            // 0.3 to 0.45 where a pixel of the small picture is some of the large one's; 1.35 where it is finer, in a
+            const Bytes wanted = fine.picture(starbow::inset_shot(event, kind, 0.5))[0];
+            // 0.3 to 0.45 where a pixel of the inset is some of the large one's; 1.35 where it is finer, in a
             // headset; 1.2 where one with a cube map of its own has several rays a pixel, too.
             const double bound = layout.file.stem() == "headset" || quality.pixel_rays > 1 ? 1.5 : 0.6;
             EXPECT_LT(steps(shown, wanted).mean, bound * steps(apart, wanted).mean) << layout.file;
@@ -175,7 +175,7 @@ TEST(InsetGpuTest, ItFollowsEveryChangeOfTheFrame)
     OffscreenRenderer whole(device(), pipelines(), avenue().world, layout, test_quality(), false);
     whole.frame().repeatable(true);
     const auto shown = [&](const Shot& ship) {
-        whole.frame().show_inset(starbow::beside(ship, Beside::doppler, 0), width);
+        whole.frame().show_inset(starbow::inset_shot(ship, InsetView::doppler, 0), width);
         whole.picture(ship);
         return inset_of(whole);
     };
@@ -196,7 +196,7 @@ TEST(InsetGpuTest, ItFollowsEveryChangeOfTheFrame)
     whole.picture(resting);
     whole.frame().show(Pattern::none);
     EXPECT_EQ(shown(resting), at_rest);
-    whole.frame().show_inset(starbow::beside(fast, Beside::doppler, 0), width / 2);
+    whole.frame().show_inset(starbow::inset_shot(fast, InsetView::doppler, 0), width / 2);
     whole.picture(fast);
     EXPECT_EQ(inset_of(whole).size(), in_flight.size() / 4);
     EXPECT_EQ(shown(fast), in_flight);
@@ -217,9 +217,9 @@ TEST(InsetGpuTest, TheTelescopeIsSharpAndTheLargePictureStays)
             whole.frame().repeatable(true), own.frame().repeatable(true);
             const Shot event = at_eye(ship, whole.frame().views().probed_view().cube_m, layout.stereo, avenue().world.scene);
             const Bytes bare = whole.picture(ship)[0];
-            whole.frame().show_inset(beside(ship, Beside::telescope, 0), width, fov_deg);
+            whole.frame().show_inset(inset_shot(ship, InsetView::telescope, 0), width, fov_deg);
             const Bytes with = whole.picture(ship)[0], shown = inset_of(whole);
-            const Shot through = beside(event, Beside::telescope, 0);
+            const Shot through = inset_shot(event, InsetView::telescope, 0);
             if (gamma > 1) {
                 EXPECT_NEAR((through.ship_from_cockpit * dvec3(0, 0, -1)).z, -1, 1e-9); // along the flight
             }

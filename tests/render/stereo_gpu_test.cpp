@@ -379,7 +379,7 @@ constexpr double sharp = 0.2;
 /// Reprojected edges follow the depth's texels, 0.8 pixels wide. One row too few along two sides shifts the centre by 0.6,
 /// and slanted edges have steps.
 constexpr double blunt = 0.8;
-/// Beside an edge, a texel of the sky has some of the object's light. This dim outline remains where the eye sees the sky
+/// InsetView an edge, a texel of the sky has some of the object's light. This dim outline remains where the eye sees the sky
 /// behind. For an object of 24 pixels it has a sixth of the area, less than half as bright.
 constexpr double outlines = 0.03;
 
@@ -542,7 +542,7 @@ TEST(Stereo, ReprojectedEqualsExactPixelByPixel)
         of_exact.median, of_exact.high, 100 * of_exact.hidden, of_tested.median, of_tested.high, 100 * of_tested.hidden);
     EXPECT_LT(of_exact.high, 0.001); // exact by construction: each eye looks its own direction up
     EXPECT_LT(of_exact.hidden, 0.008); // along edges the depth is the nearest texel's, half a texel off
-    // The search for a surface stops at a twentieth of a texel of 0.8 pixels, mostly far sooner. Beside edges it stops
+    // The search for a surface stops at a twentieth of a texel of 0.8 pixels, mostly far sooner. InsetView edges it stops
     // elsewhere, but these are less than a hundredth of the pixels.
     EXPECT_LT(of_tested.median, 0.02);
     EXPECT_LT(of_tested.high, 0.1);

@@ -1,4 +1,4 @@
-// After a warm-up a visitor's flight finds all its pipelines. The warm-up draws small pictures, the flight large ones: the
+// After a warm-up a visitor's flight finds all its pipelines. The warm-up draws insets, the flight large ones: the
 // test is that both have plans of the same kinds.
 #include "config/model/shipped.h"
 #include "runtime/render/warm_up.h"

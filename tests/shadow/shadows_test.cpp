@@ -258,8 +258,8 @@ TEST_F(ShadowsTest, TheGridTellsTheVisiblePartOfTheSky)
     // Far from the wall the ground sees the whole sky, a surface at right angles half of it. The ground ends after 10.
     EXPECT_NEAR(sky_part(shadows, {9, 0.2, 0}, {0, 1, 0}), 0.97, 0.06);
     EXPECT_NEAR(sky_part(shadows, {0, 0.3, 0}, {0, -1, 0}), 0, 0.07);
-    // Beside a wall that fills a quarter of the sphere the ground sees half of its hemisphere by the cosine, and so does the
-    // wall. The wall's end lets a little more in.
+    // InsetView a wall that fills a quarter of the sphere the ground sees half of its hemisphere by the cosine, and so does
+    // the wall. The wall's end lets a little more in.
     EXPECT_NEAR(sky_part(shadows, {-3.8, 0.2, 0}, {0, 1, 0}), 0.5, 0.08);
     EXPECT_NEAR(sky_part(shadows, {-3.8, 0.2, 0}, {1, 0, 0}), 0.5, 0.08);
     // In the middle of the ground, d from a wall of height h and great width: (1 + d / sqrt(h^2 + d^2)) / 2, for the ground.

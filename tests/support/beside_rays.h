@@ -18,10 +18,10 @@ struct BesideRays {
 inline BesideRays beside_rays(
     const Doc& doc, Json scene, const Layout& layout, const Shot& shot, int samples, bool surfaces, double least)
 {
-    testing::write_text("beside.gltf", doc.text());
-    scene["gltf"] = "beside.gltf";
+    testing::write_text("inset.gltf", doc.text());
+    scene["gltf"] = "inset.gltf";
     scene["unit_m"] = 299792458;
-    const ReferenceWorld world = open_reference_world(testing::write_text("beside.json", scene.dump()));
+    const ReferenceWorld world = open_reference_world(testing::write_text("inset.json", scene.dump()));
     const GpuWorld gpu = upload(device(), pipelines(), load_world(world.scene), world.scene);
     OffscreenRenderer live = renderer(gpu, layout, true);
     const auto picture = live.picture(shot)[0];

@@ -51,25 +51,25 @@ TEST(AttendanceTest, ALongWayHomeLeadsThroughBlack)
 
     Attendance attendance = attended();
     EXPECT_FALSE(attendance.lead_home(near, home, true, frame_s).withheld[Switch::home]);
-    EXPECT_EQ(attendance.black(), 0);
+    EXPECT_EQ(attendance.fade(), 0);
 
     Requests requests = attendance.lead_home(far, home, true, frame_s);
     EXPECT_TRUE(requests.withheld[Switch::home]);
     int frames = 0;
     double before = 0;
     while (!requests.made[Switch::reset] && frames < 1000) {
-        EXPECT_GE(attendance.black(), before);
-        before = attendance.black();
+        EXPECT_GE(attendance.fade(), before);
+        before = attendance.fade();
         requests = attendance.lead_home(far, {}, true, frame_s);
         ++frames;
     }
-    EXPECT_EQ(attendance.black(), 1) << "the leap is not seen";
+    EXPECT_EQ(attendance.fade(), 1) << "the leap is not seen";
     EXPECT_NEAR(frames * frame_s, 0.5, 2 * frame_s) << "half of the fade";
     // An open throttle waits, as at the start of a visit.
     EXPECT_TRUE(attendance.lead_home(near, controls_with(Steering{.lever = 0.8}), true, frame_s).made[Switch::stop]);
     for (int i = 0; i < 20; ++i)
         requests = attendance.lead_home(near, {}, true, frame_s);
-    EXPECT_EQ(attendance.black(), 0);
+    EXPECT_EQ(attendance.fade(), 0);
     EXPECT_FALSE(requests.made.any());
 }
 

@@ -14,15 +14,15 @@ TEST(DocentTest, FadesToBlackAndBack)
     double before = 0;
     for (int i = 0; i < 200; ++i) {
         docent.advance(0.01);
-        EXPECT_GE(docent.black(), before);
-        before = docent.black();
+        EXPECT_GE(docent.fade(), before);
+        before = docent.fade();
     }
-    EXPECT_EQ(docent.black(), 1) << "after two seconds";
+    EXPECT_EQ(docent.fade(), 1) << "after two seconds";
     docent.apply_command({.kind = CommandKind::fade});
     docent.advance(0.75);
-    EXPECT_NEAR(docent.black(), 0.5, 1e-12);
+    EXPECT_NEAR(docent.fade(), 0.5, 1e-12);
     docent.advance(5);
-    EXPECT_EQ(docent.black(), 0);
+    EXPECT_EQ(docent.fade(), 0);
 }
 
 TEST(DocentTest, TakesItsOwnCommandsAndForgetsThemAll)

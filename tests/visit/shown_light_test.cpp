@@ -37,7 +37,7 @@ struct Flown {
             {.source = source,
                 .metered = {.ev = metered_ev},
                 .locks = controls[Switch::lock_exposure],
-                .black = black,
+                .fade = black,
                 .directed_ev = directed_ev,
                 .dt_s = frame_s});
         return entry;
@@ -64,7 +64,7 @@ TEST(ShownLightTest, TheFirstPictureHasTheStartsExposureAndTheNextOnesFollowTheV
     EXPECT_EQ(flown.light.ev(), -3) << "a beginning";
     flown.light.begin();
     flown.frame(9);
-    EXPECT_EQ(flown.light.ev(), -3) << "another programme";
+    EXPECT_EQ(flown.light.ev(), -3) << "another content";
 }
 
 TEST(ShownLightTest, ALockHoldsAndADocentsChangeIsAdded)
@@ -87,11 +87,11 @@ TEST(ShownLightTest, BlackIsSmoothAndKeepsNoLight)
 {
     Flown flown({});
     flown.frame(5, {}, 0.5);
-    EXPECT_NEAR(flown.light.black(), 0.5, 1e-12);
+    EXPECT_NEAR(flown.light.fade(), 0.5, 1e-12);
     flown.frame(5, {}, 0.1);
-    EXPECT_LT(flown.light.black(), 0.1) << "smooth at its ends";
+    EXPECT_LT(flown.light.fade(), 0.1) << "smooth at its ends";
     flown.frame(5, {}, 1);
-    EXPECT_EQ(flown.light.black(), 1);
+    EXPECT_EQ(flown.light.fade(), 1);
 }
 
 // However it is driven, neither the exposure nor black turns round twice in a second, nor goes faster than a calm exhibit
@@ -101,13 +101,13 @@ TEST(ShownLightTest, ACalmExhibitsLightTurnsOnceInASecond)
     Flown calm({.calm = true});
     for (int i = 0; i < 100; ++i)
         calm.frame(5);
-    double ev = calm.light.ev(), black = calm.light.black();
+    double ev = calm.light.ev(), black = calm.light.fade();
     int ev_way = 0, black_way = 0, ev_turns = 0, black_turns = 0;
     constexpr int frames = 1000;
     for (int i = 0; i < frames; ++i) {
         const bool up = i / 5 % 2 == 0; // five times a second
         calm.frame(5, controls_with(Looking{.exposure = up ? 1. : -1.}), up ? 1 : 0, up ? 6 : -6);
-        const double ev_step = calm.light.ev() - ev, black_step = calm.light.black() - black;
+        const double ev_step = calm.light.ev() - ev, black_step = calm.light.fade() - black;
         EXPECT_LE(std::abs(ev_step), 6 * frame_s + 1e-9);
         const auto turn = [](int& way, double step, int& turns) {
             const int now = (step > 1e-12) - (step < -1e-12);
@@ -115,7 +115,7 @@ TEST(ShownLightTest, ACalmExhibitsLightTurnsOnceInASecond)
             way = now != 0 ? now : way;
         };
         turn(ev_way, ev_step, ev_turns), turn(black_way, black_step, black_turns);
-        ev = calm.light.ev(), black = calm.light.black();
+        ev = calm.light.ev(), black = calm.light.fade();
     }
     EXPECT_LE(ev_turns, int(frames * frame_s));
     EXPECT_LE(black_turns, int(frames * frame_s));

@@ -58,9 +58,9 @@ TEST(VisitTest, ATouchLeadsToTheVisitorsFlightWithinTheFade)
     exhibit.frame(touch);
     EXPECT_NEAR(exhibit.until(VisitPhase::flying), 0.5, 2 * frame_s);
     EXPECT_EQ(exhibit.begun, 1);
-    EXPECT_EQ(blackness(exhibit.visit, exhibit.rules), 1) << "the world changes in the dark";
+    EXPECT_EQ(fade_of(exhibit.visit, exhibit.rules), 1) << "the world changes in the dark";
     exhibit.hold(nobody, 0.5);
-    EXPECT_EQ(blackness(exhibit.visit, exhibit.rules), 0);
+    EXPECT_EQ(fade_of(exhibit.visit, exhibit.rules), 0);
     EXPECT_TRUE(in_hand(exhibit.visit));
 }
 
@@ -88,12 +88,12 @@ TEST(VisitTest, ATouchOnTheWayToBlackKeepsTheVisit)
     Exhibit exhibit;
     exhibit.frame(touch), exhibit.until(VisitPhase::leaving);
     exhibit.hold(nobody, 0.25);
-    EXPECT_NEAR(blackness(exhibit.visit, exhibit.rules), 0.5, 0.11);
+    EXPECT_NEAR(fade_of(exhibit.visit, exhibit.rules), 0.5, 0.11);
     exhibit.frame(touch);
     EXPECT_EQ(exhibit.visit.phase, VisitPhase::flying);
     EXPECT_EQ(exhibit.ended, 0);
     exhibit.hold(nobody, 0.5);
-    EXPECT_EQ(blackness(exhibit.visit, exhibit.rules), 0);
+    EXPECT_EQ(fade_of(exhibit.visit, exhibit.rules), 0);
 }
 
 TEST(VisitTest, WatchingATourIsNoIdleTime)
@@ -151,7 +151,7 @@ TEST(VisitTest, WithoutAQuestionAndAFadeAVisitEndsAtOnce)
     EXPECT_NEAR(exhibit.until(VisitPhase::attract), 20, 4 * frame_s);
     ASSERT_EQ(exhibit.ended, 1);
     EXPECT_NEAR(exhibit.lengths[0], 3, 1e-6);
-    EXPECT_EQ(blackness(exhibit.visit, exhibit.rules), 0);
+    EXPECT_EQ(fade_of(exhibit.visit, exhibit.rules), 0);
 }
 
 TEST(VisitTest, WhateverTheVisitorsDoEachVisitThatBeginsEndsOnceAndNothingIsLeftOver)
@@ -168,8 +168,8 @@ TEST(VisitTest, WhateverTheVisitorsDoEachVisitThatBeginsEndsOnceAndNothingIsLeft
             exhibit.frame(signs, 0.001 * double(random() % 100));
             const bool inside = in_hand(exhibit.visit) || exhibit.visit.phase == VisitPhase::leaving;
             ASSERT_EQ(exhibit.begun - exhibit.ended, int(inside)) << seed << ", frame " << i;
-            ASSERT_GE(blackness(exhibit.visit, exhibit.rules), 0);
-            ASSERT_LE(blackness(exhibit.visit, exhibit.rules), 1);
+            ASSERT_GE(fade_of(exhibit.visit, exhibit.rules), 0);
+            ASSERT_LE(fade_of(exhibit.visit, exhibit.rules), 1);
             if (exhibit.events.ends) {
                 const Visit& fresh = exhibit.visit;
                 ASSERT_EQ(fresh.idle_ns + fresh.visit_ns + fresh.touched_ns + std::int64_t(fresh.attraction), 0);

@@ -64,7 +64,7 @@ int bench_input(const std::string& layout, double seconds)
             "There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no present call can "
             "be timed; a desktop session is right");
     ExhibitOptions exhibit_options;
-    exhibit_options.programme = programme_of_scene("avenue");
+    exhibit_options.content = content_of_scene("avenue");
     exhibit_options.layout = load_layout(shipped_file("layouts", layout.empty() ? "desk" : layout));
     exhibit_options.words = words_in("en");
     exhibit_options.profiles = known_profiles();

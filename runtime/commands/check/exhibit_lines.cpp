@@ -39,7 +39,7 @@ std::string print_exhibit(const std::string& file)
     const Exhibit exhibit = load_exhibit(shipped_file("exhibits", file));
     const ExhibitOptions options = open_exhibit(exhibit);
     std::printf("exhibit %s: layout %s, world %s, words %s\n", std::filesystem::path(file).stem().c_str(),
-        options.layout.name.c_str(), options.programme.scene.stem().c_str(), options.words.language.c_str());
+        options.layout.name.c_str(), options.content.scene.stem().c_str(), options.words.language.c_str());
     if (exhibit.machines)
         print_machines(*exhibit.machines, options.layout);
     else if (!nodes_of(options.layout).empty())

@@ -3,11 +3,12 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
+#include "config/markup/html.h"
+#include "config/markup/svg.h"
 #include "config/model/file_kind.h"
 #include "config/model/one_view.h"
 #include "config/model/shipped.h"
 #include "runtime/commands/median.h"
-#include "runtime/hud/html.h"
 #include "runtime/images/capture.h"
 #include "runtime/operation/progress.h"
 #include "runtime/render/offscreen.h"
@@ -101,23 +102,21 @@ std::string plan_of(const SceneFile& scene, const std::vector<AlignedBox>& thing
     const auto x = [&](double at) { return margin + (at - all.low.x) * scale; };
     const auto y = [&](double at) { return margin + (at - all.low.z) * scale; };
     const double height = (all.high.z - all.low.z) * scale + 2 * margin + 24;
-    std::ostringstream out;
-    out << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << side << ' ' << height
-        << "\" role=\"img\" aria-label=\"Plan, seen from above\">\n";
-    for (const AlignedBox& box : things)
-        out << "<rect x=\"" << x(box.low.x) << "\" y=\"" << y(box.low.z) << "\" width=\""
-            << std::max((box.high.x - box.low.x) * scale, 1.0) << "\" height=\""
-            << std::max((box.high.z - box.low.z) * scale, 1.0)
-            << "\" fill=\"#0b5fa5\" fill-opacity=\"0.12\" stroke=\"#0b5fa5\" stroke-width=\"1\"/>\n";
+    Svg svg;
+    for (const AlignedBox& box : things) {
+        const glm::dvec2 corner(x(box.low.x), y(box.low.z));
+        svg.rect(corner, corner + glm::max(glm::dvec2(box.high.x - box.low.x, box.high.z - box.low.z) * scale, 1.0),
+            "fill=\"#0b5fa5\" fill-opacity=\"0.12\" stroke=\"#0b5fa5\" stroke-width=\"1\"");
+    }
     const glm::dmat3 axes = glm::mat3_cast(scene.start.ship_from_cockpit);
+    const glm::dvec2 at(x(eye.x), y(eye.z));
     const auto ray = [&](double angle_deg) {
         const double a = glm::radians(angle_deg);
         const glm::dvec3 way = std::cos(a) * -axes[2] + std::sin(a) * axes[0];
-        return std::to_string(x(eye.x) + 60 * way.x) + "," + std::to_string(y(eye.z) + 60 * way.z);
+        return at + 60.0 * glm::dvec2(way.x, way.z);
     };
-    out << "<polygon points=\"" << x(eye.x) << ',' << y(eye.z) << ' ' << ray(-38) << ' ' << ray(38)
-        << "\" fill=\"#c2410c\" fill-opacity=\"0.35\" stroke=\"#c2410c\"/>\n<circle cx=\"" << x(eye.x) << "\" cy=\""
-        << y(eye.z) << "\" r=\"4\" fill=\"#c2410c\"/>\n";
+    svg.polygon(std::array{at, ray(-38), ray(38)}, "fill=\"#c2410c\" fill-opacity=\"0.35\" stroke=\"#c2410c\"");
+    svg.circle(at, 4, "fill=\"#c2410c\"");
     // A rule of a round length, at most a third of the plan.
     double rule = std::pow(10, std::floor(std::log10(extent / 3)));
     for (const double step : {5.0, 2.0})
@@ -125,11 +124,9 @@ std::string plan_of(const SceneFile& scene, const std::vector<AlignedBox>& thing
             rule *= step;
             break;
         }
-    out << "<path d=\"M" << margin << ' ' << height - 18 << "h" << rule * scale
-        << "\" stroke=\"#1a1a1a\" stroke-width=\"2\"/>\n"
-        << "<text x=\"" << margin + rule * scale + 8 << "\" y=\"" << height - 14 << "\">"
-        << escaped_html(length(scene, rule)) << "; the start in orange</text>\n</svg>\n";
-    return out.str();
+    svg.line({margin, height - 18}, {margin + rule * scale, height - 18}, "stroke=\"#1a1a1a\" stroke-width=\"2\"");
+    svg.text({margin + rule * scale + 8, height - 14}, length(scene, rule) + "; the start in orange");
+    return svg.drawn({side, height}, "role=\"img\" aria-label=\"Plan, seen from above\"");
 }
 
 double seconds_since(Clock::time_point began) { return std::chrono::duration<double>(Clock::now() - began).count(); }

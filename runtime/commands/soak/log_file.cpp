@@ -1,6 +1,7 @@
 #include "log_file.h"
 #include "config/json/error.h"
 #include "config/json/whole_file.h"
+#include "config/markup/svg.h"
 #include "runtime/commands/median.h"
 #include <algorithm>
 #include <cerrno>
@@ -143,35 +144,30 @@ void SoakLog::draw() const
         most = std::max(most, double(sample.resident_bytes));
     most = std::ceil(most / 1e8) * 1e8;
     const double visits = std::max(1.0, double(all.back().visit));
-    const auto curve = [&](std::size_t SoakSample::*value, const char* colour) {
-        std::ostringstream points;
-        points << "<polyline fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"1.5\" points=\"";
-        for (const SoakSample& sample : all)
-            points << left + (width - left - 20) * double(sample.visit) / visits << ','
-                   << height - foot - (height - foot - 30) * double(sample.*value) / most << ' ';
-        return points.str() + "\"/>\n";
-    };
-    const auto label = [](double x, double y, const std::string& text, const char* colour, const char* anchor) {
-        std::ostringstream out;
-        out << "<text x=\"" << x << "\" y=\"" << y << "\" fill=\"" << colour << "\" text-anchor=\"" << anchor << "\">"
-            << text << "</text>\n";
-        return out.str();
-    };
-    std::ostringstream out;
-    out << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << width << ' ' << height
-        << "\" font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
+    const auto y_of = [&](double bytes) { return height - foot - (height - foot - 30) * bytes / most; };
+    Svg svg;
+    svg.rect({0, 0}, {width, height}, "fill=\"#ffffff\"");
     for (int i = 0; i <= 4; ++i) {
-        const double y = height - foot - (height - foot - 30) * i / 4;
-        out << "<line x1=\"" << left << "\" x2=\"" << width - 20 << "\" y1=\"" << y << "\" y2=\"" << y
-            << "\" stroke=\"#dddddd\"/>\n"
-            << label(left - 8, y + 4, std::to_string(std::lround(most / 1e6 * i / 4)) + " MB", "#333333", "end");
+        const double y = y_of(most * i / 4);
+        svg.line({left, y}, {width - 20, y}, "stroke=\"#dddddd\"");
+        svg.text({left - 8, y + 4}, std::to_string(std::lround(most / 1e6 * i / 4)) + " MB",
+            "fill=\"#333333\" text-anchor=\"end\"");
     }
-    out << curve(&SoakSample::resident_bytes, "#0b5fa5") << curve(&SoakSample::heap_bytes, "#c2410c")
-        << curve(&SoakSample::driver_bytes, "#15803d") << label(left, 18, "memory in the machine", "#0b5fa5", "start")
-        << label(left + 190, 18, "in use", "#c2410c", "start") << label(left + 260, 18, "Vulkan objects", "#15803d", "start")
-        << label(width - 20, height - 12, std::to_string(all.back().visit) + " visits", "#333333", "end") << "</svg>\n";
+    const auto curve = [&](std::size_t SoakSample::*value, const std::string& colour, double at, const char* name) {
+        std::vector<glm::dvec2> points;
+        for (const SoakSample& sample : all)
+            points.emplace_back(left + (width - left - 20) * double(sample.visit) / visits, y_of(double(sample.*value)));
+        svg.polyline(points, "fill=\"none\" stroke-width=\"1.5\" stroke=\"" + colour + '"');
+        svg.text({left + at, 18}, name, "fill=\"" + colour + '"');
+    };
+    curve(&SoakSample::resident_bytes, "#0b5fa5", 0, "memory in the machine");
+    curve(&SoakSample::heap_bytes, "#c2410c", 190, "in use");
+    curve(&SoakSample::driver_bytes, "#15803d", 260, "Vulkan objects");
+    svg.text(
+        {width - 20, height - 12}, std::to_string(all.back().visit) + " visits", "fill=\"#333333\" text-anchor=\"end\"");
     std::filesystem::path picture = file_;
-    write_whole(picture.replace_extension(".svg"), out.str());
+    write_whole(
+        picture.replace_extension(".svg"), svg.drawn({width, height}, "font-family=\"sans-serif\" font-size=\"13\""));
 }
 
 } // namespace starbow

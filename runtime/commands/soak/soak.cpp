@@ -237,8 +237,8 @@ int soak(const SoakOptions& options)
                          "do: xvfb-run starbow soak");
     // Whatever can be wrong is read before the first file is written.
     const Words words = words_in("en");
-    const Programme programme
-        = use_of(options.as) == Use::tour ? programme_of_tour(options.tour, words) : programme_of_scene(options.scene);
+    const SessionContent content
+        = use_of(options.as) == Use::tour ? content_of_tour(options.tour, words) : content_of_scene(options.scene);
     SoakLog log(options.log, options.as, options.seed, options.repeat);
     if (log.next_visit() >= options.visits)
         std::printf("All %ld visits of %s are over\n", options.visits, options.log.c_str());
@@ -249,7 +249,7 @@ int soak(const SoakOptions& options)
         const SoakFolder folder;
         Visitors visitors(options, log, folder);
         ExhibitOptions exhibit;
-        exhibit.programme = programme;
+        exhibit.content = content;
         exhibit.layout = load_layout(folder.layout());
         exhibit.words = words;
         exhibit.profiles = known_profiles();

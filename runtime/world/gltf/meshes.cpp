@@ -142,17 +142,17 @@ Attributes open_attributes(
     WorldBuild& build, const tinygltf::Primitive& primitive, const UvSource& uv, bool textured, const StillPose& pose)
 {
     Attributes out{.pose = pose};
-    auto take = [&](const std::string& name, Elements& into) {
+    auto read_attribute = [&](const std::string& name, Elements& into) {
         auto found = primitive.attributes.find(name);
         if (found == primitive.attributes.end())
             return false;
         into = open(build, found->second);
         return true;
     };
-    take("POSITION", out.position);
-    out.has_normal = take("NORMAL", out.normal);
-    out.has_uv = take("TEXCOORD_" + std::to_string(uv.set), out.uv);
-    out.has_colour = take("COLOR_0", out.colour);
+    read_attribute("POSITION", out.position);
+    out.has_normal = read_attribute("NORMAL", out.normal);
+    out.has_uv = read_attribute("TEXCOORD_" + std::to_string(uv.set), out.uv);
+    out.has_colour = read_attribute("COLOR_0", out.colour);
     out.skin = open_skin(build, primitive, pose);
     for (std::size_t i = 0; i < primitive.targets.size() && i < pose.weights.size(); ++i) {
         if (pose.weights[i] == 0)

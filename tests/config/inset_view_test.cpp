@@ -1,9 +1,9 @@
-// The small picture's telescope: its field, and where it looks.
+// The inset's telescope: its field, and where it looks.
 #include "config/model/angles.h"
-#include "config/model/beside.h"
+#include "config/model/inset_view.h"
 #include <gtest/gtest.h>
 
-namespace starbow::beside_test {
+namespace starbow::inset_view_test {
 namespace {
 
 TEST(BesideTest, TheTelescopesFieldHoldsTheFrontHalfOfTheSkyAndIsSteady)
@@ -37,15 +37,15 @@ TEST(BesideTest, TheTelescopeLooksWhereTheShipFliesAndStaysUpright)
     for (const glm::dquat& cockpit : {glm::dquat(1, 0, 0, 0), glm::angleAxis(2.0, glm::dvec3(0, 1, 0)),
              glm::angleAxis(std::atan2(-3, 4) + pi, glm::dvec3(0, 1, 0))}) { // the last looks back
         shot.ship_from_cockpit = cockpit;
-        const Shot through = beside(shot, Beside::telescope, 5);
+        const Shot through = inset_shot(shot, InsetView::telescope, 5);
         EXPECT_LT(glm::distance(through.ship_from_cockpit * glm::dvec3(0, 0, -1), glm::dvec3(0.6, 0, -0.8)), 1e-9);
         EXPECT_GT((through.ship_from_cockpit * glm::dvec3(0, 1, 0)).y, 0.999);
         EXPECT_EQ(through.exposure_ev, -3);
         EXPECT_EQ(through.u, shot.u);
     }
     shot.u = glm::dvec3(0);
-    EXPECT_EQ(beside(shot, Beside::telescope, 0).ship_from_cockpit, shot.ship_from_cockpit);
+    EXPECT_EQ(inset_shot(shot, InsetView::telescope, 0).ship_from_cockpit, shot.ship_from_cockpit);
 }
 
 } // namespace
-} // namespace starbow::beside_test
+} // namespace starbow::inset_view_test

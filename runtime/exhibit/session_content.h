@@ -9,7 +9,7 @@
 namespace starbow {
 
 /// The shown part of an exhibit: a scene, the start of the visit in it, and perhaps a tour through it.
-struct Programme {
+struct SessionContent {
     std::filesystem::path scene;
     Shot start; ///< a reset returns here
     std::string shot{}; ///< name or path of the start's shot; empty: the scene's own start, or the tour's
@@ -18,10 +18,10 @@ struct Programme {
     std::filesystem::path record{}; ///< a flight that is shown as it was flown; empty: none
 };
 
-/// Each reads and checks the files of a programme, by the name of a shipped one or a path. Throws InputError.
-Programme programme_of_scene(const std::string& scene);
-Programme programme_of_shot(const std::string& shot); ///< in the shot's own scene
-Programme programme_of_record(const std::filesystem::path& record); ///< in the record's own scene
-Programme programme_of_tour(const std::string& tour, const Words& words); ///< in the tour's own scene
+/// Each reads and checks the files of the content, by the name of a shipped one or a path. Throws InputError.
+SessionContent content_of_scene(const std::string& scene);
+SessionContent content_of_shot(const std::string& shot); ///< in the shot's own scene
+SessionContent content_of_record(const std::filesystem::path& record); ///< in the record's own scene
+SessionContent content_of_tour(const std::string& tour, const Words& words); ///< in the tour's own scene
 
 } // namespace starbow

@@ -1,5 +1,5 @@
 #pragma once
-#include "config/model/beside.h"
+#include "config/model/inset_view.h"
 #include "config/model/pattern.h"
 #include "input/controls.h"
 #include "runtime/hud/hud.h"
@@ -10,7 +10,7 @@
 namespace starbow {
 
 /// The head-up display's text.
-struct Written {
+struct HudText {
     std::int64_t number = 0; ///< another one: the text may have changed
     Readings readings{};
 };
@@ -21,11 +21,11 @@ struct ShownSign {
     glm::dvec3 towards{0, 0, -1};
 };
 
-/// The small picture beside the large one.
-struct SmallPicture {
-    Beside kind = Beside::at_rest;
-    double start_ev = 0; ///< as beside()'s
-    double fov_deg = beside_fov_deg;
+/// The inset view.
+struct InsetPicture {
+    InsetView kind = InsetView::at_rest;
+    double start_ev = 0; ///< as inset_shot()'s
+    double fov_deg = inset_fov_deg;
     std::string name;
 };
 
@@ -40,18 +40,18 @@ struct Instruments {
 };
 
 /// Everything that the pictures of one frame depend on, beside the layout, the world, the quality and the visitors' words.
-struct Instant {
+struct PictureState {
     Shot shot; ///< with the head's look and the shown exposure
     Head head;
     std::optional<RangeCurve> range; ///< as FrameState's, and so are the next ones
     bool meters = false;
-    double bloom = 0, black = 0;
+    double bloom = 0, fade = 0;
     Vignette vignette;
     double vignette_part = 0;
     Pattern pattern = Pattern::none;
-    std::optional<Written> hud; ///< none: it is off
+    std::optional<HudText> hud; ///< none: it is off
     std::optional<ShownSign> sign;
-    std::optional<SmallPicture> small_picture;
+    std::optional<InsetPicture> inset;
     std::optional<Instruments> instruments;
 };
 

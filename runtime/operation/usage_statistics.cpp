@@ -1,4 +1,4 @@
-#include "diary.h"
+#include "usage_statistics.h"
 #include "config/json/error.h"
 #include "config/json/hash.h"
 #include "config/json/kept_file.h"
@@ -49,7 +49,7 @@ std::string sum_of(const std::string& date, const nlohmann::json& hours)
     return cache_key(hash.value, "");
 }
 
-std::string text_of(const Day& day)
+std::string text_of(const UsageDay& day)
 {
     nlohmann::json hours = nlohmann::json::object();
     for (std::size_t hour = 0; hour < day.hours.size(); ++hour)
@@ -58,7 +58,7 @@ std::string text_of(const Day& day)
     return nlohmann::json{{"starbow_day", day.date}, {"hours", hours}, {"sum", sum_of(day.date, hours)}}.dump(1) + "\n";
 }
 
-void write_day(const std::filesystem::path& state, const Day& day)
+void write_day(const std::filesystem::path& state, const UsageDay& day)
 {
     const std::string text = text_of(day);
     write_own(day_file(state, day.date), text);
@@ -73,11 +73,11 @@ std::filesystem::path day_file(const std::filesystem::path& state, const std::st
     return state / "days" / (date + ".json");
 }
 
-Day load_day(const std::filesystem::path& state, const std::string& date)
+UsageDay load_usage_day(const std::filesystem::path& state, const std::string& date)
 {
     if (!is_date(date))
         throw InputError(one_line(date, 40) + " is not a day; a date such as 2026-11-23 is right");
-    Day day{date};
+    UsageDay day{date};
     const std::filesystem::path file = day_file(state, date);
     std::error_code error;
     if (!std::filesystem::exists(file, error))
@@ -96,7 +96,7 @@ Day load_day(const std::filesystem::path& state, const std::string& date)
     for (int hour = 0; hour < 24; ++hour)
         if (const auto at = hours.json->find(std::string(hour < 10 ? "0" : "") + std::to_string(hour));
             at != hours.json->end())
-            day.hours[std::size_t(hour)] = tally_of(*at);
+            day.hours[std::size_t(hour)] = usage_counts_of(*at);
     return day;
 }
 
@@ -111,13 +111,13 @@ std::vector<std::string> days_in(const std::filesystem::path& state)
     return days;
 }
 
-Diary::Diary(std::filesystem::path state, std::filesystem::path textfile)
+UsageStatistics::UsageStatistics(std::filesystem::path state, std::filesystem::path textfile)
     : state_(std::move(state))
     , textfile_(std::move(textfile))
 {
 }
 
-Diary::~Diary()
+UsageStatistics::~UsageStatistics()
 {
     try {
         close();
@@ -125,7 +125,7 @@ Diary::~Diary()
     }
 }
 
-void Diary::close()
+void UsageStatistics::close()
 {
     if (hour_of_day_ < 0)
         return;
@@ -135,35 +135,35 @@ void Diary::close()
 }
 
 /// Adds the counts of the hour so far to the day that they belong to.
-void Diary::add_hour()
+void UsageStatistics::add_hour()
 {
     day_.hours[std::size_t(hour_of_day_)] += hour_;
     hour_ = {};
 }
 
 /// A day's counts so far: of a day that has ended and is not written yet (the clock was set back), or of its file.
-Day Diary::day_of(const std::string& date)
+UsageDay UsageStatistics::day_of(const std::string& date)
 {
     if (const auto at = std::ranges::find(ended_, date, [](const auto& day) { return day->date; }); at != ended_.end()) {
-        const Day day = **at;
+        const UsageDay day = **at;
         ended_.erase(at);
         return day;
     }
     try {
-        return state_.empty() ? Day{date} : load_day(state_, date);
+        return state_.empty() ? UsageDay{date} : load_usage_day(state_, date);
     } catch (const InputError& error) {
-        write_log(LogKind::diary_damaged, one_line(error.what()) + "; the day's counts begin again");
+        write_log(LogKind::usage_damaged, one_line(error.what()) + "; the day's counts begin again");
         return {date};
     }
 }
 
-bool Diary::turn(std::time_t now, const Gauges& gauges)
+bool UsageStatistics::turn(std::time_t now, const Gauges& gauges)
 {
     const DateAndHour local_now = local(now);
     if (hour_of_day_ < 0 || local_now.date != day_.date) {
         if (hour_of_day_ >= 0) {
             add_hour();
-            ended_.push_back(std::make_shared<const Day>(std::move(day_)));
+            ended_.push_back(std::make_shared<const UsageDay>(std::move(day_)));
         }
         day_ = day_of(local_now.date);
         hour_of_day_ = local_now.hour, written_ = now;
@@ -188,7 +188,7 @@ bool Diary::turn(std::time_t now, const Gauges& gauges)
 }
 
 /// Takes the result of the write on the other thread, which may still have to end. A failed write is told once.
-void Diary::finish()
+void UsageStatistics::finish()
 {
     if (!writing_.valid())
         return;
@@ -203,15 +203,15 @@ void Diary::finish()
     }
 }
 
-void Diary::fail(const std::string& reason)
+void UsageStatistics::fail(const std::string& reason)
 {
     if (!std::exchange(failed_, true))
-        write_log(LogKind::diary_unwritten, reason + "; the counts are kept in memory and written later");
+        write_log(LogKind::usage_unwritten, reason + "; the counts are kept in memory and written later");
 }
 
 /// Writes the files on a thread of its own. waits: until they are written; otherwise a write that is still under way makes
 /// this one wait for its next turn.
-void Diary::write(bool waits)
+void UsageStatistics::write(bool waits)
 {
     using namespace std::chrono_literals;
     if (writing_.valid() && !waits && writing_.wait_for(0s) != std::future_status::ready)

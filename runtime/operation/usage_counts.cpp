@@ -1,4 +1,4 @@
-#include "tally.h"
+#include "usage_counts.h"
 #include "exposition.h"
 #include <algorithm>
 #include <cmath>
@@ -23,17 +23,19 @@ double number_in(const Json& json, const char* name)
     return std::isfinite(value) && value >= 0 ? value : 0;
 }
 
-constexpr std::pair<const char*, std::uint64_t Tally::*> counts[] = {{"missed_refreshes", &Tally::missed_refreshes},
-    {"device_losses", &Tally::device_losses}, {"unplugged", &Tally::unplugged}, {"layouts", &Tally::layouts},
-    {"commands", &Tally::commands}, {"refused_commands", &Tally::refused_commands}, {"visits", &Tally::visits},
-    {"tours_finished", &Tally::tours_finished}};
-constexpr std::pair<const char*, double Tally::*> sums[] = {{"frames_s", &Tally::frames_s}, {"visits_s", &Tally::visits_s}};
-constexpr std::pair<const char*, double Tally::*> greatest[]
-    = {{"longest_frame_s", &Tally::longest_frame_s}, {"worst_skew_s", &Tally::worst_skew_s}};
+constexpr std::pair<const char*, std::uint64_t UsageCounts::*> events[]
+    = {{"missed_refreshes", &UsageCounts::missed_refreshes}, {"device_losses", &UsageCounts::device_losses},
+        {"unplugged", &UsageCounts::unplugged}, {"layouts", &UsageCounts::layouts}, {"commands", &UsageCounts::commands},
+        {"refused_commands", &UsageCounts::refused_commands}, {"visits", &UsageCounts::visits},
+        {"tours_finished", &UsageCounts::tours_finished}};
+constexpr std::pair<const char*, double UsageCounts::*> sums[]
+    = {{"frames_s", &UsageCounts::frames_s}, {"visits_s", &UsageCounts::visits_s}};
+constexpr std::pair<const char*, double UsageCounts::*> greatest[]
+    = {{"longest_frame_s", &UsageCounts::longest_frame_s}, {"worst_skew_s", &UsageCounts::worst_skew_s}};
 
 } // namespace
 
-std::uint64_t Tally::frames() const
+std::uint64_t UsageCounts::frames() const
 {
     std::uint64_t all = 0;
     for (const std::uint64_t frames : frames_by_time)
@@ -41,7 +43,7 @@ std::uint64_t Tally::frames() const
     return all;
 }
 
-double Tally::percentile_s(double part) const
+double UsageCounts::percentile_s(double part) const
 {
     const double rank = part * double(frames());
     std::uint64_t below = 0;
@@ -53,7 +55,7 @@ double Tally::percentile_s(double part) const
     return 0;
 }
 
-void Tally::add_frame(double s, bool missed)
+void UsageCounts::add_frame(double s, bool missed)
 {
     const auto at = std::ranges::lower_bound(frame_classes_s, s);
     ++frames_by_time[std::size_t(at - frame_classes_s.begin())];
@@ -62,11 +64,11 @@ void Tally::add_frame(double s, bool missed)
     missed_refreshes += missed;
 }
 
-Tally& Tally::operator+=(const Tally& other)
+UsageCounts& UsageCounts::operator+=(const UsageCounts& other)
 {
     for (std::size_t i = 0; i < frames_by_time.size(); ++i)
         frames_by_time[i] += other.frames_by_time[i];
-    for (const auto& [name, member] : counts)
+    for (const auto& [name, member] : events)
         this->*member += other.*member;
     for (const auto& [name, member] : sums)
         this->*member += other.*member;
@@ -78,43 +80,43 @@ Tally& Tally::operator+=(const Tally& other)
     return *this;
 }
 
-Json json_of(const Tally& tally)
+Json json_of(const UsageCounts& counts)
 {
-    Json json{{"frames_by_time", tally.frames_by_time}, {"resident_bytes", tally.resident_bytes}};
-    for (const auto& [name, member] : counts)
-        json[name] = tally.*member;
+    Json json{{"frames_by_time", counts.frames_by_time}, {"resident_bytes", counts.resident_bytes}};
+    for (const auto& [name, member] : events)
+        json[name] = counts.*member;
     for (const auto& [name, member] : sums)
-        json[name] = tally.*member;
+        json[name] = counts.*member;
     for (const auto& [name, member] : greatest)
-        json[name] = tally.*member;
-    json["scenes_s"] = tally.scenes_s;
+        json[name] = counts.*member;
+    json["scenes_s"] = counts.scenes_s;
     return json;
 }
 
-Tally tally_of(const Json& json)
+UsageCounts usage_counts_of(const Json& json)
 {
-    Tally tally;
+    UsageCounts counts;
     if (!json.is_object())
-        return tally;
+        return counts;
     if (const auto classes = json.find("frames_by_time"); classes != json.end() && classes->is_array())
-        for (std::size_t i = 0; i < std::min(classes->size(), tally.frames_by_time.size()); ++i)
+        for (std::size_t i = 0; i < std::min(classes->size(), counts.frames_by_time.size()); ++i)
             if ((*classes)[i].is_number_unsigned())
-                tally.frames_by_time[i] = (*classes)[i].get<std::uint64_t>();
-    for (const auto& [name, member] : counts)
-        tally.*member = count_in(json, name);
+                counts.frames_by_time[i] = (*classes)[i].get<std::uint64_t>();
+    for (const auto& [name, member] : events)
+        counts.*member = count_in(json, name);
     for (const auto& [name, member] : sums)
-        tally.*member = number_in(json, name);
+        counts.*member = number_in(json, name);
     for (const auto& [name, member] : greatest)
-        tally.*member = number_in(json, name);
-    tally.resident_bytes = count_in(json, "resident_bytes");
+        counts.*member = number_in(json, name);
+    counts.resident_bytes = count_in(json, "resident_bytes");
     if (const auto scenes = json.find("scenes_s"); scenes != json.end() && scenes->is_object())
         for (const auto& [scene, s] : scenes->items())
-            if (s.is_number() && tally.scenes_s.size() < 1000)
-                tally.scenes_s[scene] = s.get<double>();
-    return tally;
+            if (s.is_number() && counts.scenes_s.size() < 1000)
+                counts.scenes_s[scene] = s.get<double>();
+    return counts;
 }
 
-std::string exposition_of(const Tally& since_start, const Gauges& now)
+std::string exposition_of(const UsageCounts& since_start, const Gauges& now)
 {
     Exposition out;
     out.metric("build_info", "gauge", "The program's version; the value is always 1.");

@@ -1,4 +1,4 @@
-#include "programme.h"
+#include "session_content.h"
 #include "config/model/scene_file.h"
 #include "config/model/shipped.h"
 #include "runtime/operation/record_files.h"
@@ -7,13 +7,13 @@
 
 namespace starbow {
 
-Programme programme_of_scene(const std::string& scene)
+SessionContent content_of_scene(const std::string& scene)
 {
     const std::filesystem::path file = shipped_file("scenes", scene);
     return {.scene = file, .start = open_scene(file).start};
 }
 
-Programme programme_of_shot(const std::string& shot)
+SessionContent content_of_shot(const std::string& shot)
 {
     const std::filesystem::path file = shipped_file("shots", shot);
     Shot start = load_shot(file);
@@ -21,7 +21,7 @@ Programme programme_of_shot(const std::string& shot)
     return {.scene = scene, .start = std::move(start), .shot = shot};
 }
 
-Programme programme_of_record(const std::filesystem::path& record)
+SessionContent content_of_record(const std::filesystem::path& record)
 {
     const ShownRecord flown(record);
     const RecordHeader& header = flown.header();
@@ -30,7 +30,7 @@ Programme programme_of_record(const std::filesystem::path& record)
         .record = record};
 }
 
-Programme programme_of_tour(const std::string& name, const Words& words)
+SessionContent content_of_tour(const std::string& name, const Words& words)
 {
     Tour tour = tour_in(name, words);
     const std::filesystem::path scene = scene_of(tour);

@@ -1,6 +1,6 @@
 #pragma once
 #include "config/model/adjust.h"
-#include "instant.h"
+#include "picture_state.h"
 #include <cstdint>
 #include <span>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace starbow {
 
-/// The master's message about a frame: its instant, and the parts of the exhibit that change.
-struct SharedInstant {
+/// The master's message about a frame: the state of its pictures, and the parts of the exhibit that change.
+struct SharedState {
     std::string scene; ///< the scene's file, as the master's command line or a remote's names it
     std::string coming; ///< the scene that the master reads meanwhile, so that all read it at once; empty: none
     std::string layout; ///< the layout's file, as `scene`
@@ -18,19 +18,19 @@ struct SharedInstant {
     std::string language; ///< of the visitors' words
     std::string quality; ///< a quality file's name; empty: `level` counts
     std::int32_t level = -1; ///< of the governor's ladder; -1: none
-    Instant instant;
+    PictureState picture;
 };
 
-/// The bytes of an instant, the same on each machine: numbers as they are in memory, the lowest byte first. Of the
+/// The bytes of a state, the same on each machine: numbers as they are in memory, the lowest byte first. Of the
 /// instruments' panel only the number is in them: the picture is a page's. Throws InputError where they are more than
 /// most_state_bytes.
-std::vector<std::uint8_t> bytes_of(const SharedInstant& instant);
+std::vector<std::uint8_t> bytes_of(const SharedState& shared);
 
-/// The instant of such bytes. Throws InputError for bytes that are none: cut off, too many, or with numbers that no instant
+/// The state of such bytes. Throws InputError for bytes that are none: cut off, too many, or with numbers that no state
 /// has.
-SharedInstant instant_of(std::span<const std::uint8_t> bytes);
+SharedState shared_state_of(std::span<const std::uint8_t> bytes);
 
 /// A digest of such bytes.
-std::uint64_t digest_of_instant(std::span<const std::uint8_t> bytes);
+std::uint64_t digest_of_state(std::span<const std::uint8_t> bytes);
 
 } // namespace starbow

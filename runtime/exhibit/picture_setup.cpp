@@ -1,4 +1,4 @@
-#include "instant_pictures.h"
+#include "picture_setup.h"
 #include "config/json/reader.h"
 #include "config/model/angles.h"
 #include "runtime/hud/signs.h"
@@ -13,13 +13,13 @@ static glm::dvec2 half_of(const Panel& panel, double degree_px)
     return 0.5 * glm::dvec2(panel.size) * (std::tan(degree) / degree_px);
 }
 
-const Panel* InstantPictures::set_up(const Instant& now, const Words& words, FrameRenderer& frame)
+const Panel* PictureSetup::set_up(const PictureState& now, const Words& words, FrameRenderer& frame)
 {
     frame.move_head(now.head);
     frame.meter(now.meters);
     frame.range(now.range);
     frame.bloom(now.bloom);
-    frame.fade(now.black);
+    frame.fade(now.fade);
     frame.vignette(now.vignette, now.vignette_part);
     frame.show(now.pattern);
     std::optional<Measuring> what;
@@ -33,7 +33,7 @@ const Panel* InstantPictures::set_up(const Instant& now, const Words& words, Fra
     return now.hud ? panel_of(*now.hud, words, frame.views().hud_width()) : nullptr;
 }
 
-const Panel* InstantPictures::panel_of(const Written& hud, const Words& words, int width)
+const Panel* PictureSetup::panel_of(const HudText& hud, const Words& words, int width)
 {
     if (hud.number != drawn_ || panel_.size.x != width) {
         panel_ = typesetter.draw(hud.readings, words, width);
@@ -42,7 +42,7 @@ const Panel* InstantPictures::panel_of(const Written& hud, const Words& words, i
     return &panel_;
 }
 
-void InstantPictures::place(const Instant& now, FrameRenderer& frame)
+void PictureSetup::place(const PictureState& now, FrameRenderer& frame)
 {
     const ViewSet& views = frame.views();
     const double degree_px = views.hud_width() * std::tan(degree) / (2 * views.hud_place.half.x);
@@ -55,27 +55,26 @@ void InstantPictures::place(const Instant& now, FrameRenderer& frame)
         callouts_.push_back(
             {.letters = &sign_panel_, .place = views.place_above(now.sign->towards, half_of(sign_panel_, degree_px))});
     }
-    if (!now.small_picture)
+    if (!now.inset)
         no_room_ = false;
-    if (!now.small_picture || now.pattern != Pattern::none)
+    if (!now.inset || now.pattern != Pattern::none)
         frame.drop_inset();
     else if (!no_room_)
-        add_small_picture(*now.small_picture, now.shot, frame, degree_px);
+        add_inset(*now.inset, now.shot, frame, degree_px);
     frame.place(callouts_);
 }
 
-void InstantPictures::add_small_picture(
-    const SmallPicture& picture, const Shot& shot, FrameRenderer& frame, double degree_px)
+void PictureSetup::add_inset(const InsetPicture& picture, const Shot& shot, FrameRenderer& frame, double degree_px)
 {
     const ViewSet& views = frame.views();
     const double half_x = 0.42 * views.hud_place.half.x;
     const glm::dvec2 half(half_x, half_x * Inset::aspect);
     try {
         const int width = std::clamp(int(2 * half.x / std::tan(degree) * degree_px), 64, 1024);
-        frame.show_inset(beside(shot, picture.kind, picture.start_ev), width, picture.fov_deg);
+        frame.show_inset(inset_shot(shot, picture.kind, picture.start_ev), width, picture.fov_deg);
     } catch (const InputError& error) {
         no_room_ = true;
-        write_log(LogKind::inset_no_room, one_line(error.what()) + "; the small picture is left out");
+        write_log(LogKind::inset_no_room, one_line(error.what()) + "; the inset is left out");
         return;
     }
     if (picture.name != name_ || name_panel_.size.x == 0) {

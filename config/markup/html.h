@@ -6,12 +6,17 @@
 
 namespace starbow {
 
-/// A foreign text as text or an attribute of HTML and SVG.
+/// A foreign text as text or an attribute of HTML and SVG. Control characters, which XML forbids, become question marks.
 inline std::string escaped_html(const std::string& text)
 {
     std::string out;
     for (char c : text)
-        out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
+        if (c == '<' || c == '>')
+            out += c == '<' ? "&lt;" : "&gt;";
+        else if (c == '&' || c == '"')
+            out += c == '&' ? "&amp;" : "&quot;";
+        else
+            out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? '?' : c;
     return out;
 }
 

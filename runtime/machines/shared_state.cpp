@@ -1,4 +1,4 @@
-#include "instant_bytes.h"
+#include "shared_state.h"
 #include "bus.h"
 #include "config/json/error.h"
 #include "runtime/flight/record.h"
@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// Counts and lengths above these belong to no instant.
+/// Counts and lengths above these belong to no state.
 constexpr std::uint32_t most_letters = 3000, most_things = 256;
 
 struct Writer {
@@ -67,7 +67,7 @@ template <class Part> std::uint32_t length(Part& part, std::size_t of, std::uint
 
 template <class Part, class Number>
 requires std::is_arithmetic_v<Number>
-void take(Part& part, Number& number)
+void transfer(Part& part, Number& number)
 {
     if constexpr (std::is_same_v<Number, bool>) {
         std::uint8_t byte = number;
@@ -88,16 +88,16 @@ void take(Part& part, Number& number)
 constexpr std::size_t count_of(Comparison) { return comparison_names.size(); }
 constexpr std::size_t count_of(FlightMode) { return flight_mode_names.size(); }
 constexpr std::size_t count_of(Information) { return information_names.size(); }
-constexpr std::size_t count_of(Beside) { return beside_names.size(); }
+constexpr std::size_t count_of(InsetView) { return inset_view_names.size(); }
 constexpr std::size_t count_of(Overlay) { return overlay_names.size(); }
 constexpr std::size_t count_of(Pattern) { return pattern_names.size(); }
 
 template <class Part, class Choice>
 requires std::is_enum_v<Choice>
-void take(Part& part, Choice& choice)
+void transfer(Part& part, Choice& choice)
 {
     auto number = std::uint8_t(choice);
-    take(part, number);
+    transfer(part, number);
     if constexpr (Part::reads) {
         const std::size_t count = count_of(choice);
         if (number >= count)
@@ -107,7 +107,7 @@ void take(Part& part, Choice& choice)
     }
 }
 
-template <class Part> void take(Part& part, std::string& text)
+template <class Part> void transfer(Part& part, std::string& text)
 {
     const std::uint32_t count = length(part, text.size(), most_letters);
     if constexpr (Part::reads)
@@ -115,163 +115,168 @@ template <class Part> void take(Part& part, std::string& text)
     part.raw(text.data(), count);
 }
 
-template <class Part> void take(Part& part, EffectSet& on)
+template <class Part> void transfer(Part& part, EffectSet& on)
 {
     for (const EffectEntry& one : all_effects) {
         bool is = on[one.which];
-        take(part, is);
+        transfer(part, is);
         on.set(one.which, is);
     }
 }
 
-template <class Part> void take(Part& part, glm::vec4& v)
+template <class Part> void transfer(Part& part, glm::vec4& v)
 {
-    take(part, v.x), take(part, v.y), take(part, v.z), take(part, v.w);
+    transfer(part, v.x), transfer(part, v.y), transfer(part, v.z), transfer(part, v.w);
 }
-template <class Part> void take(Part& part, glm::dvec3& v) { take(part, v.x), take(part, v.y), take(part, v.z); }
-template <class Part> void take(Part& part, glm::dquat& q)
+template <class Part> void transfer(Part& part, glm::dvec3& v)
 {
-    take(part, q.w), take(part, q.x), take(part, q.y), take(part, q.z);
+    transfer(part, v.x), transfer(part, v.y), transfer(part, v.z);
+}
+template <class Part> void transfer(Part& part, glm::dquat& q)
+{
+    transfer(part, q.w), transfer(part, q.x), transfer(part, q.y), transfer(part, q.z);
 }
 
-template <class Part, class Thing> void take(Part& part, std::vector<Thing>& list)
+template <class Part, class Thing> void transfer(Part& part, std::vector<Thing>& list)
 {
     const std::uint32_t count = length(part, list.size(), most_things);
     if constexpr (Part::reads)
         list.resize(count);
     for (Thing& thing : list)
-        take(part, thing);
+        transfer(part, thing);
 }
 
-template <class Part, class Thing, std::size_t count> void take(Part& part, std::array<Thing, count>& list)
+template <class Part, class Thing, std::size_t count> void transfer(Part& part, std::array<Thing, count>& list)
 {
     for (Thing& thing : list)
-        take(part, thing);
+        transfer(part, thing);
 }
 
-template <class Part, class Thing> void take(Part& part, std::optional<Thing>& thing)
+template <class Part, class Thing> void transfer(Part& part, std::optional<Thing>& thing)
 {
     bool there = thing.has_value();
-    take(part, there);
+    transfer(part, there);
     if constexpr (Part::reads) {
         thing.reset();
         if (there)
             thing.emplace();
     }
     if (there)
-        take(part, *thing);
+        transfer(part, *thing);
 }
 
 // One list of a struct's members serves both directions. A binding names them all, so that a new member does not compile.
 
-template <class Part, class... Members> void take_all(Part& part, Members&... members) { (take(part, members), ...); }
+template <class Part, class... Members> void transfer_all(Part& part, Members&... members)
+{
+    (transfer(part, members), ...);
+}
 
-template <class Part> void take(Part& part, Effects& effects)
+template <class Part> void transfer(Part& part, Effects& effects)
 {
     auto& [on, comparison] = effects;
-    take_all(part, on, comparison);
+    transfer_all(part, on, comparison);
 }
 
-template <class Part> void take(Part& part, Shot& shot)
+template <class Part> void transfer(Part& part, Shot& shot)
 {
     auto& [scene, time, position, u, ship_from_cockpit, effects, exposure_ev] = shot;
-    take_all(part, scene, time, position, u, ship_from_cockpit, effects, exposure_ev);
+    transfer_all(part, scene, time, position, u, ship_from_cockpit, effects, exposure_ev);
 }
 
-template <class Part> void take(Part& part, Head& head)
+template <class Part> void transfer(Part& part, Head& head)
 {
     auto& [moved_m, turned] = head;
-    take_all(part, moved_m, turned);
+    transfer_all(part, moved_m, turned);
 }
 
-template <class Part> void take(Part& part, RangeCurve& curve)
+template <class Part> void transfer(Part& part, RangeCurve& curve)
 {
     auto& [shown, low, high] = curve;
-    take_all(part, shown, low, high);
+    transfer_all(part, shown, low, high);
 }
 
-template <class Part> void take(Part& part, Vignette& vignette)
+template <class Part> void transfer(Part& part, Vignette& vignette)
 {
     auto& [elevation_deg, clear_deg, soft_deg, darkness] = vignette;
-    take_all(part, elevation_deg, clear_deg, soft_deg, darkness);
+    transfer_all(part, elevation_deg, clear_deg, soft_deg, darkness);
 }
 
-template <class Part> void take(Part& part, Caption& caption)
+template <class Part> void transfer(Part& part, Caption& caption)
 {
     auto& [text, choices, chosen, right, aside, flying, menu] = caption;
-    take_all(part, text, choices, chosen, right, aside, flying, menu);
+    transfer_all(part, text, choices, chosen, right, aside, flying, menu);
 }
 
-template <class Part> void take(Part& part, Readings::Range& range)
+template <class Part> void transfer(Part& part, Readings::Range& range)
 {
     auto& [stops, shown] = range;
-    take_all(part, stops, shown);
+    transfer_all(part, stops, shown);
 }
 
-template <class Part> void take(Part& part, Readings& readings)
+template <class Part> void transfer(Part& part, Readings& readings)
 {
     auto& [beta_deficit, gamma, doppler_ahead, looked_cosine, ship_s, world_s, distance_m, light_speed_m_s, frames_per_s,
         effects, mode, frozen, exposure_ev, exposure_locked, range, lever, prompt, caption, notice, information]
         = readings;
-    take_all(part, beta_deficit, gamma, doppler_ahead, looked_cosine, ship_s, world_s, distance_m, light_speed_m_s,
+    transfer_all(part, beta_deficit, gamma, doppler_ahead, looked_cosine, ship_s, world_s, distance_m, light_speed_m_s,
         frames_per_s, effects, mode, frozen, exposure_ev, exposure_locked, range, lever, prompt, caption, notice,
         information);
 }
 
-template <class Part> void take(Part& part, Written& written)
+template <class Part> void transfer(Part& part, HudText& written)
 {
     auto& [number, readings] = written;
-    take_all(part, number, readings);
+    transfer_all(part, number, readings);
 }
 
-template <class Part> void take(Part& part, ShownSign& sign)
+template <class Part> void transfer(Part& part, ShownSign& sign)
 {
     auto& [lines, towards] = sign;
-    take_all(part, lines, towards);
+    transfer_all(part, lines, towards);
 }
 
-template <class Part> void take(Part& part, SmallPicture& picture)
+template <class Part> void transfer(Part& part, InsetPicture& picture)
 {
     auto& [kind, start_ev, fov_deg, name] = picture;
-    take_all(part, kind, start_ev, fov_deg, name);
+    transfer_all(part, kind, start_ev, fov_deg, name);
 }
 
-template <class Part> void take(Part& part, Spot& spot)
+template <class Part> void transfer(Part& part, Spot& spot)
 {
     auto& [at, frame, sky, clock] = spot;
-    take_all(part, at, frame, sky, clock);
+    transfer_all(part, at, frame, sky, clock);
 }
 
-template <class Part> void take(Part& part, OverlayScale& scale)
+template <class Part> void transfer(Part& part, OverlayScale& scale)
 {
     auto& [nearest_s, farthest_s, emission_step_s] = scale;
-    take_all(part, nearest_s, farthest_s, emission_step_s);
+    transfer_all(part, nearest_s, farthest_s, emission_step_s);
 }
 
-template <class Part> void take(Part& part, Instruments& on)
+template <class Part> void transfer(Part& part, Instruments& on)
 {
     auto& [overlay, marks, scale, panel, panel_number, scale_place] = on; // the panel's picture is a page's
-    take_all(part, overlay, marks, scale, panel_number, scale_place);
+    transfer_all(part, overlay, marks, scale, panel_number, scale_place);
 }
 
-template <class Part> void take(Part& part, Instant& now)
+template <class Part> void transfer(Part& part, PictureState& now)
 {
-    auto& [shot, head, range, meters, bloom, black, vignette, vignette_part, pattern, hud, sign, small_picture, instruments]
-        = now;
-    take_all(part, shot, head, range, meters, bloom, black, vignette, vignette_part, pattern, hud, sign, small_picture,
-        instruments);
+    auto& [shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, sign, inset, instruments] = now;
+    transfer_all(
+        part, shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, sign, inset, instruments);
 }
 
-template <class Part> void take(Part& part, TurnedNumber& number)
+template <class Part> void transfer(Part& part, TurnedNumber& number)
 {
     auto& [place, value] = number;
-    take_all(part, place, value);
+    transfer_all(part, place, value);
 }
 
-template <class Part> void take(Part& part, SharedInstant& shared)
+template <class Part> void transfer(Part& part, SharedState& shared)
 {
-    auto& [scene, coming, layout, layout_digest, turned, language, quality, level, instant] = shared;
-    take_all(part, scene, coming, layout, layout_digest, turned, language, quality, level, instant);
+    auto& [scene, coming, layout, layout_digest, turned, language, quality, level, picture] = shared;
+    transfer_all(part, scene, coming, layout, layout_digest, turned, language, quality, level, picture);
 }
 
 /// Another order or kind of the fields is another version.
@@ -279,8 +284,8 @@ std::uint32_t version()
 {
     static const std::uint32_t number = [] {
         Shape shape;
-        SharedInstant all;
-        take(shape, all);
+        SharedState all;
+        transfer(shape, all);
         return std::uint32_t(shape.kinds ^ (shape.kinds >> 32));
     }();
     return number;
@@ -288,28 +293,28 @@ std::uint32_t version()
 
 } // namespace
 
-std::vector<std::uint8_t> bytes_of(const SharedInstant& instant)
+std::vector<std::uint8_t> bytes_of(const SharedState& shared)
 {
     Writer writer;
-    SharedInstant copy = instant; // one list of fields serves both ways
+    SharedState copy = shared; // one list of fields serves both ways
     std::uint32_t number = version();
-    take(writer, number), take(writer, copy);
+    transfer(writer, number), transfer(writer, copy);
     if (writer.bytes.size() > most_state_bytes)
         throw InputError("the state of a frame takes " + std::to_string(writer.bytes.size()) + " bytes; at most "
             + std::to_string(most_state_bytes) + " are sent, so shorter captions are right");
     return std::move(writer.bytes);
 }
 
-SharedInstant instant_of(std::span<const std::uint8_t> bytes)
+SharedState shared_state_of(std::span<const std::uint8_t> bytes)
 {
     Reader reader{bytes};
     std::uint32_t number = 0;
-    take(reader, number);
+    transfer(reader, number);
     if (number != version())
         throw InputError("a state of the exhibit's machines has version " + std::to_string(number)
             + "; the same program, with version " + std::to_string(version()) + ", on all machines is right");
-    SharedInstant shared;
-    take(reader, shared);
+    SharedState shared;
+    transfer(reader, shared);
     if (!reader.bytes.empty())
         throw InputError("a state of the exhibit's machines has " + std::to_string(reader.bytes.size()) + " bytes too many");
     if (const std::string fault = fault_of(shared); !fault.empty())
@@ -317,7 +322,7 @@ SharedInstant instant_of(std::span<const std::uint8_t> bytes)
     return shared;
 }
 
-std::uint64_t digest_of_instant(std::span<const std::uint8_t> bytes)
+std::uint64_t digest_of_state(std::span<const std::uint8_t> bytes)
 {
     return digest(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }

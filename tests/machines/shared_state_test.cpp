@@ -3,7 +3,7 @@
 #include "config/model/shipped.h"
 #include "runtime/hud/signs.h"
 #include "runtime/machines/bus.h"
-#include "runtime/machines/instant_bytes.h"
+#include "runtime/machines/shared_state.h"
 #include "runtime/machines/sound.h"
 #include "tests/support/files.h"
 #include <cstring>
@@ -13,13 +13,13 @@
 #include <random>
 #include <regex>
 
-namespace starbow::instant_bytes_test {
+namespace starbow::shared_state_test {
 namespace {
 
-/// An instant in which every part differs from its default.
-SharedInstant full()
+/// A state in which every part differs from its default.
+SharedState full()
 {
-    SharedInstant shared{.scene = "gamow",
+    SharedState shared{.scene = "gamow",
         .coming = "train",
         .layout = "dome2",
         .layout_digest = 0xfedcba9876543210u,
@@ -27,8 +27,8 @@ SharedInstant full()
         .language = "de",
         .quality = "fine",
         .level = 3,
-        .instant = {}};
-    Instant& now = shared.instant;
+        .picture = {}};
+    PictureState& now = shared.picture;
     now.shot = {"gamow", 1.25, {1, 2, 3}, {0.1, -7, 1e5}, {0.5, 0.5, -0.5, 0.5},
         {{Effect::false_colours}, Comparison::galilean}, -2.5};
     now.head = {{0.1, 0.2, -0.3}, {0.6, 0, 0.8, 0}};
@@ -36,10 +36,10 @@ SharedInstant full()
     for (std::size_t i = 0; i < curve.shown.size(); ++i)
         curve.shown[i] = 0.01 * double(i) - 8;
     curve.low = -7, curve.high = 12;
-    now.meters = true, now.bloom = 0.2, now.black = 0.75;
+    now.meters = true, now.bloom = 0.2, now.fade = 0.75;
     now.vignette = {10, 20, 30, 0.5}, now.vignette_part = 0.4;
     now.pattern = Pattern::wedges;
-    Written& hud = now.hud.emplace();
+    HudText& hud = now.hud.emplace();
     hud.number = 12345678901;
     Readings& shown = hud.readings;
     shown = {0.25, 4, 7.8, 0.3, 10, 40, 1e9, 299792458, 59.9,
@@ -48,7 +48,7 @@ SharedInstant full()
     shown.caption = Caption{"Wohin zuerst?", {"Sonne", "Mond"}, 1, 0, "noch 5 s", true, true};
     shown.notice = "kein Kopf", shown.information = Information::visitor;
     now.sign = {{"hinter Ihnen", "3 s alt"}, {0, 0.6, 0.8}};
-    now.small_picture = {Beside::telescope, -1, 1.5, "Fernrohr 1,5°"};
+    now.inset = {InsetView::telescope, -1, 1.5, "Fernrohr 1,5°"};
     Instruments& on = now.instruments.emplace();
     on.overlay = Overlay::ring;
     on.marks[0] = Spot{{4, 5, 6}, 2, false, 17};
@@ -59,10 +59,10 @@ SharedInstant full()
 
 TEST(InstantBytesTest, EveryPartComesBack)
 {
-    const SharedInstant sent = full();
+    const SharedState sent = full();
     const std::vector<std::uint8_t> bytes = bytes_of(sent);
     EXPECT_LE(bytes.size(), most_state_bytes);
-    const SharedInstant come = instant_of(bytes);
+    const SharedState come = shared_state_of(bytes);
     EXPECT_EQ(bytes_of(come), bytes);
     EXPECT_EQ(come.scene, "gamow");
     EXPECT_EQ(come.coming, "train");
@@ -71,7 +71,7 @@ TEST(InstantBytesTest, EveryPartComesBack)
     EXPECT_EQ(come.turned, sent.turned);
     EXPECT_EQ(come.language, "de");
     EXPECT_EQ(come.level, 3);
-    const Instant &a = sent.instant, &b = come.instant;
+    const PictureState &a = sent.picture, &b = come.picture;
     EXPECT_EQ(a.shot.position, b.shot.position);
     EXPECT_EQ(a.shot.u, b.shot.u);
     EXPECT_EQ(a.shot.ship_from_cockpit, b.shot.ship_from_cockpit);
@@ -83,28 +83,28 @@ TEST(InstantBytesTest, EveryPartComesBack)
     EXPECT_EQ(a.hud->readings.lever, b.hud->readings.lever);
     EXPECT_EQ(a.hud->readings.mode, b.hud->readings.mode);
     EXPECT_EQ(a.sign->lines, b.sign->lines);
-    EXPECT_EQ(a.small_picture->name, b.small_picture->name);
+    EXPECT_EQ(a.inset->name, b.inset->name);
     EXPECT_EQ(a.instruments->marks[0]->clock, b.instruments->marks[0]->clock);
     EXPECT_FALSE(b.instruments->marks[1]);
     EXPECT_EQ(a.instruments->panel_number, b.instruments->panel_number);
     EXPECT_EQ(a.instruments->scale_place, b.instruments->scale_place);
     // The plain one, too.
-    SharedInstant least{.scene = "avenue"};
-    const SharedInstant plain = instant_of(bytes_of(least));
-    EXPECT_FALSE(plain.instant.range || plain.instant.hud || plain.instant.sign || plain.instant.small_picture
-        || plain.instant.instruments);
-    EXPECT_NE(digest_of_instant(bytes), digest_of_instant(bytes_of(SharedInstant{})));
+    SharedState least{.scene = "avenue"};
+    const SharedState plain = shared_state_of(bytes_of(least));
+    EXPECT_FALSE(
+        plain.picture.range || plain.picture.hud || plain.picture.sign || plain.picture.inset || plain.picture.instruments);
+    EXPECT_NE(digest_of_state(bytes), digest_of_state(bytes_of(SharedState{})));
 }
 
 /// A part that the list of fields has forgotten would let two instants have the same bytes.
 TEST(InstantBytesTest, EveryBitOfAShotCounts)
 {
     const std::vector<std::uint8_t> before = bytes_of(full());
-    SharedInstant other = full();
-    double* const numbers[] = {&other.instant.shot.time, &other.instant.shot.position.y, &other.instant.shot.u.z,
-        &other.instant.shot.ship_from_cockpit.w, &other.instant.shot.exposure_ev, &other.instant.head.moved_m.x,
-        &other.instant.bloom, &other.instant.black, &other.instant.vignette_part, &other.instant.vignette.clear_deg,
-        &other.instant.range->shown[100]};
+    SharedState other = full();
+    double* const numbers[] = {&other.picture.shot.time, &other.picture.shot.position.y, &other.picture.shot.u.z,
+        &other.picture.shot.ship_from_cockpit.w, &other.picture.shot.exposure_ev, &other.picture.head.moved_m.x,
+        &other.picture.bloom, &other.picture.fade, &other.picture.vignette_part, &other.picture.vignette.clear_deg,
+        &other.picture.range->shown[100]};
     for (double* number : numbers) {
         const double kept = *number;
         *number = std::nextafter(kept, 1e300);
@@ -117,7 +117,7 @@ TEST(InstantBytesTest, EveryBitOfAShotCounts)
 std::string complaint(const std::vector<std::uint8_t>& bytes)
 {
     try {
-        instant_of(bytes);
+        shared_state_of(bytes);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -136,68 +136,71 @@ TEST(InstantBytesTest, WhatIsNoInstantIsRefused)
     EXPECT_TRUE(std::regex_match(complaint(other),
         std::regex("a state of the exhibit's machines has version 0; the same program, with version [0-9]+, on all machines "
                    "is right")));
-    SharedInstant none = full();
-    none.instant.shot.position.x = std::numeric_limits<double>::quiet_NaN();
+    SharedState none = full();
+    none.picture.shot.position.x = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(complaint(bytes_of(none)), "a state of the exhibit's machines has a number that is none");
     none = full();
-    none.instant.hud->readings.prompt = std::string(3500, 'x');
+    none.picture.hud->readings.prompt = std::string(3500, 'x');
     EXPECT_THROW(bytes_of(none), InputError);
 }
 
-/// Each change leaves bytes that are whole, and an instant that no exhibit shows: numbers out of their range, and numbers
+/// Each change leaves bytes that are whole, and a state that no exhibit shows: numbers out of their range, and numbers
 /// that do not suit others. A menu without choices once divided by their number.
 TEST(InstantBytesTest, PartsThatDoNotSuitEachOtherAreRefused)
 {
     const double inf = std::numeric_limits<double>::infinity();
-    using Change = std::function<void(SharedInstant&, Instant&)>;
+    using Change = std::function<void(SharedState&, PictureState&)>;
     const std::vector<std::pair<const char*, Change>> changes{
-        {"chosen choice", [](auto&, Instant& now) { now.hud->readings.caption->chosen = 2; }},
-        {"chosen choice", [](auto&, Instant& now) { now.hud->readings.caption->chosen = -2; }},
-        {"right choice", [](auto&, Instant& now) { now.hud->readings.caption->right = 1000000; }},
+        {"chosen choice", [](auto&, PictureState& now) { now.hud->readings.caption->chosen = 2; }},
+        {"chosen choice", [](auto&, PictureState& now) { now.hud->readings.caption->chosen = -2; }},
+        {"right choice", [](auto&, PictureState& now) { now.hud->readings.caption->right = 1000000; }},
         {"right choice",
-            [](auto&, Instant& now) { now.hud->readings.caption->choices.clear(), now.hud->readings.caption->chosen = -1; }},
-        {"menu without", [](auto&, Instant& now) { now.hud->readings.caption = Caption{.text = "Menu", .menu = true}; }},
-        {"number that is none", [&](auto&, Instant& now) { now.shot.u.y = inf; }},
-        {"velocity", [](auto&, Instant& now) { now.shot.u.y = 1e300; }},
-        {"place", [](auto&, Instant& now) { now.shot.position.z = -1e200; }},
+            [](auto&, PictureState& now) {
+                now.hud->readings.caption->choices.clear(), now.hud->readings.caption->chosen = -1;
+            }},
+        {"menu without",
+            [](auto&, PictureState& now) { now.hud->readings.caption = Caption{.text = "Menu", .menu = true}; }},
+        {"number that is none", [&](auto&, PictureState& now) { now.shot.u.y = inf; }},
+        {"velocity", [](auto&, PictureState& now) { now.shot.u.y = 1e300; }},
+        {"place", [](auto&, PictureState& now) { now.shot.position.z = -1e200; }},
         {"turn of the ship",
-            [](auto&, Instant& now) {
+            [](auto&, PictureState& now) {
                 now.shot.ship_from_cockpit = {0, 0, 0, 0};
             }},
         {"turn of the head",
-            [](auto&, Instant& now) {
+            [](auto&, PictureState& now) {
                 now.head.turned = {2, 0, 0, 0};
             }},
-        {"head's way", [](auto&, Instant& now) { now.head.moved_m.x = 1e9; }},
-        {"exposure", [](auto&, Instant& now) { now.shot.exposure_ev = 1e9; }},
-        {"high end", [](auto&, Instant& now) { now.range->high = now.range->low - 1; }},
-        {"curve that falls", [](auto&, Instant& now) { std::swap(now.range->shown[3], now.range->shown[4]); }},
-        {"bloom", [](auto&, Instant& now) { now.bloom = 2; }},
-        {"black", [](auto&, Instant& now) { now.black = -0.1; }},
-        {"soft part", [](auto&, Instant& now) { now.vignette.soft_deg = 0; }},
-        {"gamma", [](auto&, Instant& now) { now.hud->readings.gamma = 0; }},
-        {"1 - v/c", [](auto&, Instant& now) { now.hud->readings.beta_deficit = -1; }},
-        {"speed of light", [](auto&, Instant& now) { now.hud->readings.light_speed_m_s = 0; }},
-        {"lever", [](auto&, Instant& now) { now.hud->readings.lever = 1.5; }},
+        {"head's way", [](auto&, PictureState& now) { now.head.moved_m.x = 1e9; }},
+        {"exposure", [](auto&, PictureState& now) { now.shot.exposure_ev = 1e9; }},
+        {"high end", [](auto&, PictureState& now) { now.range->high = now.range->low - 1; }},
+        {"curve that falls", [](auto&, PictureState& now) { std::swap(now.range->shown[3], now.range->shown[4]); }},
+        {"bloom", [](auto&, PictureState& now) { now.bloom = 2; }},
+        {"black", [](auto&, PictureState& now) { now.fade = -0.1; }},
+        {"soft part", [](auto&, PictureState& now) { now.vignette.soft_deg = 0; }},
+        {"gamma", [](auto&, PictureState& now) { now.hud->readings.gamma = 0; }},
+        {"1 - v/c", [](auto&, PictureState& now) { now.hud->readings.beta_deficit = -1; }},
+        {"speed of light", [](auto&, PictureState& now) { now.hud->readings.light_speed_m_s = 0; }},
+        {"lever", [](auto&, PictureState& now) { now.hud->readings.lever = 1.5; }},
         {"direction",
-            [](auto&, Instant& now) {
+            [](auto&, PictureState& now) {
                 now.sign->towards = {0, 0, 0};
             }},
-        {"too long a line", [](auto&, Instant& now) { now.sign->lines[0] = std::string(300, 'W'); }},
-        {"too many lines", [](auto&, Instant& now) { now.sign->lines.resize(20); }},
-        {"small picture of nothing", [](auto&, Instant& now) { now.small_picture->kind = Beside::none; }},
-        {"field", [](auto&, Instant& now) { now.small_picture->fov_deg = 0; }},
-        {"too long a name", [](auto&, Instant& now) { now.small_picture->name = std::string(300, 'W'); }},
-        {"without a frame", [](auto&, Instant& now) { now.instruments->marks[0]->frame = -1; }},
-        {"farthest colour", [](auto&, Instant& now) { now.instruments->scale.farthest_s = 1; }},
-        {"below 0", [](auto&, Instant& now) { now.instruments->panel_number = -7; }},
-        {"level", [](SharedInstant& shared, auto&) { shared.level = -2; }},
-        {"no scene", [](SharedInstant& shared, auto&) { shared.scene.clear(); }},
-        {"turned number", [](SharedInstant& shared, auto&) { shared.turned[0].value = 1e30; }},
+        {"too long a line", [](auto&, PictureState& now) { now.sign->lines[0] = std::string(300, 'W'); }},
+        {"too many lines", [](auto&, PictureState& now) { now.sign->lines.resize(20); }},
+        {"inset of nothing", [](auto&, PictureState& now) { now.inset->kind = InsetView::none; }},
+        {"field", [](auto&, PictureState& now) { now.inset->fov_deg = 0; }},
+        {"too long a name", [](auto&, PictureState& now) { now.inset->name = std::string(300, 'W'); }},
+        {"without a frame", [](auto&, PictureState& now) { now.instruments->marks[0]->frame = -1; }},
+        {"farthest colour", [](auto&, PictureState& now) { now.instruments->scale.farthest_s = 1; }},
+        {"below 0", [](auto&, PictureState& now) { now.instruments->panel_number = -7; }},
+        {"level", [](SharedState& shared, auto&) { shared.level = -2; }},
+        {"no scene", [](SharedState& shared, auto&) { shared.scene.clear(); }},
+        {"turned number", [](SharedState& shared, auto&) { shared.turned[0].value = 1e30; }},
     };
     for (const auto& [says, change] : changes) {
-        SharedInstant shared = full();
-        change(shared, shared.instant);
+        SharedState shared = full();
+        change(shared, shared.picture);
         const std::string why = complaint(bytes_of(shared));
         EXPECT_NE(why.find(says), why.npos) << says << ": " << why;
     }
@@ -231,13 +234,13 @@ TEST(InstantBytesTest, WhatIsReadCanBeShown)
             std::memset(&bytes[at], random() % 2 ? 0xff : 0, 8);
         }
         try {
-            const SharedInstant shared = instant_of(bytes);
+            const SharedState shared = shared_state_of(bytes);
             ++shown;
-            if (shared.instant.hud) {
-                EXPECT_EQ(typesetter.draw(shared.instant.hud->readings, words, 320).size.x, 320);
+            if (shared.picture.hud) {
+                EXPECT_EQ(typesetter.draw(shared.picture.hud->readings, words, 320).size.x, 320);
             }
-            if (shared.instant.sign) {
-                EXPECT_LT(draw_sign(typesetter, shared.instant.sign->lines, 10).size.x, 8192);
+            if (shared.picture.sign) {
+                EXPECT_LT(draw_sign(typesetter, shared.picture.sign->lines, 10).size.x, 8192);
             }
         } catch (const InputError&) {
         }
@@ -297,9 +300,9 @@ TEST(InstantBytesTest, DamagedOnesAreReadOrRefused)
             bytes.resize(random() % (bytes.size() + 50));
         ++(complaint(bytes).empty() ? read : refused);
     }
-    EXPECT_GT(read, 500); // most of what is damaged has a number that no instant has
+    EXPECT_GT(read, 500); // most of what is damaged has a number that no state has
     EXPECT_GT(refused, 1000);
 }
 
 } // namespace
-} // namespace starbow::instant_bytes_test
+} // namespace starbow::shared_state_test

@@ -13,7 +13,7 @@ constexpr std::array<double, 12> frame_classes_s{0.004, 0.0085, 0.0125, 0.017, 0
 
 /// Counts of an exhibit over a time. No person is in them: no name, no place, no instant finer than the
 /// hour that the counts belong to.
-struct Tally {
+struct UsageCounts {
     std::array<std::uint64_t, frame_classes_s.size() + 1> frames_by_time{};
     double frames_s = 0; ///< sum of the frames' times
     double longest_frame_s = 0;
@@ -29,12 +29,12 @@ struct Tally {
     /// The time that a part of all frames do not exceed, as far as the classes tell; 0 without frames.
     double percentile_s(double part) const;
     void add_frame(double s, bool missed);
-    Tally& operator+=(const Tally& other);
+    UsageCounts& operator+=(const UsageCounts& other);
 };
 
-nlohmann::json json_of(const Tally& tally);
+nlohmann::json json_of(const UsageCounts& counts);
 /// Reads what json_of wrote; a member of the wrong kind, or a missing one, counts as nothing.
-Tally tally_of(const nlohmann::json& json);
+UsageCounts usage_counts_of(const nlohmann::json& json);
 
 /// The state of an exhibit now, beside its counts.
 struct Gauges {
@@ -46,6 +46,6 @@ struct Gauges {
 };
 
 /// The text of a Prometheus exposition, version 0.0.4: https://prometheus.io/docs/instrumenting/exposition_formats/
-std::string exposition_of(const Tally& since_start, const Gauges& now);
+std::string exposition_of(const UsageCounts& since_start, const Gauges& now);
 
 } // namespace starbow

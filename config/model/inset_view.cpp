@@ -1,4 +1,4 @@
-#include "beside.h"
+#include "inset_view.h"
 #include "angles.h"
 #include "config/json/reader.h"
 #include <algorithm>
@@ -7,9 +7,9 @@
 
 namespace starbow {
 
-Beside beside_named(std::string_view name)
+InsetView inset_view_named(std::string_view name)
 {
-    return Beside(index_named(name, {beside_names.begin(), beside_names.end()}, "small picture"));
+    return InsetView(index_named(name, {inset_view_names.begin(), inset_view_names.end()}, "inset"));
 }
 
 glm::dquat towards_flight(const Shot& shot)
@@ -27,10 +27,10 @@ glm::dquat towards_flight(const Shot& shot)
 double telescope_fov_deg(double u, double before)
 {
     // Directions at right angles to the flight are seen at cos(angle) = beta, or tan(angle) = 1 / u.
-    const double wanted = std::min(2 * std::atan2(1, u) / degree, beside_fov_deg);
+    const double wanted = std::min(2 * std::atan2(1, u) / degree, inset_fov_deg);
     if (before > 0 && before > 0.7 * wanted && before < 1.7 * wanted)
         return before;
-    double least = beside_fov_deg;
+    double least = inset_fov_deg;
     for (double decade = 10; decade > 1e-7; decade /= 10)
         for (const double step : {4.0, 3.0, 2.0, 1.5, 1.0, 0.8, 0.6})
             if (const double field = step * decade; field < least && field >= wanted)

@@ -1,13 +1,13 @@
 // The counts of an exhibit: classes of frame times, visits, days by the hour and Prometheus's text, each against sums that
 // the test makes itself.
-#include "runtime/operation/diary.h"
+#include "runtime/operation/usage_statistics.h"
 #include "tests/support/files.h"
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace diary_test {
+namespace usage_statistics_test {
 
 using namespace starbow;
 using namespace starbow::testing;
@@ -51,52 +51,52 @@ std::time_t before_ten()
     return std::mktime(&parts);
 }
 
-void add_frames(Diary& diary, int frames, double s)
+void add_frames(UsageStatistics& diary, int frames, double s)
 {
     for (int i = 0; i < frames; ++i)
-        diary.count([&](Tally& tally) { tally.add_frame(s, false); });
+        diary.count([&](UsageCounts& counts) { counts.add_frame(s, false); });
 }
 
 } // namespace
 
-TEST(Tally, FrameTimesFallIntoTheirClasses)
+TEST(UsageCounts, FrameTimesFallIntoTheirClasses)
 {
-    Tally tally;
+    UsageCounts counts;
     std::vector<double> times;
     std::mt19937 random(5);
     for (int i = 0; i < 20000; ++i) {
         const double s = std::pow(10.0, std::uniform_real_distribution<double>(-3.2, 0.5)(random));
         times.push_back(s);
-        tally.add_frame(s, s > 0.025);
+        counts.add_frame(s, s > 0.025);
     }
     std::ranges::sort(times);
-    EXPECT_EQ(tally.frames(), times.size());
-    EXPECT_EQ(tally.longest_frame_s, times.back());
+    EXPECT_EQ(counts.frames(), times.size());
+    EXPECT_EQ(counts.longest_frame_s, times.back());
     for (std::size_t i = 0; i < frame_classes_s.size(); ++i) {
         const auto below = std::ranges::count_if(
             times, [&](double s) { return s <= frame_classes_s[i] && (i == 0 || s > frame_classes_s[i - 1]); });
-        EXPECT_EQ(tally.frames_by_time[i], std::uint64_t(below)) << frame_classes_s[i];
+        EXPECT_EQ(counts.frames_by_time[i], std::uint64_t(below)) << frame_classes_s[i];
     }
     // A percentile is an upper bound, at most a class too long.
     for (const double part : {0.01, 0.5, 0.9, 0.999, 1.0}) {
         const double true_s = times[std::size_t(std::ceil(part * double(times.size()))) - 1];
-        EXPECT_GE(tally.percentile_s(part), true_s);
+        EXPECT_GE(counts.percentile_s(part), true_s);
         const auto its_class = std::ranges::lower_bound(frame_classes_s, true_s);
-        EXPECT_LE(tally.percentile_s(part), its_class == frame_classes_s.end() ? times.back() : *its_class);
+        EXPECT_LE(counts.percentile_s(part), its_class == frame_classes_s.end() ? times.back() : *its_class);
     }
-    EXPECT_EQ(Tally{}.percentile_s(0.5), 0);
+    EXPECT_EQ(UsageCounts{}.percentile_s(0.5), 0);
 }
 
-TEST(Tally, ASumIsThatOfItsPartsAndSurvivesItsFile)
+TEST(UsageCounts, ASumIsThatOfItsPartsAndSurvivesItsFile)
 {
-    Tally a, b;
+    UsageCounts a, b;
     a.add_frame(0.01, false), b.add_frame(0.3, true);
     a.visits = 3, b.visits = 4, a.visits_s = 30, b.visits_s = 44, a.device_losses = 1, b.unplugged = 2;
     a.scenes_s = {{"avenue", 5}, {"train", 1}}, b.scenes_s = {{"train", 2}};
     a.resident_bytes = 7, b.resident_bytes = 6, b.worst_skew_s = 0.002;
     a += b;
-    const Tally read = tally_of(nlohmann::json::parse(json_of(a).dump()));
-    for (const Tally* sum : {&std::as_const(a), &read}) {
+    const UsageCounts read = usage_counts_of(nlohmann::json::parse(json_of(a).dump()));
+    for (const UsageCounts* sum : {&std::as_const(a), &read}) {
         EXPECT_EQ(sum->frames(), 2u);
         EXPECT_EQ(sum->visits, 7u);
         EXPECT_EQ(sum->visits_s, 74);
@@ -110,12 +110,12 @@ TEST(Tally, ASumIsThatOfItsPartsAndSurvivesItsFile)
     }
 }
 
-TEST(Diary, EachHourHasItsOwnCountsAndARestartContinuesThem)
+TEST(UsageStatistics, EachHourHasItsOwnCountsAndARestartContinuesThem)
 {
     const fs::path state = empty_folder("diary");
     const std::time_t start = before_ten();
     {
-        Diary diary(state);
+        UsageStatistics diary(state);
         diary.turn(start, {});
         add_frames(diary, 5, 0.01);
         diary.turn(start + 40, {}); // ten o'clock is past
@@ -123,22 +123,22 @@ TEST(Diary, EachHourHasItsOwnCountsAndARestartContinuesThem)
         EXPECT_EQ(diary.since_start().frames(), 12u);
     }
     {
-        Diary diary(state);
+        UsageStatistics diary(state);
         diary.turn(start + 100, {});
         add_frames(diary, 3, 0.02);
     }
-    const Day day = load_day(state, "2026-11-23");
+    const UsageDay day = load_usage_day(state, "2026-11-23");
     EXPECT_EQ(day.hours[9].frames(), 5u);
     EXPECT_EQ(day.hours[10].frames(), 10u);
     EXPECT_EQ(days_in(state), std::vector<std::string>{"2026-11-23"});
 }
 
-TEST(Diary, MidnightBeginsANewDayAndAClockSetBackLosesNothing)
+TEST(UsageStatistics, MidnightBeginsANewDayAndAClockSetBackLosesNothing)
 {
     const fs::path state = empty_folder("midnight");
     const std::time_t start = before_ten();
     {
-        Diary diary(state);
+        UsageStatistics diary(state);
         diary.turn(start, {});
         add_frames(diary, 1, 0.01);
         diary.turn(start + 86400, {});
@@ -146,14 +146,14 @@ TEST(Diary, MidnightBeginsANewDayAndAClockSetBackLosesNothing)
         diary.turn(start, {}); // a day back
         add_frames(diary, 4, 0.01);
     }
-    EXPECT_EQ(load_day(state, "2026-11-23").hours[9].frames(), 5u);
-    EXPECT_EQ(load_day(state, "2026-11-24").hours[9].frames(), 2u);
+    EXPECT_EQ(load_usage_day(state, "2026-11-23").hours[9].frames(), 5u);
+    EXPECT_EQ(load_usage_day(state, "2026-11-24").hours[9].frames(), 2u);
 }
 
-TEST(Diary, AFolderThatCannotBeWrittenLosesNoCount)
+TEST(UsageStatistics, AFolderThatCannotBeWrittenLosesNoCount)
 {
     const fs::path state = write_text("no-folder", "a file");
-    Diary diary(state);
+    UsageStatistics diary(state);
     const std::time_t start = before_ten();
     diary.turn(start, {});
     add_frames(diary, 9, 0.01);
@@ -162,14 +162,14 @@ TEST(Diary, AFolderThatCannotBeWrittenLosesNoCount)
     EXPECT_EQ(diary.since_start().frames(), 9u);
 }
 
-TEST(Diary, ADayThatCouldNotBeWrittenAtMidnightIsWrittenLater)
+TEST(UsageStatistics, ADayThatCouldNotBeWrittenAtMidnightIsWrittenLater)
 {
     const std::time_t start = before_ten();
     // The write that fails may or may not have ended when the next one is due.
     for (int i = 0; i < 100; ++i) {
         const fs::path state = write_text("full-at-midnight" + std::to_string(i), "a file where the folder should be");
         {
-            Diary diary(state);
+            UsageStatistics diary(state);
             diary.turn(start, {});
             add_frames(diary, 3, 0.01);
             diary.turn(start + 86400, {});
@@ -180,39 +180,39 @@ TEST(Diary, ADayThatCouldNotBeWrittenAtMidnightIsWrittenLater)
             add_frames(diary, 4, 0.01);
             fs::remove(state);
         }
-        EXPECT_EQ(load_day(state, "2026-11-23").hours[9].frames(), 7u);
-        EXPECT_EQ(load_day(state, "2026-11-24").hours[9].frames(), 2u);
-        EXPECT_EQ(load_day(state, "2026-11-25").hours[9].frames(), 1u);
+        EXPECT_EQ(load_usage_day(state, "2026-11-23").hours[9].frames(), 7u);
+        EXPECT_EQ(load_usage_day(state, "2026-11-24").hours[9].frames(), 2u);
+        EXPECT_EQ(load_usage_day(state, "2026-11-25").hours[9].frames(), 1u);
     }
 }
 
-TEST(Diary, DamagedDaysAreRefusedInOneLineOrRead)
+TEST(UsageStatistics, DamagedDaysAreRefusedInOneLineOrRead)
 {
     const fs::path state = empty_folder("damaged");
     {
-        Diary diary(state);
+        UsageStatistics diary(state);
         diary.turn(before_ten(), {});
-        diary.count([](Tally& tally) { tally.scenes_s["avenue"] = 3; });
+        diary.count([](UsageCounts& counts) { counts.scenes_s["avenue"] = 3; });
         add_frames(diary, 2, 0.01);
     }
     const std::string good = read_text(day_file(state, "2026-11-23"));
     expect_survives(
         [&](const fs::path& file) {
             fs::copy_file(file, day_file(state, "2026-11-23"), fs::copy_options::overwrite_existing);
-            load_day(state, "2026-11-23");
+            load_usage_day(state, "2026-11-23");
         },
         {good}, fuzz_count() / 5);
-    EXPECT_NE(complaint([&] { load_day(state, "../2026"); }).find("is not a day"), std::string::npos);
+    EXPECT_NE(complaint([&] { load_usage_day(state, "../2026"); }).find("is not a day"), std::string::npos);
 }
 
 TEST(Exposition, SaysWhatWasCounted)
 {
-    Tally tally;
+    UsageCounts counts;
     for (int i = 0; i < 100; ++i)
-        tally.add_frame(0.016, false);
-    tally.add_frame(2.5, true);
-    tally.visits = 12, tally.visits_s = 600, tally.scenes_s = {{"a\"b\\c\nd", 4}};
-    const auto values = values_in(exposition_of(tally, {.uptime_s = 5, .threads = 9, .version = "0.9"}));
+        counts.add_frame(0.016, false);
+    counts.add_frame(2.5, true);
+    counts.visits = 12, counts.visits_s = 600, counts.scenes_s = {{"a\"b\\c\nd", 4}};
+    const auto values = values_in(exposition_of(counts, {.uptime_s = 5, .threads = 9, .version = "0.9"}));
     EXPECT_EQ(values.at("starbow_frame_seconds_bucket{le=\"0.0125\"}"), 0);
     EXPECT_EQ(values.at("starbow_frame_seconds_bucket{le=\"0.017\"}"), 100);
     EXPECT_EQ(values.at("starbow_frame_seconds_bucket{le=\"1\"}"), 100);
@@ -241,11 +241,11 @@ TEST(Exposition, SaysWhichMachinesAreInStep)
     EXPECT_EQ(line_of({}), "");
 }
 
-TEST(Diary, TheTextfileIsWhole)
+TEST(UsageStatistics, TheTextfileIsWhole)
 {
     const fs::path folder = empty_folder("textfile");
     {
-        Diary diary({}, folder / "starbow.prom");
+        UsageStatistics diary({}, folder / "starbow.prom");
         diary.turn(before_ten(), {.uptime_s = 1});
         diary.turn(before_ten() + 20, {.uptime_s = 21});
     }
@@ -253,4 +253,4 @@ TEST(Diary, TheTextfileIsWhole)
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
 }
 
-} // namespace diary_test
+} // namespace usage_statistics_test

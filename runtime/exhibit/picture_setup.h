@@ -1,0 +1,33 @@
+#pragma once
+#include "runtime/machines/picture_state.h"
+#include "runtime/render/frame_renderer.h"
+
+namespace starbow {
+
+/// Sets a frame renderer up for one picture after another, and draws the panels of their texts.
+class PictureSetup {
+public:
+    /// The device must have finished the frame before. Returns the head-up display's panel, or null.
+    const Panel* set_up(const PictureState& now, const Words& words, FrameRenderer& frame);
+    /// Another world, layout or quality: an inset may have room now.
+    void forget() { no_room_ = false; }
+
+    /// A text's panel, `width` pixels wide; it is drawn anew only where the text or the width is another one.
+    const Panel* panel_of(const HudText& hud, const Words& words, int width);
+    const Panel* panel() const { return panel_.size.x > 0 ? &panel_ : nullptr; } ///< the last one; null before the first
+
+    Typesetter typesetter;
+
+private:
+    void place(const PictureState& now, FrameRenderer& frame);
+    void add_inset(const InsetPicture& picture, const Shot& shot, FrameRenderer& frame, double degree_px);
+
+    Panel panel_, sign_panel_, name_panel_;
+    std::int64_t drawn_ = -1; ///< HudText::number
+    std::vector<std::string> sign_lines_;
+    std::string name_;
+    bool no_room_ = false; ///< for the inset
+    std::vector<Callout> callouts_;
+};
+
+} // namespace starbow
