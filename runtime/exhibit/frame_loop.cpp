@@ -121,7 +121,7 @@ bool FrameLoop::fly_frame()
     apply_alignment(controls);
     if (controls[Switch::pattern] && master_ && session_.alignment.pattern() != Pattern::none)
         session_.alignment.say(screens_of(session_));
-    if (turn_diary(session_, screens_.shown(), context_.pipelines.count())) {
+    if (turn_usage(session_, screens_.shown(), context_.pipelines.count())) {
         remote_.publish_condition(session_.usage);
         gather_lacks();
     }

@@ -300,7 +300,7 @@ void count_frame(Session& session, double frame_s, double refresh_hz)
     session.usage.count([&](UsageCounts& counts) { counts.add_frame(frame_s, frame_s * refresh_hz > 1.5); });
 }
 
-bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelines)
+bool turn_usage(Session& session, std::size_t outputs_shown, std::size_t pipelines)
 {
     const Session::Clock::time_point now = Session::Clock::now();
     if (now - session.turned < std::chrono::seconds(1))

@@ -137,7 +137,7 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
 void count_frame(Session& session, double frame_s, double refresh_hz);
 /// Turns the usage statistics once a second; call it each frame. Returns true when the exposition of the counts is a new
 /// one.
-bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelines);
+bool turn_usage(Session& session, std::size_t outputs_shown, std::size_t pipelines);
 
 /// Follows the visitor's way through the world's goals, where the display is for visitors or guides.
 void seek_goals(Session& session, const SceneFile& scene, std::int64_t dt_ns);

@@ -57,9 +57,9 @@ TEST(KeptState, ADamagedDayIsNoticed)
     parts.tm_year = 126, parts.tm_mon = 10, parts.tm_mday = 23, parts.tm_hour = 9, parts.tm_isdst = -1;
     const std::time_t nine = std::mktime(&parts);
     {
-        UsageStatistics diary(folder);
-        diary.turn(nine, {});
-        diary.count([](UsageCounts& counts) {
+        UsageStatistics usage(folder);
+        usage.turn(nine, {});
+        usage.count([](UsageCounts& counts) {
             counts.add_frame(0.016, false);
             counts.add_frame(0.3, true);
             counts.visits = 17, counts.visits_s = 1234.5, counts.scenes_s["avenue"] = 99.25;
@@ -93,10 +93,10 @@ TEST(KeptState, ADamagedDayIsNoticed)
     other[whole.find("1234.5")] = '3';
     write_bytes(file, other);
     {
-        UsageStatistics diary(folder);
-        diary.turn(nine, {});
-        diary.count([](UsageCounts& counts) { counts.visits = 1; });
-        diary.count([](UsageCounts& counts) { counts.add_frame(0.016, false); });
+        UsageStatistics usage(folder);
+        usage.turn(nine, {});
+        usage.count([](UsageCounts& counts) { counts.visits = 1; });
+        usage.count([](UsageCounts& counts) { counts.add_frame(0.016, false); });
     }
     EXPECT_EQ(load_usage_day(folder, "2026-11-23").hours[9].visits, 1u);
     // A day of a version without checksums.

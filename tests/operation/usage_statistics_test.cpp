@@ -51,10 +51,10 @@ std::time_t before_ten()
     return std::mktime(&parts);
 }
 
-void add_frames(UsageStatistics& diary, int frames, double s)
+void add_frames(UsageStatistics& usage, int frames, double s)
 {
     for (int i = 0; i < frames; ++i)
-        diary.count([&](UsageCounts& counts) { counts.add_frame(s, false); });
+        usage.count([&](UsageCounts& counts) { counts.add_frame(s, false); });
 }
 
 } // namespace
@@ -112,20 +112,20 @@ TEST(UsageCounts, ASumIsThatOfItsPartsAndSurvivesItsFile)
 
 TEST(UsageStatistics, EachHourHasItsOwnCountsAndARestartContinuesThem)
 {
-    const fs::path state = empty_folder("diary");
+    const fs::path state = empty_folder("usage");
     const std::time_t start = before_ten();
     {
-        UsageStatistics diary(state);
-        diary.turn(start, {});
-        add_frames(diary, 5, 0.01);
-        diary.turn(start + 40, {}); // ten o'clock is past
-        add_frames(diary, 7, 0.02);
-        EXPECT_EQ(diary.since_start().frames(), 12u);
+        UsageStatistics usage(state);
+        usage.turn(start, {});
+        add_frames(usage, 5, 0.01);
+        usage.turn(start + 40, {}); // ten o'clock is past
+        add_frames(usage, 7, 0.02);
+        EXPECT_EQ(usage.since_start().frames(), 12u);
     }
     {
-        UsageStatistics diary(state);
-        diary.turn(start + 100, {});
-        add_frames(diary, 3, 0.02);
+        UsageStatistics usage(state);
+        usage.turn(start + 100, {});
+        add_frames(usage, 3, 0.02);
     }
     const UsageDay day = load_usage_day(state, "2026-11-23");
     EXPECT_EQ(day.hours[9].frames(), 5u);
@@ -138,13 +138,13 @@ TEST(UsageStatistics, MidnightBeginsANewDayAndAClockSetBackLosesNothing)
     const fs::path state = empty_folder("midnight");
     const std::time_t start = before_ten();
     {
-        UsageStatistics diary(state);
-        diary.turn(start, {});
-        add_frames(diary, 1, 0.01);
-        diary.turn(start + 86400, {});
-        add_frames(diary, 2, 0.01);
-        diary.turn(start, {}); // a day back
-        add_frames(diary, 4, 0.01);
+        UsageStatistics usage(state);
+        usage.turn(start, {});
+        add_frames(usage, 1, 0.01);
+        usage.turn(start + 86400, {});
+        add_frames(usage, 2, 0.01);
+        usage.turn(start, {}); // a day back
+        add_frames(usage, 4, 0.01);
     }
     EXPECT_EQ(load_usage_day(state, "2026-11-23").hours[9].frames(), 5u);
     EXPECT_EQ(load_usage_day(state, "2026-11-24").hours[9].frames(), 2u);
@@ -153,13 +153,13 @@ TEST(UsageStatistics, MidnightBeginsANewDayAndAClockSetBackLosesNothing)
 TEST(UsageStatistics, AFolderThatCannotBeWrittenLosesNoCount)
 {
     const fs::path state = write_text("no-folder", "a file");
-    UsageStatistics diary(state);
+    UsageStatistics usage(state);
     const std::time_t start = before_ten();
-    diary.turn(start, {});
-    add_frames(diary, 9, 0.01);
+    usage.turn(start, {});
+    add_frames(usage, 9, 0.01);
     for (int minute = 1; minute < 4; ++minute)
-        diary.turn(start + 60 * minute, {});
-    EXPECT_EQ(diary.since_start().frames(), 9u);
+        usage.turn(start + 60 * minute, {});
+    EXPECT_EQ(usage.since_start().frames(), 9u);
 }
 
 TEST(UsageStatistics, ADayThatCouldNotBeWrittenAtMidnightIsWrittenLater)
@@ -169,15 +169,15 @@ TEST(UsageStatistics, ADayThatCouldNotBeWrittenAtMidnightIsWrittenLater)
     for (int i = 0; i < 100; ++i) {
         const fs::path state = write_text("full-at-midnight" + std::to_string(i), "a file where the folder should be");
         {
-            UsageStatistics diary(state);
-            diary.turn(start, {});
-            add_frames(diary, 3, 0.01);
-            diary.turn(start + 86400, {});
-            add_frames(diary, 2, 0.01);
-            diary.turn(start + 2 * 86400, {});
-            add_frames(diary, 1, 0.01);
-            diary.turn(start, {}); // back in the first day, which no file holds
-            add_frames(diary, 4, 0.01);
+            UsageStatistics usage(state);
+            usage.turn(start, {});
+            add_frames(usage, 3, 0.01);
+            usage.turn(start + 86400, {});
+            add_frames(usage, 2, 0.01);
+            usage.turn(start + 2 * 86400, {});
+            add_frames(usage, 1, 0.01);
+            usage.turn(start, {}); // back in the first day, which no file holds
+            add_frames(usage, 4, 0.01);
             fs::remove(state);
         }
         EXPECT_EQ(load_usage_day(state, "2026-11-23").hours[9].frames(), 7u);
@@ -190,10 +190,10 @@ TEST(UsageStatistics, DamagedDaysAreRefusedInOneLineOrRead)
 {
     const fs::path state = empty_folder("damaged");
     {
-        UsageStatistics diary(state);
-        diary.turn(before_ten(), {});
-        diary.count([](UsageCounts& counts) { counts.scenes_s["avenue"] = 3; });
-        add_frames(diary, 2, 0.01);
+        UsageStatistics usage(state);
+        usage.turn(before_ten(), {});
+        usage.count([](UsageCounts& counts) { counts.scenes_s["avenue"] = 3; });
+        add_frames(usage, 2, 0.01);
     }
     const std::string good = read_text(day_file(state, "2026-11-23"));
     expect_survives(
@@ -245,9 +245,9 @@ TEST(UsageStatistics, TheTextfileIsWhole)
 {
     const fs::path folder = empty_folder("textfile");
     {
-        UsageStatistics diary({}, folder / "starbow.prom");
-        diary.turn(before_ten(), {.uptime_s = 1});
-        diary.turn(before_ten() + 20, {.uptime_s = 21});
+        UsageStatistics usage({}, folder / "starbow.prom");
+        usage.turn(before_ten(), {.uptime_s = 1});
+        usage.turn(before_ten() + 20, {.uptime_s = 21});
     }
     EXPECT_EQ(values_in(read_text(folder / "starbow.prom")).at("starbow_uptime_seconds"), 21);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
