@@ -135,6 +135,7 @@ void main()
     if (CLOCK || FINITE_EXISTENCE || BLINK)
         out_instance = visible[gl_InstanceIndex];
     gl_Position = vec4(dot(push.clip_x, place), dot(push.clip_y, place), push.surface.x, dot(push.clip_w, place));
+    gl_PointSize = 1.0; // always: Mesa 22.3's driver for AMD's cards crashes where a size that no point has is left out
     if (TOPOLOGY == 2) { // points
         // A pixel's angle grows by D from the ship to this frame; on the face it grows with the distance from its middle.
         vec3 n = normalize(place.xyz);

@@ -328,6 +328,15 @@ Device::Device(const Options& options)
         extensions.push_back(VK_NV_PRESENT_BARRIER_EXTENSION_NAME);
         features13.pNext = &barrier;
     }
+    vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR executables(true, features13.pNext);
+    statistics = options.statistics;
+    if (statistics) {
+        if (!offers(physical, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME))
+            throw InputError(std::string(name()) + " does not say what shaders cost; a driver with "
+                + VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME + " is right");
+        extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+        features13.pNext = &executables;
+    }
     device = physical.createDevice({{}, queue_info, {}, extensions, &features, &features13}, allocator_of(options));
     queue = device.getQueue(family, 0);
     pool = device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});

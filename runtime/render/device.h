@@ -18,6 +18,7 @@ public:
         bool windows = false; ///< for windows: enables swapchains and the instance extensions that GLFW names
         bool validation = false; ///< the validation layers, synchronization included; see complaints()
         bool barrier = false; ///< VK_NV_present_barrier, where the GPU has it: screens of several machines change together
+        bool statistics = false; ///< VK_KHR_pipeline_executable_properties: a pipeline says what its shaders cost
         bool counted = false; ///< driver_memory() counts the host memory of all objects
         std::string name; ///< part of a GPU's name; empty: the GPU of the fastest kind
     };
@@ -41,6 +42,7 @@ public:
     bool present_barrier = false; ///< VK_NV_present_barrier; a surface may lack it nevertheless
     float widest_line = 1; ///< pixels
     bool compresses = false; ///< large textures are compressed; false where the processor would decode them at each look-up
+    bool statistics = false; ///< pipelines are made with the figures of their shaders
     bool debug_utils = false; ///< VK_EXT_debug_utils: objects have names, passes have labels
     Trace* trace = nullptr; ///< receives the processor's spans of each frame during a trace
     std::unique_ptr<LavapipeFenceGuard> keeper; ///< null but on lavapipe

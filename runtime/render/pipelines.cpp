@@ -60,22 +60,6 @@ namespace starbow {
 
 using Spirv = std::span<const std::uint32_t>;
 
-/// A pass's way to combine its light with that in its target: none replaces it, over covers it by alpha, premultiplied, add
-/// adds to it, and multiply multiplies it.
-enum class Blending { none, over, add };
-
-/// One pass's pipeline. What is not its name, its constants or its target is the same in every pipeline of that name.
-struct Pipelines::Pass {
-    const char* name; ///< also for debuggers
-    Spirv vertex, fragment;
-    vk::PipelineLayout layout;
-    TargetKind target;
-    SpecializationConstants constants; ///< the same in both stages
-    bool depth = false, vertices = false, maps = false; ///< maps: beside the vertices, VertexMaps
-    Topology topology = Topology::triangles;
-    Blending blending = Blending::none;
-};
-
 namespace {
 
 #define STARBOW_VALUE(id, type, NAME, member, usual) {Constant::member, v.member},
@@ -130,12 +114,12 @@ Pipelines::Pipelines(Device& device)
 {
 }
 
-vk::Pipeline Pipelines::find_or_make(const Pass& pass)
+vk::Pipeline Pipelines::find_or_make(const PipelinePass& pass)
 {
     const Key key(pass.name, pass.constants, pass.target);
     auto at = made_.find(key);
     if (at == made_.end()) {
-        at = made_.emplace(key, Made{make(pass), turn_}).first;
+        at = made_.emplace(key, Made{pass, make(pass), turn_}).first;
         ++count_;
     }
     at->second.used = turn_;
@@ -154,7 +138,15 @@ void Pipelines::release_old(std::size_t most)
     ++turn_;
 }
 
-vk::raii::Pipeline Pipelines::make(const Pass& pass) const
+std::vector<std::pair<PipelinePass, vk::Pipeline>> Pipelines::made() const
+{
+    std::vector<std::pair<PipelinePass, vk::Pipeline>> all;
+    for (const auto& [key, made] : made_)
+        all.emplace_back(made.pass, *made.pipeline);
+    return all;
+}
+
+vk::raii::Pipeline Pipelines::make(const PipelinePass& pass) const
 {
     auto module = [&](Spirv words) { return device_.device.createShaderModule({{}, words.size_bytes(), words.data()}); };
     vk::raii::ShaderModule vertex = module(pass.vertex), fragment = module(pass.fragment);
@@ -208,9 +200,11 @@ vk::raii::Pipeline Pipelines::make(const Pass& pass) const
     const std::vector<vk::Format> formats(pass.target.colours.begin(), pass.target.colours.end());
     vk::PipelineRenderingCreateInfo rendering(
         0, formats, pass.depth ? depth_format : vk::Format::eUndefined, vk::Format::eUndefined);
-    vk::GraphicsPipelineCreateInfo info(
-        {}, stages, &vertices, &assembly, nullptr, &viewport, &raster, &samples, &depth, &blending, &dynamics, pass.layout);
+    vk::GraphicsPipelineCreateInfo info({}, stages, &vertices, &assembly, nullptr, &viewport, &raster, &samples, &depth,
+        &blending, &dynamics, *(layouts.*pass.layout));
     info.pNext = &rendering;
+    if (device_.statistics)
+        info.flags = vk::PipelineCreateFlagBits::eCaptureStatisticsKHR;
     vk::raii::Pipeline pipeline = device_.device.createGraphicsPipeline(device_.cache, info);
     name_object(device_, vertex, pass.name);
     name_object(device_, fragment, pass.name);
@@ -223,7 +217,7 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
     return find_or_make({.name = v.mapped ? "mapped surface pipeline" : "surface pipeline",
         .vertex = v.mapped ? Spirv(cube_mapped_vert) : Spirv(cube_vert),
         .fragment = v.mapped ? Spirv(cube_mapped_frag) : Spirv(cube_frag),
-        .layout = *layouts.surface_layout,
+        .layout = &PipelineLayouts::surface_layout,
         .target = target,
         .constants = constants(v),
         .depth = true,
@@ -238,7 +232,7 @@ vk::Pipeline Pipelines::sky(bool milky_way, const TargetKind& target)
     return find_or_make({.name = "sky pipeline",
         .vertex = sky_vert,
         .fragment = sky_frag,
-        .layout = *layouts.surface_layout,
+        .layout = &PipelineLayouts::surface_layout,
         .target = target,
         .constants = {{Constant::groups, int(target.colours.size())}, {Constant::milky_way, milky_way}},
         .depth = true});
@@ -249,7 +243,7 @@ vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
     return find_or_make({.name = "warp pipeline",
         .vertex = screen_vert,
         .fragment = (v.rays == 1 && !v.channels ? warp_builds : warp_rays_builds).of(v),
-        .layout = *layouts.warp_layout,
+        .layout = &PipelineLayouts::warp_layout,
         .target = {{target}},
         .constants = constants(v).add(Constant::dithered, target != light_format)});
 }
@@ -261,7 +255,7 @@ vk::Pipeline Pipelines::dark(const WarpVariant& v, vk::Format target)
     return find_or_make({.name = "dark pipeline",
         .vertex = screen_vert,
         .fragment = warp_dark_frag,
-        .layout = *layouts.warp_layout,
+        .layout = &PipelineLayouts::warp_layout,
         .target = {{target}},
         .constants = constants(own).add(Constant::dithered, target != light_format)});
 }
@@ -271,7 +265,7 @@ vk::Pipeline Pipelines::stars(const WarpVariant& v, vk::Format target)
     return find_or_make({.name = "stars pipeline",
         .vertex = stars_shader(v),
         .fragment = star_frag,
-        .layout = *layouts.star_layout,
+        .layout = &PipelineLayouts::star_layout,
         .target = {{target}},
         .constants = constants(v).add(Constant::halves, target == light_format),
         .topology = Topology::points,
@@ -283,7 +277,7 @@ vk::Pipeline Pipelines::measure(const WarpVariant& v)
     return find_or_make({.name = "measure pipeline",
         .vertex = screen_vert,
         .fragment = measure_builds.of(v),
-        .layout = *layouts.warp_layout,
+        .layout = &PipelineLayouts::warp_layout,
         .target = {{exact_format, exact_format, exact_format}},
         .constants = constants(v)});
 }
@@ -293,7 +287,7 @@ vk::Pipeline Pipelines::probe(const WarpVariant& v)
     return find_or_make({.name = "probe pipeline",
         .vertex = screen_vert,
         .fragment = probe_builds.of(v),
-        .layout = *layouts.warp_layout,
+        .layout = &PipelineLayouts::warp_layout,
         .target = {{exact_format, exact_format, exact_format}},
         .constants = constants(v)});
 }
@@ -303,7 +297,7 @@ vk::Pipeline Pipelines::overlay(const WarpVariant& v, int overlay, vk::Format ta
     return find_or_make({.name = "overlay pipeline",
         .vertex = screen_vert,
         .fragment = overlay_builds.of(v),
-        .layout = *layouts.overlay_layout,
+        .layout = &PipelineLayouts::overlay_layout,
         .target = {{target}},
         .constants = constants(v).add(Constant::overlay, overlay),
         .blending = Blending::over});
@@ -314,7 +308,7 @@ vk::Pipeline Pipelines::mip(vk::Format target)
     return find_or_make({.name = "mip pipeline",
         .vertex = screen_vert,
         .fragment = mip_frag,
-        .layout = *layouts.picture_layout,
+        .layout = &PipelineLayouts::picture_layout,
         .target = {{target}}});
 }
 
@@ -323,7 +317,7 @@ vk::Pipeline Pipelines::compress(bool colours)
     return find_or_make({.name = "compress pipeline",
         .vertex = screen_vert,
         .fragment = compress_frag,
-        .layout = *layouts.picture_layout,
+        .layout = &PipelineLayouts::picture_layout,
         .target = {{words_format}},
         .constants = {{Constant::colours, colours}}});
 }
@@ -333,7 +327,7 @@ vk::Pipeline Pipelines::meter(const WarpVariant& v)
     return find_or_make({.name = "meter pipeline",
         .vertex = screen_vert,
         .fragment = meter_builds.of(v),
-        .layout = *layouts.warp_layout,
+        .layout = &PipelineLayouts::warp_layout,
         .target = {{meter_format}},
         .constants = constants(v)});
 }
@@ -343,7 +337,7 @@ vk::Pipeline Pipelines::star_meter(const WarpVariant& v)
     return find_or_make({.name = "star meter pipeline",
         .vertex = stars_shader(v),
         .fragment = star_meter_frag,
-        .layout = *layouts.star_layout,
+        .layout = &PipelineLayouts::star_layout,
         .target = {{meter_format}},
         .constants = constants(v).add(Constant::metering_samples, true), // the meter reads one ray for each sample
         .topology = Topology::points});
@@ -354,7 +348,7 @@ vk::Pipeline Pipelines::bloom(bool up, bool first)
     return find_or_make({.name = "bloom pipeline",
         .vertex = screen_vert,
         .fragment = bloom_frag,
-        .layout = *layouts.picture_layout,
+        .layout = &PipelineLayouts::picture_layout,
         .target = {{light_format}},
         .constants = {{Constant::up, up}, {Constant::first, first}},
         .blending = up ? Blending::over : Blending::none});
@@ -365,7 +359,7 @@ vk::Pipeline Pipelines::bloomed(bool range, vk::Format target)
     return find_or_make({.name = "bloomed pipeline",
         .vertex = screen_vert,
         .fragment = bloomed_frag,
-        .layout = *layouts.picture_layout,
+        .layout = &PipelineLayouts::picture_layout,
         .target = {{target}},
         .constants = {{Constant::dithered, target != light_format}, {Constant::range, range}}});
 }
@@ -375,7 +369,7 @@ vk::Pipeline Pipelines::hud(bool map, vk::Format target, bool scale, bool light)
     return find_or_make({.name = "hud pipeline",
         .vertex = screen_vert,
         .fragment = hud_frag,
-        .layout = *layouts.picture_layout,
+        .layout = &PipelineLayouts::picture_layout,
         .target = {{target}},
         .constants = {{Constant::map, map}, {Constant::scale, scale}, {Constant::light, light}},
         .blending = Blending::over});
@@ -386,7 +380,7 @@ vk::Pipeline Pipelines::lookup(vk::Format target)
     return find_or_make({.name = "lookup pipeline",
         .vertex = screen_vert,
         .fragment = lookup_frag,
-        .layout = *layouts.picture_layout,
+        .layout = &PipelineLayouts::picture_layout,
         .target = {{target}},
         .constants = {{Constant::map, false}}});
 }
@@ -396,7 +390,7 @@ vk::Pipeline Pipelines::scaled(vk::Format target)
     return find_or_make({.name = "scaled pipeline",
         .vertex = screen_vert,
         .fragment = scaled_frag,
-        .layout = *layouts.picture_layout,
+        .layout = &PipelineLayouts::picture_layout,
         .target = {{target}}});
 }
 
@@ -405,7 +399,7 @@ vk::Pipeline Pipelines::layer(bool plain)
     return find_or_make({.name = "layer pipeline",
         .vertex = screen_vert,
         .fragment = layer_frag,
-        .layout = *layouts.picture_layout,
+        .layout = &PipelineLayouts::picture_layout,
         .target = {{light_format}},
         .constants = {{Constant::plain, plain}},
         .blending = Blending::add});
@@ -416,7 +410,7 @@ vk::Pipeline Pipelines::finish(const FinishVariant& v, vk::Format target)
     return find_or_make({.name = "finish pipeline",
         .vertex = screen_vert,
         .fragment = finish_frag,
-        .layout = *layouts.finish_layout,
+        .layout = &PipelineLayouts::finish_layout,
         .target = {{target}},
         .constants = constants(v)});
 }
@@ -426,7 +420,7 @@ vk::Pipeline Pipelines::fade(vk::Format target)
     return find_or_make({.name = "fade pipeline",
         .vertex = screen_vert,
         .fragment = fade_frag,
-        .layout = *layouts.picture_layout,
+        .layout = &PipelineLayouts::picture_layout,
         .target = {{target}},
         .blending = Blending::over});
 }
@@ -436,7 +430,7 @@ vk::Pipeline Pipelines::vignette(bool map, vk::Format target)
     return find_or_make({.name = "vignette pipeline",
         .vertex = screen_vert,
         .fragment = vignette_frag,
-        .layout = *layouts.warp_layout,
+        .layout = &PipelineLayouts::warp_layout,
         .target = {{target}},
         .constants = {{Constant::map, map}},
         .blending = Blending::over});
@@ -447,7 +441,7 @@ vk::Pipeline Pipelines::pattern(bool map, int pattern, vk::Format target)
     return find_or_make({.name = "pattern pipeline",
         .vertex = screen_vert,
         .fragment = pattern_frag,
-        .layout = *layouts.picture_layout,
+        .layout = &PipelineLayouts::picture_layout,
         .target = {{target}},
         .constants = {{Constant::map, map}, {Constant::pattern, pattern}}});
 }

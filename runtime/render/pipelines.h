@@ -8,8 +8,11 @@
 #include <compare>
 #include <cstring>
 #include <map>
+#include <span>
 #include <string_view>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace starbow {
 
@@ -142,6 +145,23 @@ struct SpecializationConstants {
     bool operator==(const SpecializationConstants& other) const { return *this <=> other == 0; }
 };
 
+/// A pass's way to combine its light with that in its target: none replaces it, over covers it by alpha, premultiplied, add
+/// adds to it.
+enum class Blending { none, over, add };
+
+/// One pass's pipeline, on any device. What is not its name, its constants or its target is the same in every pipeline of
+/// that name.
+struct PipelinePass {
+    const char* name; ///< also for debuggers
+    std::span<const std::uint32_t> vertex, fragment; ///< SPIR-V
+    vk::raii::PipelineLayout PipelineLayouts::*layout;
+    TargetKind target;
+    SpecializationConstants constants{}; ///< the same in both stages
+    bool depth = false, vertices = false, maps = false; ///< maps: beside the vertices, VertexMaps
+    Topology topology = Topology::triangles;
+    Blending blending = Blending::none;
+};
+
 /// Pipelines that stay although no frame uses them. On lavapipe one takes 3 MB, and 0.05 s to make again from the driver's
 /// cache; a flight uses about ten at a time, a visit with all switches a hundred. On a GPU they are small, and the warm-up
 /// makes some hundreds.
@@ -189,17 +209,21 @@ public:
     /// call. Call it once a frame, when the device has finished all that was recorded.
     void release_old(std::size_t most);
 
+    /// All pipelines that are kept.
+    std::vector<std::pair<PipelinePass, vk::Pipeline>> made() const;
+    /// A pipeline apart from the kept ones.
+    vk::raii::Pipeline make(const PipelinePass& pass) const;
+
     const PipelineLayouts layouts;
 
 private:
-    struct Pass;
-    vk::Pipeline find_or_make(const Pass& pass);
-    vk::raii::Pipeline make(const Pass& pass) const;
+    vk::Pipeline find_or_make(const PipelinePass& pass);
 
     /// A pipeline's shaders by their name, its specialization constants and its targets tell it from all others.
     using Key = std::tuple<std::string_view, SpecializationConstants, TargetKind>;
     Device& device_;
     struct Made {
+        PipelinePass pass;
         vk::raii::Pipeline pipeline;
         std::uint64_t used; ///< turn of the last use
     };

@@ -1,0 +1,39 @@
+#include "absent_card.h"
+#include "config/json/error.h"
+#include <cstdlib>
+#include <filesystem>
+
+namespace starbow {
+
+std::unique_ptr<Device> open_absent_card(const std::string& family)
+{
+    const std::filesystem::path folder = "/usr/share/vulkan/icd.d";
+    std::string driver;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+        if (entry.path().filename().string().starts_with("radeon_icd"))
+            driver = entry.path();
+    if (driver.empty())
+        throw InputError(folder.string() + ": has no radeon_icd; the package mesa-vulkan-drivers is right");
+    setenv("VK_DRIVER_FILES", driver.c_str(), 1);
+    setenv("VK_ICD_FILENAMES", driver.c_str(), 1); // the same for loaders before 1.3.207
+    setenv("RADV_FORCE_FAMILY", family.c_str(), 1);
+    return std::make_unique<Device>(Device::Options{.statistics = true, .name = "Null hardware"});
+}
+
+std::map<std::string, double> shader_statistics(const Device& device, vk::Pipeline pipeline, vk::ShaderStageFlagBits stage)
+{
+    using Format = vk::PipelineExecutableStatisticFormatKHR;
+    const auto parts = device.device.getPipelineExecutablePropertiesKHR({pipeline});
+    std::map<std::string, double> all;
+    for (std::uint32_t i = 0; i < parts.size(); ++i)
+        if (parts[i].stages & stage)
+            for (const auto& one : device.device.getPipelineExecutableStatisticsKHR({pipeline, i}))
+                all[one.name] = one.format == Format::eBool32 ? double(one.value.b32)
+                    : one.format == Format::eInt64            ? double(one.value.i64)
+                    : one.format == Format::eUint64           ? double(one.value.u64)
+                                                              : one.value.f64;
+    return all;
+}
+
+} // namespace starbow
