@@ -21,10 +21,10 @@ layout(set = 1, binding = 0) uniform sampler2D base_texture;
 layout(set = 1, binding = 1) uniform sampler2D emissive_texture;
 layout(push_constant) uniform Push { CubePush push; };
 
-layout(location = 0) centroid in vec3 place;
-layout(location = 1) centroid in vec3 normal;
-layout(location = 2) centroid in vec2 uv;
-layout(location = 3) centroid in vec4 colour;
+layout(location = 0) in vec3 place;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 colour;
 layout(location = 4) flat in uint instance; // for CLOCK, FINITE_EXISTENCE, BLINK
 layout(location = 0) out vec4 coefficients0;
 layout(location = 1) out vec4 coefficients1;

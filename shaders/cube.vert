@@ -23,15 +23,14 @@ layout(location = 3) in vec4 colour;
 #ifdef MAPPED
 layout(location = 4) in vec4 tangent; // w: the bitangent's sense
 layout(location = 5) in vec4 uvs; // two of the file's sets
-layout(location = 5) centroid out vec4 out_uvs;
-layout(location = 6) centroid out vec4 out_tangent;
+layout(location = 5) out vec4 out_uvs;
+layout(location = 6) out vec4 out_tangent;
 #endif
 
-// A texel of several samples is lit at a place that the triangle covers: its middle may lie beyond the edge, inside a neighbour.
-layout(location = 0) centroid out vec3 out_place;
-layout(location = 1) centroid out vec3 out_normal;
-layout(location = 2) centroid out vec2 out_uv;
-layout(location = 3) centroid out vec4 out_colour;
+layout(location = 0) out vec3 out_place;
+layout(location = 1) out vec3 out_normal;
+layout(location = 2) out vec2 out_uv;
+layout(location = 3) out vec4 out_colour;
 layout(location = 4) flat out uint out_instance;
 
 #include "light_travel_offset.glsl"

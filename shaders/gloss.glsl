@@ -12,8 +12,8 @@ layout(set = 1, binding = 4) uniform sampler2D occlusion_texture; // red
 layout(set = 1, binding = 5) uniform sampler2D gloss_table; // gloss.h
 layout(set = 1, binding = 6) uniform Surface { MaterialEntry surface; };
 
-layout(location = 5) centroid in vec4 uvs; // two of the file's sets
-layout(location = 6) centroid in vec4 tangent; // w: the bitangent's sense
+layout(location = 5) in vec4 uvs; // two of the file's sets
+layout(location = 6) in vec4 tangent; // w: the bitangent's sense
 
 vec2 coordinates(MapEntry map)
 {

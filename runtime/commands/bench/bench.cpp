@@ -8,9 +8,7 @@
 #include "runtime/commands/commands.h"
 #include "runtime/commands/options/command_line.h"
 #include "runtime/commands/tools.h"
-#include "runtime/render/absent_card.h"
 #include "scaling.h"
-#include "shaders.h"
 #include "stars.h"
 #include "worlds.h"
 #include <memory>
@@ -23,8 +21,7 @@ struct BenchOptions {
     bool input = false;
     std::string json, layout, shot = "avenue-gamma4";
     bool stars = false, bodies = false, worlds = false, cubes = false, flight = false, scaling = false, governor = false;
-    bool shaders = false;
-    std::string family = "navi21", against, ladder = "ladder";
+    std::string ladder = "ladder";
     double frame_budget_ms = 0;
 };
 
@@ -32,8 +29,6 @@ int bench(const BenchOptions& options)
 {
     if (options.input)
         return bench_input(options.layout, options.seconds);
-    if (options.shaders)
-        return bench_shaders(options.family, options.json, options.against), 0;
     if (options.governor)
         return bench_governor(options.ladder, options.frame_budget_ms, options.seconds);
     if (options.stars)
@@ -84,13 +79,6 @@ static void add_bench(Subcommand& app, std::function<int()>& chosen)
         "that shows it");
     command->add_flag("--governor", options->governor,
         "Instead: how well a frame's time is held under a load that doubles and halves every 5 s");
-    command->add_flag("--shaders", options->shaders,
-        "Instead: what each pass's shaders cost on a graphics card that need not be there, as its compiler (RADV) says");
-    command->add_option("--family", options->family, "With --shaders: the card's family")
-        ->check(one_of({card_families.begin(), card_families.end()}))
-        ->capture_default_str();
-    command->add_option(
-        "--against", options->against, "With --shaders: a file of an earlier --json; the differences are printed");
     command->add_option("--ladder", options->ladder, "With --governor: the ladder")->capture_default_str();
     command->add_option(
         "--frame-budget-ms", options->frame_budget_ms, "With --governor: the time that is held [1.5 of the middle rung's]");
