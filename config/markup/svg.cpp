@@ -6,17 +6,19 @@
 namespace starbow {
 namespace {
 
-std::string with(const char* name, double value) { return std::string(" ") + name + "=\"" + shortest(value) + '"'; }
+std::string with(const char* name, double value) { return ' ' + attribute(name, shortest(value)); }
 
 std::string listed(std::span<const glm::dvec2> points)
 {
     std::string all;
     for (const glm::dvec2& at : points)
         all += (all.empty() ? "" : " ") + shortest(at.x) + ',' + shortest(at.y);
-    return " points=\"" + all + '"';
+    return ' ' + attribute("points", all);
 }
 
 } // namespace
+
+std::string attribute(const char* name, const std::string& value) { return std::string(name) + "=\"" + value + '"'; }
 
 std::string shortest(double value, int decimals)
 {
@@ -62,12 +64,13 @@ void Svg::circle(glm::dvec2 at, double radius, const std::string& more, const st
 void Svg::polyline(std::span<const glm::dvec2> points, const std::string& more) { add("polyline", listed(points), more); }
 void Svg::polygon(std::span<const glm::dvec2> points, const std::string& more) { add("polygon", listed(points), more); }
 
-void Svg::path(const std::string& data, const std::string& more) { add("path", " d=\"" + data + '"', more); }
+void Svg::path(const std::string& data, const std::string& more) { add("path", ' ' + attribute("d", data), more); }
 
 std::string Svg::drawn(glm::dvec2 size, const std::string& more) const
 {
-    return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + shortest(size.x) + ' ' + shortest(size.y) + '"'
-        + (more.empty() ? "" : " ") + more + ">\n" + elements_ + "</svg>\n";
+    return "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+        + attribute("viewBox", "0 0 " + shortest(size.x) + ' ' + shortest(size.y)) + (more.empty() ? "" : " ") + more + ">\n"
+        + elements_ + "</svg>\n";
 }
 
 std::string path_data(std::span<const glm::dvec2> points, bool closed)

@@ -32,6 +32,9 @@ private:
 /// The points, joined by straight lines; closed: also the last with the first.
 std::string path_data(std::span<const glm::dvec2> points, bool closed = false);
 
+/// An attribute: name="value".
+std::string attribute(const char* name, const std::string& value);
+
 /// A number with at most so many decimals, without zeros at its end.
 std::string shortest(double value, int decimals = 1);
 

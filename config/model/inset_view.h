@@ -5,8 +5,8 @@
 
 namespace starbow {
 
-/// The inset view, of the same instant: at rest, with one effect alone, or through a telescope that
-/// looks where the ship flies. In the order of the key that steps through them.
+/// The inset view, of the same instant: at rest, with one effect alone, or through a telescope that looks where the ship
+/// flies. In the order of the key that steps through them.
 enum class InsetView { none, at_rest, aberration, doppler, headlight, telescope };
 constexpr std::array<const char*, 6> inset_view_names
     = {"none", "at-rest", "aberration", "doppler", "headlight", "telescope"};
@@ -25,8 +25,8 @@ constexpr double inset_fov_deg = 60;
 /// before, which stays as long as it suits; 0: none.
 double telescope_fov_deg(double u, double before);
 
-/// The shot of the inset. start_ev: the exposure of the inset, EV; headlight alone and the telescope have
-/// the shot's own, as their light is as bright.
+/// The shot of the inset. start_ev: the exposure of the inset, EV; headlight alone and the telescope have the shot's own, as
+/// their light is as bright.
 inline Shot inset_shot(Shot shot, InsetView view, double start_ev)
 {
     if (view == InsetView::telescope) {

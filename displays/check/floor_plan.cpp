@@ -65,7 +65,7 @@ std::vector<std::string> wrapped(const std::string& text, double width, double s
 
 void write(Svg& svg, glm::dvec2 at, const std::string& words, double size = 13, const std::string& more = {})
 {
-    svg.text(at, words, "font-size=\"" + shortest(size) + "\" " + more);
+    svg.text(at, words, attribute("font-size", shortest(size)) + ' ' + more);
 }
 
 void rect(Svg& svg, const Box& box, const std::string& more) { svg.rect(box.from, box.to, more); }
@@ -78,7 +78,7 @@ void label(Svg& svg, glm::dvec2 at, const std::string& words, double size, const
     const glm::dvec2 half(bold_width(words, size) / 2 + 3, size * 0.72);
     svg.rect(at - half, at + half, "rx=\"3\" fill=\"white\" fill-opacity=\"0.8\"");
     write(svg, at + glm::dvec2(0, size * 0.36), words, size,
-        "font-weight=\"bold\" text-anchor=\"middle\" fill=\"" + colour + '"');
+        "font-weight=\"bold\" text-anchor=\"middle\" " + attribute("fill", colour));
 }
 
 Box around(glm::dvec2 at, const std::string& words, double size)
@@ -108,10 +108,11 @@ public:
     void draw()
     {
         const std::string clip = "map" + std::to_string(number_);
-        svg_.raw("<clipPath id=\"" + clip + "\">");
-        rect(svg_, {at({-180, 90}), at({180, -90})}, "");
+        const Box whole{at({-180, 90}), at({180, -90})};
+        svg_.raw("<clipPath " + attribute("id", clip) + '>');
+        rect(svg_, whole, "");
         svg_.raw("</clipPath>");
-        rect(svg_, {at({-180, 90}), at({180, -90})}, "fill=\"#fbfbf8\"");
+        rect(svg_, whole, "fill=\"#fbfbf8\"");
         graticule();
         svg_.raw("<g clip-path=\"url(#" + clip + ")\">");
         for (const Coverage* coverage : shown_)
@@ -119,7 +120,7 @@ public:
         if (hud_)
             hud(*hud_);
         svg_.raw("</g>");
-        rect(svg_, {at({-180, 90}), at({180, -90})}, "fill=\"none\" stroke=\"#444\"");
+        rect(svg_, whole, "fill=\"none\" stroke=\"#444\"");
         for (const Coverage* coverage : shown_)
             name(*coverage);
     }
@@ -164,9 +165,8 @@ private:
                     border += path_data(std::array{points[i], points[next]});
             }
         }
-        const std::string quoted = '"' + std::string(colour) + '"';
-        svg_.path(inside, "class=\"shown\" fill-opacity=\"0.26\" fill-rule=\"evenodd\" fill=" + quoted);
-        svg_.path(border, "fill=\"none\" stroke-width=\"1.8\" stroke-linejoin=\"round\" stroke=" + quoted);
+        svg_.path(inside, "class=\"shown\" fill-opacity=\"0.26\" fill-rule=\"evenodd\" " + attribute("fill", colour));
+        svg_.path(border, "fill=\"none\" stroke-width=\"1.8\" stroke-linejoin=\"round\" " + attribute("stroke", colour));
     }
 
     void hud(const HudPlacement& hud)
@@ -203,7 +203,7 @@ private:
                 }
         if (candidates.empty() && coverage.looks) { // the part is too small for the lattice
             const glm::dvec2 spot = at(azimuth_elevation_deg(*coverage.looks));
-            svg_.circle(spot, 4, std::string("fill=\"none\" stroke-width=\"1.8\" stroke=\"") + colour + "\"");
+            svg_.circle(spot, 4, "fill=\"none\" stroke-width=\"1.8\" " + attribute("stroke", colour));
             label(svg_, spot + glm::dvec2(0, spot.y > top_ + 40 ? -18 : 18), words, size, colour);
         }
         const glm::dvec3 middle = glm::length(sum) > 0 ? glm::normalize(sum) : glm::dvec3(0, 0, -1);
@@ -273,7 +273,7 @@ double draw_output(Svg& svg, const Layout& layout, int number, const Box& box)
     const char* colour = colour_of(number);
     const double room = box.to.x - box.from.x;
     write(svg, box.from + glm::dvec2(0, 14), shortened(output.name, std::size_t(room / 9)), 14,
-        std::string("font-weight=\"bold\" fill=\"") + colour + "\"");
+        "font-weight=\"bold\" " + attribute("fill", colour));
     std::string words = std::to_string(output.size.x) + " x " + std::to_string(output.size.y);
     if (output.resizable)
         words += ", resizable";
@@ -298,7 +298,8 @@ double draw_output(Svg& svg, const Layout& layout, int number, const Box& box)
             const auto in = [&](glm::dvec2 at) { return corner + size * glm::mix(part.box.from, part.box.to, at); };
             const Box shown{in(from), in(from + extent)};
             rect(svg, shown,
-                std::string("fill=\"") + colour + "\" fill-opacity=\"0.26\" stroke=\"" + colour + "\" stroke-width=\"1.5\"");
+                attribute("fill", colour) + ' ' + attribute("stroke", colour)
+                    + " fill-opacity=\"0.26\" stroke-width=\"1.5\"");
             const Eye eye = part.eye == Eye::middle ? viewport.eye : part.eye;
             std::string name;
             if (output.viewports.size() > 1)
@@ -427,18 +428,18 @@ private:
             for (const glm::dvec3& corner : all)
                 points.push_back(at(corner));
             svg_.path(path_data(points, true),
-                std::string("class=\"wall\" fill-opacity=\"0.12\" stroke-width=\"3\" stroke-linejoin=\"round\" fill=\"")
-                    + colour + "\" stroke=\"" + colour + '"');
+                "class=\"wall\" fill-opacity=\"0.12\" stroke-width=\"3\" stroke-linejoin=\"round\" "
+                    + attribute("fill", colour) + ' ' + attribute("stroke", colour));
         }
         if (const SphericalMirror* mirror = std::get_if<SphericalMirror>(&viewport.projection); mirror && upright) {
             svg_.circle(at(mirror->dome_m), mirror->dome_radius_m * scale_,
                 "fill=\"none\" stroke=\"#888\" stroke-width=\"2\" stroke-dasharray=\"6 4\"");
             svg_.circle(at(mirror->mirror_m), mirror->mirror_radius_m * scale_,
-                std::string("fill=\"#ddd\" stroke-width=\"2\" stroke=\"") + colour + "\"");
+                "fill=\"#ddd\" stroke-width=\"2\" " + attribute("stroke", colour));
             const glm::dvec3 ahead = cockpit_from_picture(mirror->projector.turn) * glm::dvec3(0, 0, -1);
             const glm::dvec2 lens = at(mirror->projector_m), way(ahead.x, ahead.z);
-            svg_.line(lens, lens + way * 26., std::string("stroke-width=\"2\" stroke=\"") + colour + "\"");
-            rect(svg_, {lens - 5., lens + 5.}, std::string("fill=\"") + colour + "\"");
+            svg_.line(lens, lens + way * 26., "stroke-width=\"2\" " + attribute("stroke", colour));
+            rect(svg_, {lens - 5., lens + 5.}, attribute("fill", colour));
             name(lens + glm::dvec2(0, 17), "projector", colour);
             name(at(mirror->mirror_m), "mirror", colour);
         }
@@ -540,7 +541,7 @@ double draw_table(Svg& svg, const Layout& layout, const std::vector<Coverage>& c
             const auto lines = wrapped(rows[i].*column.words, column.width - (named ? 34 : 16), size);
             if (named)
                 rect(svg, {{x, y + 6}, {x + 13, y + 19}},
-                    std::string("fill=\"") + colour_of(rows[i].output) + "\" fill-opacity=\"0.6\"");
+                    attribute("fill", colour_of(rows[i].output)) + " fill-opacity=\"0.6\"");
             for (std::size_t n = 0; n < lines.size(); ++n)
                 write(svg, {x + (named ? 20 : 0), y + step * double(n + 1)}, lines[n], size);
             most = std::max(most, lines.size());
@@ -603,8 +604,8 @@ std::string draw_floor_plan(
 
     const glm::dvec2 size(page_width, y);
     return svg.drawn(size,
-        "width=\"" + shortest(size.x) + "\" height=\"" + shortest(size.y)
-            + "\" font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\" fill=\"#111\"");
+        attribute("width", shortest(size.x)) + ' ' + attribute("height", shortest(size.y))
+            + " font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\" fill=\"#111\"");
 }
 
 } // namespace starbow

@@ -48,7 +48,7 @@ std::string bars(const UsageDay& day, int first, int last, const char* colour, i
     for (int hour = first; hour <= last; ++hour) {
         const double v = value(day.hours[std::size_t(hour)]), x = pitch * (hour - first), middle = x + 0.5 * pitch;
         const double tall = most > 0 ? (ground - head) * v / most : 0;
-        svg.rect({x + 0.1 * pitch, ground - tall}, {x + 0.9 * pitch, ground}, std::string("fill=\"") + colour + '"');
+        svg.rect({x + 0.1 * pitch, ground - tall}, {x + 0.9 * pitch, ground}, attribute("fill", colour));
         svg.text({middle, height - 6}, std::to_string(hour), "text-anchor=\"middle\"");
         if (v > 0)
             svg.text({middle, ground - tall - 4}, figure(v, decimals), "text-anchor=\"middle\"");

@@ -52,6 +52,24 @@ std::string key_mark(std::size_t group, bool by_eye)
     return svg.drawn({16, 16}, "class=\"key\"");
 }
 
+std::string key_theory()
+{
+    Svg svg;
+    svg.line({0, 8}, {16, 8}, "class=\"theory\"");
+    return svg.drawn({16, 16}, "class=\"key\"");
+}
+
+/// The shapes of all marks, which show nothing here.
+std::string mark_shapes()
+{
+    Svg svg;
+    svg.raw("<defs>");
+    for (std::size_t i = 0; i < shape_count; ++i)
+        svg.path(shapes[i], attribute("id", "m" + std::to_string(i)));
+    svg.raw("</defs>");
+    return svg.drawn({0, 0}, "width=\"0\" height=\"0\" style=\"position:absolute;width:0\"");
+}
+
 std::string drawing(const LabClass& all, Plot plot, const Words& words)
 {
     constexpr double width = 860, height = 500, left = 70, right = 800, top = 40, bottom = 440;
@@ -99,7 +117,7 @@ std::string drawing(const LabClass& all, Plot plot, const Words& words)
                 mark(svg, i, point.by_eye, {x, y});
         }
     }
-    return svg.drawn({width, height}, "role=\"img\" aria-label=\"" + escaped_html(words(keys.title)) + '"');
+    return svg.drawn({width, height}, "role=\"img\" " + attribute("aria-label", escaped_html(words(keys.title))));
 }
 
 /// A mean with its sign, and a spread, in percent.
@@ -169,15 +187,12 @@ std::string class_page(const LabClass& all, const Words& words)
         "text{font-size:14px}svg.key{width:1.1em;height:1.1em;vertical-align:-.2em}.grid{stroke:#ddd;fill:none}"
         ".theory{stroke:#777;stroke-width:1.5;fill:none}.speed{font-size:12px;fill:#555}"
         ".legend span{margin-right:1.5em;white-space:nowrap}")
-        << "<svg width=\"0\" height=\"0\" style=\"position:absolute;width:0\"><defs>";
-    for (std::size_t i = 0; i < shape_count; ++i)
-        out << "<path id=\"m" << i << "\" d=\"" << shapes[i] << "\"/>";
-    out << "</defs></svg>\n<h1>" << escaped_html(words("class.title")) << "</h1>\n<p class=\"legend\">";
+        << mark_shapes() << "<h1>" << escaped_html(words("class.title")) << "</h1>\n<p class=\"legend\">";
     for (std::size_t i = 0; i < all.groups.size(); ++i)
         out << "<span>" << key_mark(i, false) << ' ' << escaped_html(all.groups[i].name) << " (" << words("class.lines")
             << ": " << all.groups[i].lines << ")</span> ";
-    out << "<span><svg class=\"key\" viewBox=\"0 0 16 16\"><path class=\"theory\" d=\"M0 8H16\"/></svg> "
-        << words("class.theory") << "</span></p>\n<p>" << escaped_html(words("class.explain")) << "</p>\n";
+    out << "<span>" << key_theory() << ' ' << words("class.theory") << "</span></p>\n<p>"
+        << escaped_html(words("class.explain")) << "</p>\n";
     for (std::size_t plot = 1; plot < plot_names.size(); ++plot)
         out << "<h2>" << escaped_html(words(plot_words[plot].title)) << "</h2>\n"
             << drawing(all, Plot(plot), words) << table(all, Plot(plot), words);

@@ -269,8 +269,7 @@ std::string accuracy_chart(const std::vector<MeasuredSetting>& all, const std::s
     svg.text({62, 30}, title, "class=\"head\"");
     svg.text({62, 50},
         "Lower is better, further left is faster. Orange: the shipped settings; blue: what no other setting beats in FLIP "
-        "and "
-        "time.",
+        "and time.",
         "class=\"unit\"");
     for (std::size_t i = 0; i < 4; ++i)
         draw(svg, all, best, metrics[i], {i % 2 == 0 ? 0 : 500, i < 2 ? 62 : 408});

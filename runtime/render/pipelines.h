@@ -211,13 +211,12 @@ public:
 
     /// All pipelines that are kept.
     std::vector<std::pair<PipelinePass, vk::Pipeline>> made() const;
-    /// A pipeline apart from the kept ones.
-    vk::raii::Pipeline make(const PipelinePass& pass) const;
 
     const PipelineLayouts layouts;
 
 private:
     vk::Pipeline find_or_make(const PipelinePass& pass);
+    vk::raii::Pipeline make(const PipelinePass& pass) const;
 
     /// A pipeline's shaders by their name, its specialization constants and its targets tell it from all others.
     using Key = std::tuple<std::string_view, SpecializationConstants, TargetKind>;

@@ -1,4 +1,4 @@
-// What is laid over the views: an inset shows its own shot pixel for pixel, a sign's arrow ends at the thing, and
+// Callouts over the views: an inset shows its own shot pixel for pixel, a sign's arrow ends at the thing, and
 // nothing else changes.
 #include "config/model/inset_view.h"
 #include "runtime/hud/signs.h"

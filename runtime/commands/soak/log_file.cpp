@@ -157,8 +157,8 @@ void SoakLog::draw() const
         std::vector<glm::dvec2> points;
         for (const SoakSample& sample : all)
             points.emplace_back(left + (width - left - 20) * double(sample.visit) / visits, y_of(double(sample.*value)));
-        svg.polyline(points, "fill=\"none\" stroke-width=\"1.5\" stroke=\"" + colour + '"');
-        svg.text({left + at, 18}, name, "fill=\"" + colour + '"');
+        svg.polyline(points, "fill=\"none\" stroke-width=\"1.5\" " + attribute("stroke", colour));
+        svg.text({left + at, 18}, name, attribute("fill", colour));
     };
     curve(&SoakSample::resident_bytes, "#0b5fa5", 0, "memory in the machine");
     curve(&SoakSample::heap_bytes, "#c2410c", 190, "in use");
