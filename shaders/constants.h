@@ -63,6 +63,7 @@
 
 // A view's pixels, and the light that they receive.
 #define MAP_CONSTANTS(CONSTANT) CONSTANT(30, bool, MAP, map, false) /* a direction map; otherwise linear in the pixel */
+#define SAMPLE_CONSTANTS(CONSTANT) CONSTANT(42, int, CUBE_SAMPLES, cube_samples, 1) /* of each texel; surfaces know it too */
 #define RECEIVED_CONSTANTS(CONSTANT) \
     CONSTANT(31, bool, ABERRATION, aberration, false) \
     CONSTANT(32, bool, DOPPLER, doppler, false) \
@@ -76,7 +77,7 @@
                                                  TileEntry::texel_from_face */ \
     CONSTANT(40, int, RAYS, rays, 1) /* along each side of a pixel */ \
     CONSTANT(41, bool, CUT, cut, false) /* some tile of the plan has more than one image */ \
-    CONSTANT(42, int, CUBE_SAMPLES, cube_samples, 1) /* of each texel */ \
+    SAMPLE_CONSTANTS(CONSTANT) \
     CONSTANT(43, bool, UNALIGNED, unaligned, false) /* some cube map has other axes than the motion's */
 
 // Two eyes that share one cube map.

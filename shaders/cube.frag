@@ -13,6 +13,7 @@ COEFFICIENT_CONSTANTS(DECLARED)
 MOTION_CONSTANTS(DECLARED) // of several rest frames: also writes its coverage, after the coefficients
 CORNER_CONSTANTS(DECLARED)
 TEXEL_CONSTANTS(DECLARED)
+SAMPLE_CONSTANTS(DECLARED)
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // Spectra::columns
@@ -159,6 +160,19 @@ vec2 emissive_uv() { return coordinates(surface.emissive); }
 vec2 emissive_uv() { return uv; }
 #endif
 
+// From the texel's middle to the mean place of its samples that the triangle covers (the Vulkan specification's standard sample
+// locations), in texels. Light is taken there: a middle beyond the triangle may lie inside its neighbour, in a shadow that no
+// sample has. Triangles that share a texel have its middle as the mean of their places, so that their border does not show.
+vec2 lit_offset()
+{
+    const ivec2 sixteenths[14] = {{4, 4}, {-4, -4}, {-2, -6}, {6, -2}, {-6, 2}, {2, 6}, {1, -3}, {-1, 3}, {5, 1}, {-3, -5},
+        {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
+    ivec2 sum = ivec2(0);
+    for (int i = 0; i < CUBE_SAMPLES; ++i)
+        sum += (gl_SampleMaskIn[0] & 1 << i) != 0 ? sixteenths[CUBE_SAMPLES - 2 + i] : ivec2(0);
+    return vec2(sum) / (16.0 * max(bitCount(gl_SampleMaskIn[0]), 1));
+}
+
 vec3 emitted_light(float ink, float lit_part)
 {
     vec3 emitted = push.emissive.rgb;
@@ -180,13 +194,13 @@ vec3 white_light[KEPT]; // that a surface reflects as white, by its kind
 
 // Adds a lamp's light on a surface: to `light` by its kind, or to the coefficients at once where each lamp has a shift of
 // its own.
-void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], LightEntry lamp, SURFACE at, vec3 base,
-    float lit)
+void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], LightEntry lamp, vec3 point, SURFACE at,
+    vec3 base, float lit)
 {
-    vec3 towards = lamp.place.xyz - lamp.place.w * place;
+    vec3 towards = lamp.place.xyz - lamp.place.w * point;
     float D = 1.0;
     if (LAMPS_MOVE)
-        towards = lamp_seen(lamp, towards, -light_travel_offset(place), D);
+        towards = lamp_seen(lamp, towards, -light_travel_offset(point), D);
     if (LAMPS_MOVE && towards == vec3(0.0))
         return;
     float square = lamp.place.w == 0.0 ? 1.0 : dot(towards, towards);
@@ -289,11 +303,21 @@ void main()
         light[kind] = vec3(0.0);
     light[0] = vec3(cube.ambient.w);
     if (!UNLIT) {
-        vec3 n = normalize(gl_FrontFacing ? normal : -normal);
-        float daylight = SHADOWS == 0 ? 1.0 : ambient_part(place, n);
+        vec3 lit_place = place, lit_normal = normal;
+        if (CUBE_SAMPLES > 1) {
+            // By derivatives, which have no bound at a horizon: interpolateAtOffset has the middle's perspective on lavapipe.
+            vec2 off = lit_offset();
+            vec3 step_ = off.x * dFdx(place) + off.y * dFdy(place);
+            if (dot(step_, step_) < 0.1 * dot(place, place)) {
+                lit_place += step_;
+                lit_normal += off.x * dFdx(normal) + off.y * dFdy(normal);
+            }
+        }
+        vec3 n = normalize(gl_FrontFacing ? lit_normal : -lit_normal);
+        float daylight = SHADOWS == 0 ? 1.0 : ambient_part(lit_place, n);
         vec3 above = push.surface.y * n; // to a place that is on the lit side of the full surface, or on it
 #ifdef MAPPED
-        Glossy at = glossy_at(place, n, gl_FrontFacing);
+        Glossy at = glossy_at(lit_place, n, gl_FrontFacing);
         at.occlusion *= daylight;
         Reflected all_around = reflected_surroundings(at, cube.sky.up.xyz, cube.ambient.rgb, cube.around);
         for (int kind = 0; kind < KEPT; ++kind)
@@ -307,8 +331,9 @@ void main()
         for (int i = 0; i < LIGHTS; ++i) {
             float lit = 1.0;
             if ((SHADOWS & 1 << i) != 0)
-                lit = (SHADOWS & 256 << i) != 0 ? reached_from_near(cube.shadows[i], place, above) : reached_from_afar(cube.shadows[i], place, above);
-            add_lamp(coefficients, light, cube.lights[int(cube.first.w) + i], at, base.rgb, lit);
+                lit = (SHADOWS & 256 << i) != 0 ? reached_from_near(cube.shadows[i], lit_place, above)
+                                                    : reached_from_afar(cube.shadows[i], lit_place, above);
+            add_lamp(coefficients, light, cube.lights[int(cube.first.w) + i], lit_place, at, base.rgb, lit);
         }
     }
 

@@ -1,5 +1,6 @@
 // Shadows and daylight of still things under still lamps, in the world's rest frame (runtime/world/shadows.h). Places are from
-// the eye, in the cube map's axes. A driver in software takes both ways of a branch, so there is none.
+// the eye, in the cube map's axes; a triangle's plane follows from its texels' middles. A driver in software takes both ways of
+// a branch, so there is none.
 
 layout(set = 0, binding = 5) uniform sampler2DArray shadow_maps;
 layout(set = 0, binding = 6) uniform sampler2DArray sky_cells; // layers along z
@@ -36,11 +37,12 @@ vec3 rows(vec4 u, vec4 v, vec4 w, vec3 at) { return vec3(dot(u.xyz, at), dot(v.x
 // The part of a directional lamp's light that reaches a place. The triangle's own plane tells the depth at each texel, so that
 // it does not shade itself and yet is shaded by things that touch it. The maps hold the full surface; above: from the drawn one
 // to its lit side.
-float reached_from_afar(ShadowEntry map, vec3 place, vec3 above)
+float reached_from_afar(ShadowEntry map, vec3 point, vec3 above)
 {
-    vec3 from_eye = rows(map.u, map.v, map.depth, place), at = from_eye + vec3(map.u.w, map.v.w, map.depth.w);
+    vec3 from_eye = rows(map.u, map.v, map.depth, point), at = from_eye + vec3(map.u.w, map.v.w, map.depth.w);
     at += rows(map.u, map.v, map.depth, above);
-    vec3 x = dFdx(from_eye), y = dFdy(from_eye); // without the offset, beside which near steps would be rounded away
+    vec3 own = rows(map.u, map.v, map.depth, place); // the texel's middle
+    vec3 x = dFdx(own), y = dFdy(own); // without the offset, beside which near steps would be rounded away
     float area = x.x * y.y - x.y * y.x;
     vec2 slope = vec2(x.z * y.y - y.z * x.y, y.z * x.x - x.z * y.x) / (abs(area) > 0.0 ? area : 1e-30);
     slope = clamp(slope, vec2(-map.map.z), vec2(map.map.z));
@@ -61,11 +63,12 @@ vec3 cube_direction(vec2 side, bool x, bool y, float sign_)
 }
 
 // The same for a resting point lamp.
-float reached_from_near(ShadowEntry map, vec3 place, vec3 above)
+float reached_from_near(ShadowEntry map, vec3 point, vec3 above)
 {
-    vec3 from_eye = rows(map.u, map.v, map.depth, place), way = from_eye + vec3(map.u.w, map.v.w, map.depth.w);
+    vec3 from_eye = rows(map.u, map.v, map.depth, point), way = from_eye + vec3(map.u.w, map.v.w, map.depth.w);
     way += rows(map.u, map.v, map.depth, above);
-    vec3 facet = cross(dFdx(from_eye), dFdy(from_eye)), size = abs(way);
+    vec3 own = rows(map.u, map.v, map.depth, place); // the texel's middle
+    vec3 facet = cross(dFdx(own), dFdy(own)), size = abs(way);
     bool x = size.x >= size.y && size.x >= size.z, y = !x && size.y >= size.z;
     float along = x ? way.x : y ? way.y : way.z, sign_ = along < 0.0 ? -1.0 : 1.0;
     vec2 side = (x ? way.yz : y ? way.xz : way.xy) / max(abs(along), 1e-30);
@@ -84,11 +87,11 @@ float reached_from_near(ShadowEntry map, vec3 place, vec3 above)
 }
 
 // The part of the ambient light that reaches a place with the unit normal n: of the sky, and from the surfaces that hide it.
-float ambient_part(vec3 place, vec3 n)
+float ambient_part(vec3 point, vec3 n)
 {
     vec3 size = vec3(textureSize(sky_cells, 0)) * vec3(1.0, 1.0, 0.5);
     vec3 normal = rows(cube.sky_cells[0], cube.sky_cells[1], cube.sky_cells[2], n); // over the cells' width
-    vec3 cells = rows(cube.sky_cells[0], cube.sky_cells[1], cube.sky_cells[2], place)
+    vec3 cells = rows(cube.sky_cells[0], cube.sky_cells[1], cube.sky_cells[2], point)
         + vec3(cube.sky_cells[0].w, cube.sky_cells[1].w, cube.sky_cells[2].w);
     normal *= inversesqrt(dot(normal, normal));
     // A whole cell above the surface: no cell behind a ground or a wall along the axes is read.

@@ -219,7 +219,7 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
         .fragment = v.mapped ? Spirv(cube_mapped_frag) : Spirv(cube_frag),
         .layout = &PipelineLayouts::surface_layout,
         .target = target,
-        .constants = constants(v),
+        .constants = constants(v).add(Constant::cube_samples, int(target.samples)),
         .depth = true,
         .vertices = true,
         .maps = v.mapped,
