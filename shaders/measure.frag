@@ -29,7 +29,7 @@ void main()
         if (MAP && pixel_angle == 0.0)
             continue;
         float same_angle;
-        vec3 seen = RAYS == 1 ? shown.light : light_at(pixel, channel, same_angle);
+        vec3 seen = RAYS == 1 ? shown.light : light_at(pixel, channel, 0.0, same_angle);
         seen *= view.boost.z;
         if (STARS)
             seen += texelFetch(stars_picture, ivec2(gl_FragCoord.xy), 0).rgb;

@@ -9,6 +9,7 @@
 
 COEFFICIENT_CONSTANTS(DECLARED)
 RECEIVED_CONSTANTS(DECLARED)
+RESPONSE_CONSTANTS(DECLARED)
 #ifdef OWN_EYE
 const bool REPROJECT = false;
 #else
@@ -39,6 +40,7 @@ layout(set = 0, binding = 10) uniform Own { vec4 own_rows[MOST_OWN_ROWS]; };
 
 layout(set = 0, binding = 11) uniform sampler2D covered_atlas; // the covered part of a texel; the same times its depth
 layout(set = 0, binding = 12) uniform RestFrames { RestFrameConstants rest_frames; };
+layout(set = 0, binding = 21) uniform sampler2D response_picture; // the same rows as columns; see response.h's picture_of
 layout(set = 0, binding = 14) uniform sampler2D milky_way; // the sky's panorama
 
 // A rest frame's part of the cube map and the eye event there, in the cube map's axes.
@@ -98,27 +100,27 @@ Place place_of(vec3 n, RestFrameView rest_frame)
     vec3 m = abs(n);
     bool x_greater = m.x >= m.y;
     float across = max(m.x, m.y);
+    bool along = m.z >= across, ahead = n.z >= 0.0;
     Place place;
     int tile;
     if (SINGLE) {
         place.face = n.xy / n.z;
         tile = TILE_FRONT;
-    } else if (m.z >= across) {
-        place.face = n.xy / m.z;
-        float larger = across / m.z;
-        // floor(-log2(larger^2)) from the exponent's bits; 126: an exact power of two goes to the coarser image.
-        int level = 126 - (floatBitsToInt(larger * larger) >> 23);
-        tile = n.z >= 0.0 ? TILE_FRONT : TILE_REAR + clamp(level, 0, rest_frame.finest_clip_level);
     } else {
-        place.face = vec2(x_greater ? n.y : n.x, n.z) / across;
-        int side = x_greater ? (n.x >= 0.0 ? 0 : 1) : (n.y >= 0.0 ? 2 : 3);
-        tile = TILE_SIDES + side * SIDE_BANDS + int(place.face.y > -0.5) + int(place.face.y > 0.0);
+        vec2 side = x_greater ? n.xy : n.yx; // across the face, and along it
+        float inverse = 1.0 / max(m.z, across), larger = across * inverse;
+        place.face = (along ? n.xy : vec2(side.y, n.z)) * inverse;
+        // floor(-log2(larger^2)) from the exponent's bits; 126: an exact power of two goes to the coarser image.
+        int rear = clamp(126 + TILE_REAR - (floatBitsToInt(larger * larger) >> 23), TILE_REAR, TILE_REAR + rest_frame.finest_clip_level);
+        int first = (x_greater ? TILE_SIDES : TILE_SIDES + 2 * SIDE_BANDS) + SIDE_BANDS * int(floatBitsToUint(side.x) >> 31);
+        int sides = first + int(place.face.y > -0.5) + int(place.face.y > 0.0);
+        tile = along ? (ahead ? TILE_FRONT : rear) : sides;
     }
     tile += rest_frame.tiles;
     ivec2 cell = ivec2(0);
     if (CUT) {
         vec4 sub_tiles_from_face = texelFetch(tiles, tile);
-        vec2 spread = m.z >= across && n.z < 0.0 ? place.face * abs(place.face) : place.face;
+        vec2 spread = along && !ahead ? place.face * abs(place.face) : place.face;
         cell = min(ivec2(spread * sub_tiles_from_face.xy + sub_tiles_from_face.zw), TILE_SUB_TILES - 1);
     }
     place.entry = TILE_ENTRY(tile, cell.y * TILE_SUB_TILES + cell.x);
@@ -176,12 +178,9 @@ vec4 four_from(vec4 coefficients[MAX_GROUPS], int k)
         k + 2 < REFLECTED ? coefficient(coefficients, k + 2) : 0.0, k + 3 < REFLECTED ? coefficient(coefficients, k + 3) : 0.0);
 }
 
-// The colour of light that is shifted by D; the same as response.cpp's seen.
-vec3 shifted(vec4 coefficients[MAX_GROUPS], float D)
+// The colour of the reflected light at a row of the response, as a part of 2^scale.
+vec3 reflected_at(vec4 coefficients[MAX_GROUPS], float at, out float scale)
 {
-    float per_octave = view.corner.w;
-    float unclamped = (log2(D) - view.row2.w) * per_octave;
-    float at = clamp(unclamped, 0.0, float(RESPONSE_ROWS) - 1.001);
     float part = fract(at);
     int row = int(at) * RESPONSE_TEXELS(REFLECTED);
     vec3 light = vec3(0.0);
@@ -198,21 +197,43 @@ vec3 shifted(vec4 coefficients[MAX_GROUPS], float D)
         if (4 * four + 3 < REFLECTED)
             light += own.w * vec3(halves(third.y, part), halves(third.z, part), halves(third.w, part));
     }
-    const int scale = 3 * REFLECTED;
-    float here = uintBitsToFloat(texelFetch(response, row + scale / 4)[scale % 4]);
-    float added = uintBitsToFloat(texelFetch(response, row + (scale + 1) / 4)[(scale + 1) % 4]);
-    light *= exp2(here + part * added);
+    const int last = 3 * REFLECTED;
+    float here = uintBitsToFloat(texelFetch(response, row + last / 4)[last % 4]);
+    float added = uintBitsToFloat(texelFetch(response, row + (last + 1) / 4)[(last + 1) % 4]);
+    scale = here + part * added;
+    return light;
+}
+vec3 sampled_reflected_at(vec4 coefficients[MAX_GROUPS], float across, out float scale)
+{
+    vec3 light = vec3(0.0);
+    scale = 0.0;
+    for (int k = 0; k < REFLECTED; ++k) {
+        vec4 column = textureLod(response_picture, vec2(across, (float(k) + 0.5) / float(REFLECTED)), 0.0);
+        light += coefficient(coefficients, k) * column.rgb;
+        if (k < 2)
+            scale += column.a;
+    }
+    return light;
+}
+
+// The colour of light that is shifted by D, the same as response.cpp's seen, times 2^stops.
+vec3 shifted(vec4 coefficients[MAX_GROUPS], float log2_D, float stops)
+{
+    float across = log2_D * view.corner.w + view.row2.w, scale;
+    float at = clamp(across * float(RESPONSE_ROWS) - 0.5, 0.0, float(RESPONSE_ROWS) - 1.001);
+    // Beyond the table every tail falls as 1 / D^2.
+    stops += min(view.corner.z - 2.0 * log2_D, 0.0);
+    vec3 light = SAMPLED_RESPONSE ? sampled_reflected_at(coefficients, across, scale) : reflected_at(coefficients, at, scale);
+    light *= exp2(scale + stops);
     if (OWN > 0) {
-        float own_at = min(at / float(RESPONSE_OWN_STEP(OWN)), float(RESPONSE_ROWS / RESPONSE_OWN_STEP(OWN)) - 1.001);
+        float strength = exp2(stops), own_at = min(at / float(RESPONSE_OWN_STEP(OWN)), float(RESPONSE_ROWS / RESPONSE_OWN_STEP(OWN)) - 1.001);
         int j = int(own_at) * OWN;
         for (int k = 0; k < OWN; ++k) {
             vec4 own = mix(own_rows[j + k], own_rows[j + OWN + k], fract(own_at));
-            light += own.rgb * (exp2(own.w) * coefficient(coefficients, REFLECTED + k));
+            light += own.rgb * (strength * exp2(own.w) * coefficient(coefficients, REFLECTED + k));
         }
     }
-    // Beyond the table every tail falls as 1 / D^2.
-    float beyond = exp2(min(0.0, (at - unclamped) / per_octave));
-    return light * (beyond * beyond);
+    return light;
 }
 
 // near / distance along the face's normal at a texel of the cube map, 0 for the sky.
@@ -253,22 +274,22 @@ AberratedRay sight_of(vec3 n, float pixel_angle)
     return sight;
 }
 
-// Scene-linear light, pre-exposed by the cube map's factor; colours outside Rec. 709 have negative channels.
-vec3 light_of(vec4 coefficients[MAX_GROUPS], float D)
+// Scene-linear light times 2^stops, pre-exposed by the cube map's factor; colours outside Rec. 709 have negative channels. D comes
+// with its binary logarithm, which alone the table needs.
+vec3 light_of(vec4 coefficients[MAX_GROUPS], float D, float log2_D, float stops)
 {
-    vec3 light = coefficients[0].rgb;
     if (BY_TABLE)
-        light = shifted(coefficients, DOPPLER ? D : 1.0);
-    if (HEADLIGHT)
-        light *= headlight(D);
-    return light;
+        return shifted(coefficients, DOPPLER ? log2_D : 0.0, HEADLIGHT ? stops + 3.0 * log2_D : stops);
+    return coefficients[0].rgb * (HEADLIGHT ? headlight(D) * exp2(stops) : exp2(stops));
 }
-vec3 light_seen(Place place, float D, float angle)
+vec3 light_of(vec4 coefficients[MAX_GROUPS], float D) { return light_of(coefficients, D, log2(D), 0.0); }
+vec3 light_seen(Place place, float D, float log2_D, float angle, float stops)
 {
     vec4 coefficients[MAX_GROUPS];
     cube_map(place, angle, coefficients);
-    return light_of(coefficients, D);
+    return light_of(coefficients, D, log2_D, stops);
 }
+vec3 light_seen(Place place, float D, float angle) { return light_seen(place, D, log2(D), angle, 0.0); }
 
 #include "rest_frames.glsl"
 
@@ -324,19 +345,51 @@ Shown shown_at(vec2 pixel, int channel, float coarser, out float pixel_angle)
     return Shown(n, AberratedRay(n, 1.0), 0.0, 0.0, vec3(0.0)); // nothing
 }
 
-// The light of a pixel: the mean along RAYS x RAYS evenly distributed directions. Returns a Shown, empty where the angle
-// is 0.
-vec3 light_at(vec2 pixel, int channel, out float pixel_angle)
+// True where a view's light is that of one cube map by its own eye, and nothing else.
+#if defined ONE_REST_FRAME && !defined WITH_GLOBES
+const bool ONE_LIGHT = true;
+#else
+const bool ONE_LIGHT = false;
+#endif
+
+// The light of the ship's direction v, times 2^stops; square: v's length squared. For one light it needs no unit direction and no
+// D, but its logarithm.
+vec3 light_along(vec3 v, float square, float pixel_angle, float stops)
 {
-    if (RAYS == 1)
-        return shown_at(pixel, channel, 1.0, pixel_angle).light;
+    if (!ONE_LIGHT)
+        return shown_along(v * inversesqrt(square), pixel_angle).light * exp2(stops);
+    vec3 way = v;
+    float D = 1.0, log2_D = 0.0, magnified = 1.0; // angles
+    if (GALILEAN) {
+        vec3 n = v * inversesqrt(square);
+        AberratedRay sight = from_camera(n, view.boost.xy);
+        way = sight.n, D = sight.D, log2_D = log2(D), magnified = growth(sight, n, view.boost.xy);
+    } else if (ABERRATION || DOPPLER || HEADLIGHT) {
+        AberratedWay there = world_way_from_camera(v, sqrt(square), view.boost.x, view.boost.y);
+        way = there.way, magnified = D = sqrt(square) / there.length_, log2_D = 0.5 * log2(square) - log2(there.length_);
+    }
+    if (!ABERRATION)
+        way = v, magnified = 1.0;
+    Place place = place_of(in_cube_axes(way, world_rest_frame()), world_rest_frame());
+    return light_seen(place, D, log2_D, magnified * pixel_angle, stops);
+}
+
+// The light of a pixel, times 2^stops: the mean along RAYS x RAYS evenly distributed directions. It is 0
+// where the angle is.
+vec3 light_at(vec2 pixel, int channel, float stops, out float pixel_angle)
+{
+    float square;
+    if (RAYS == 1) {
+        vec3 v = look_along(view.row0, view.row1, view.row2, pixel, channel, square, pixel_angle);
+        return !MAP || pixel_angle > 0.0 ? light_along(v, square, pixel_angle, stops) : vec3(0.0);
+    }
     vec3 sum = vec3(0.0);
     for (int ray = 0; ray < RAYS * RAYS; ++ray) {
         vec2 offset = (vec2(ray % RAYS, ray / RAYS) + 0.5) / float(RAYS) - 0.5;
-        vec3 n = look_within(view.row0, view.row1, view.row2, pixel, offset, channel, pixel_angle);
+        vec3 v = look_within(view.row0, view.row1, view.row2, pixel, offset, channel, square, pixel_angle);
         if (MAP && pixel_angle == 0.0)
             return sum;
-        sum += shown_along(n, pixel_angle / float(RAYS)).light;
+        sum += light_along(v, square, pixel_angle / float(RAYS), stops);
     }
     return sum / float(RAYS * RAYS);
 }

@@ -20,9 +20,9 @@ vec4 unpacked(uvec2 texel)
     return vec4(n * inversesqrt(dot(n, n)), uintBitsToFloat((texel.x & 255u) << 16 | (texel.y & 255u) << 24));
 }
 
-// The unit direction in the axes that the rows lead to, and the angle of a pixel in radians: 0 where nothing is shown.
-// channel: 0 except for maps with a direction for each colour.
-vec3 look(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, int channel, out float pixel_angle)
+// The direction in the axes that the rows lead to, of any length, its square, and the angle of a pixel in radians: 0 where nothing
+// is shown. channel: 0 except for maps with a direction for each colour.
+vec3 look_along(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, int channel, out float square, out float pixel_angle)
 {
     vec3 from;
     if (MAP) {
@@ -32,14 +32,23 @@ vec3 look(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, int channel, out float pi
     } else {
         from = vec3(pixel, 1.0);
     }
-    vec3 n = vec3(dot(row0.xyz, from), dot(row1.xyz, from), dot(row2.xyz, from));
+    vec3 v = vec3(dot(row0.xyz, from), dot(row1.xyz, from), dot(row2.xyz, from));
+    square = 1.0;
     if (!MAP) {
         // The plane is at distance 1: a pixel's solid angle falls as the cube of the distance to it.
-        float inverse = 1.0 / sqrt(dot(n, n));
-        n *= inverse;
+        square = (v.x * v.x + v.y * v.y) + v.z * v.z; // in the order of half_angle_squares, which shares the sum
+        float inverse = 1.0 / sqrt(square);
         pixel_angle = row0.w * inverse * sqrt(inverse);
     }
-    return n;
+    return v;
+}
+
+// The same, as a unit direction.
+vec3 look(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, int channel, out float pixel_angle)
+{
+    float square;
+    vec3 v = look_along(row0, row1, row2, pixel, channel, square, pixel_angle);
+    return MAP ? v : v * (1.0 / sqrt(square));
 }
 
 // The change of a map's direction to the next pixel along `way`; where the map ends, the change in the opposite direction.
@@ -57,16 +66,17 @@ vec3 map_step(vec3 here, ivec2 pixel, ivec2 way, int channel)
     return vec3(0.0);
 }
 
-// The same as look, at an offset from the pixel's centre of at most half a pixel. A map's directions are linear to its
+// The same as look_along, at an offset from the pixel's centre of at most half a pixel. A map's directions are linear to its
 // neighbours.
-vec3 look_within(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, vec2 offset, int channel, out float pixel_angle)
+vec3 look_within(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, vec2 offset, int channel, out float square, out float pixel_angle)
 {
     if (!MAP)
-        return look(row0, row1, row2, pixel + offset, channel, pixel_angle);
+        return look_along(row0, row1, row2, pixel + offset, channel, square, pixel_angle);
     vec4 here = unpacked(texelFetch(direction_map, ivec3(pixel, channel), 0).rg);
     pixel_angle = here.w;
     vec3 from = here.xyz + abs(offset.x) * map_step(here.xyz, ivec2(pixel), ivec2(sign(offset.x), 0), channel)
         + abs(offset.y) * map_step(here.xyz, ivec2(pixel), ivec2(0, sign(offset.y)), channel);
-    vec3 n = vec3(dot(row0.xyz, from), dot(row1.xyz, from), dot(row2.xyz, from));
-    return n * inversesqrt(dot(n, n));
+    vec3 v = vec3(dot(row0.xyz, from), dot(row1.xyz, from), dot(row2.xyz, from));
+    square = dot(v, v);
+    return v;
 }

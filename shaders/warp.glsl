@@ -20,7 +20,7 @@ layout(location = 0) out vec4 shown;
 vec4 starlight_at(vec2 pixel) { return texelFetch(stars_picture, ivec2(pixel + view.corner.xy), 0); }
 
 // Exposed. shows: false where the map shows nothing; there the light is 0.
-vec3 light_along(vec2 pixel, int channel, out bool shows)
+vec3 exposed_light(vec2 pixel, int channel, out bool shows)
 {
     float pixel_angle;
 #if defined DARK
@@ -28,16 +28,20 @@ vec3 light_along(vec2 pixel, int channel, out bool shows)
     if (MAP)
         look(view.row0, view.row1, view.row2, pixel, channel, pixel_angle);
 #elif defined ONE_RAY
-    vec3 light = shown_at(pixel, channel, 1.0, pixel_angle).light;
+    float square;
+    vec3 v = look_along(view.row0, view.row1, view.row2, pixel, channel, square, pixel_angle), light = vec3(0.0);
+    if (!MAP || pixel_angle > 0.0)
+        light = light_along(v, square, pixel_angle, ONE_LIGHT ? view.zenith.x : 0.0);
 #else
-    vec3 light = light_at(pixel, channel, pixel_angle);
+    vec3 light = light_at(pixel, channel, ONE_LIGHT ? view.zenith.x : 0.0, pixel_angle);
 #endif
     shows = !MAP || pixel_angle > 0.0;
     if (WITH_SUN_GLARE && !RANGE && shows) {
         float same_angle;
         light += sun_glare(look(view.row0, view.row1, view.row2, pixel, channel, same_angle));
     }
-    light *= view.boost.z;
+    if (!ONE_LIGHT)
+        light *= view.boost.z;
     if (STARS && shows && !RANGE)
         light += starlight_at(pixel).rgb;
     return light;
@@ -47,14 +51,14 @@ void main()
 {
     vec2 pixel = gl_FragCoord.xy - view.origin.xy;
     bool shows;
-    vec3 light = light_along(pixel, 0, shows);
+    vec3 light = exposed_light(pixel, 0, shows);
 #if !defined ONE_RAY && !defined DARK
     bool also_shows;
     if (CHANNELS)
-        light = vec3(light.r, light_along(pixel, 1, also_shows).g, light_along(pixel, 2, also_shows).b);
+        light = vec3(light.r, exposed_light(pixel, 1, also_shows).g, exposed_light(pixel, 2, also_shows).b);
 #endif
-    // Infinite D^3 is clamped to a number: the greatest light is already white.
-    light = clamp(light, vec3(0.0), vec3(1e30));
+    // Infinite D^3 is clamped to a number: the greatest light is already white, and 60000 is fp16's greatest, nearly.
+    light = clamp(light, vec3(0.0), vec3(LINEAR && !RANGE ? 60000.0 : 1e30));
     if (RANGE) {
         float whole = luminance_of(light);
         light *= range_factor(whole);
@@ -68,7 +72,7 @@ void main()
         }
     }
     if (LINEAR) {
-        shown = vec4(min(light, vec3(60000.0)), shows ? 1.0 : 0.0); // fp16's greatest, nearly
+        shown = vec4(min(light, vec3(60000.0)), shows ? 1.0 : 0.0);
         return;
     }
 #ifdef DARK

@@ -78,6 +78,21 @@ Response response_of(const SpectralBasis& basis, const StandardObserver& observe
     return response;
 }
 
+std::vector<glm::u16vec4> picture_of(const Response& response)
+{
+    std::vector<glm::u16vec4> picture;
+    for (int k = 0; k < response.reflected; ++k)
+        for (int row = 0; row < RESPONSE_ROWS; ++row) {
+            const float log2 = std::bit_cast<float>(word(response, row, 3 * response.reflected));
+            const float nearest = glm::unpackHalf1x16(glm::packHalf1x16(log2));
+            glm::u16vec4& texel = picture.emplace_back(0);
+            for (int c = 0; c < 3; ++c)
+                texel[c] = std::uint16_t(word(response, row, 3 * k + c) & 0xffff); // the lower half is the value
+            texel.w = glm::packHalf1x16(k == 0 ? nearest : k == 1 ? log2 - nearest : 0);
+        }
+    return picture;
+}
+
 glm::dvec3 seen(const Response& response, std::span<const double> coefficients, double D)
 {
     const double unclamped = (std::log2(D) - response.first_log2_D) * response.per_octave;

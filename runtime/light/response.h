@@ -1,5 +1,6 @@
 #pragma once
 #include "spectral_basis.h"
+#include <glm/gtc/type_precision.hpp>
 
 namespace starbow {
 
@@ -17,6 +18,11 @@ struct Response {
 };
 
 Response response_of(const SpectralBasis& basis, const StandardObserver& observer);
+
+/// The rows for a device's sampler, which interpolates them: RESPONSE_ROWS columns by `reflected` rows of four halves. The
+/// first three of row k are coefficient k's parts in red, green and blue. The fourth of rows 0 and 1 add up to the scale's
+/// logarithm: its nearest half, and the rest.
+std::vector<glm::u16vec4> picture_of(const Response& response);
 
 /// The colour of basis coefficients at D, as the device computes it. Between rows the scales are interpolated
 /// geometrically, because colours have steep ends that are nearly geometric; the values over the scales are interpolated

@@ -2,8 +2,32 @@
 #include "config/json/error.h"
 #include <cstdlib>
 #include <filesystem>
+#include <regex>
 
 namespace starbow {
+namespace {
+
+/// The number of a stage's instructions that read images or buffers for each pixel or vertex of its own.
+double loads(const Device& device, const vk::PipelineExecutableInfoKHR& stage)
+{
+    auto texts = device.device.getPipelineExecutableInternalRepresentationsKHR(stage); // their sizes
+    std::vector<std::string> room(texts.size());
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        room[i].resize(texts[i].dataSize);
+        texts[i].pData = room[i].data();
+    }
+    auto count = std::uint32_t(texts.size());
+    device.device.getDispatcher()->vkGetPipelineExecutableInternalRepresentationsKHR(VkDevice(*device.device),
+        reinterpret_cast<const VkPipelineExecutableInfoKHR*>(&stage), &count,
+        reinterpret_cast<VkPipelineExecutableInternalRepresentationKHR*>(texts.data()));
+    static const std::regex load("\\b(image_(sample|gather4|load)|(buffer|tbuffer|global|flat)_load)\\w*");
+    for (std::size_t i = 0; i < texts.size(); ++i)
+        if (std::string_view(texts[i].name) == "ACO IR")
+            return double(std::distance(std::sregex_iterator(room[i].begin(), room[i].end(), load), {}));
+    return 0;
+}
+
+} // namespace
 
 std::unique_ptr<Device> open_absent_card(const std::string& family)
 {
@@ -26,13 +50,16 @@ std::map<std::string, double> shader_statistics(const Device& device, vk::Pipeli
     using Format = vk::PipelineExecutableStatisticFormatKHR;
     const auto parts = device.device.getPipelineExecutablePropertiesKHR({pipeline});
     std::map<std::string, double> all;
-    for (std::uint32_t i = 0; i < parts.size(); ++i)
-        if (parts[i].stages & stage)
-            for (const auto& one : device.device.getPipelineExecutableStatisticsKHR({pipeline, i}))
-                all[one.name] = one.format == Format::eBool32 ? double(one.value.b32)
-                    : one.format == Format::eInt64            ? double(one.value.i64)
-                    : one.format == Format::eUint64           ? double(one.value.u64)
-                                                              : one.value.f64;
+    for (std::uint32_t i = 0; i < parts.size(); ++i) {
+        if (!(parts[i].stages & stage))
+            continue;
+        for (const auto& one : device.device.getPipelineExecutableStatisticsKHR({pipeline, i}))
+            all[one.name] = one.format == Format::eBool32 ? double(one.value.b32)
+                : one.format == Format::eInt64            ? double(one.value.i64)
+                : one.format == Format::eUint64           ? double(one.value.u64)
+                                                          : one.value.f64;
+        all["Loads"] = loads(device, {pipeline, i});
+    }
     return all;
 }
 

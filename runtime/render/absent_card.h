@@ -14,8 +14,8 @@ constexpr std::array<const char*, 5> card_families{"navi21", "polaris10", "vega1
 /// card_families. Throws InputError where the driver is missing.
 std::unique_ptr<Device> open_absent_card(const std::string& family);
 
-/// The compiler's figures of a pipeline's stage, by the driver's names: "Instructions", "VGPRs", "Inverse Throughput".
-/// The pipeline was made with eCaptureStatisticsKHR on a device with Options::statistics.
+/// The compiler's figures of a pipeline's stage, by the driver's names, such as "Instructions", "VGPRs" and "Inverse
+/// Throughput", and "Loads": its instructions that read images or buffers. The device was opened with Options::statistics.
 std::map<std::string, double> shader_statistics(const Device& device, vk::Pipeline pipeline, vk::ShaderStageFlagBits stage);
 
 } // namespace starbow

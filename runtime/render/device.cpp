@@ -308,6 +308,7 @@ Device::Device(const Options& options)
     widest_line = features.wideLines ? properties.limits.lineWidthRange[1] : 1;
     features.samplerAnisotropy = physical.getFeatures().samplerAnisotropy;
     features.textureCompressionBC = physical.getFeatures().textureCompressionBC;
+    draws_as_gpu = !on_processor() || options.as_gpu;
     compresses = features.textureCompressionBC && !on_processor();
     float priority = 1;
     vk::DeviceQueueCreateInfo queue_info({}, family, 1, &priority);

@@ -20,6 +20,7 @@ public:
         bool barrier = false; ///< VK_NV_present_barrier, where the GPU has it: screens of several machines change together
         bool statistics = false; ///< VK_KHR_pipeline_executable_properties: a pipeline says what its shaders cost
         bool counted = false; ///< driver_memory() counts the host memory of all objects
+        bool as_gpu = false; ///< draws_as_gpu even where the processor draws
         std::string name; ///< part of a GPU's name; empty: the GPU of the fastest kind
     };
 
@@ -42,6 +43,7 @@ public:
     bool present_barrier = false; ///< VK_NV_present_barrier; a surface may lack it nevertheless
     float widest_line = 1; ///< pixels
     bool compresses = false; ///< large textures are compressed; false where the processor would decode them at each look-up
+    bool draws_as_gpu = false; ///< by the forms of shaders that are faster on a GPU, and slower where the processor draws
     bool statistics = false; ///< pipelines are made with the figures of their shaders
     bool debug_utils = false; ///< VK_EXT_debug_utils: objects have names, passes have labels
     Trace* trace = nullptr; ///< receives the processor's spans of each frame during a trace

@@ -366,7 +366,16 @@ void put_spectra(Device& device, GpuWorld& world, SpectralLevel level)
         name_object(device, buffers->rows, "world: response rows");
         buffers->texels = device.device.createBufferView({{}, *buffers->rows.buffer, words_format, 0, VK_WHOLE_SIZE});
         name_object(device, buffers->texels, "world: response texels");
-        buffers->first_log2_D = float(response.first_log2_D), buffers->per_octave = float(response.per_octave);
+        buffers->picture = {};
+        if (device.draws_as_gpu) {
+            const std::vector<glm::u16vec4> picture = picture_of(response);
+            buffers->picture = make_texture(
+                device, light_format, {RESPONSE_ROWS, response.reflected}, std::as_bytes(std::span(picture)), false);
+            name_object(device, buffers->picture, "world: response picture");
+        }
+        buffers->at_rest = float((0.5 - response.first_log2_D * response.per_octave) / RESPONSE_ROWS);
+        buffers->octave = float(response.per_octave / RESPONSE_ROWS);
+        buffers->last_log2_D = float(response.first_log2_D + (RESPONSE_ROWS - 1.001) / response.per_octave);
         buffers->own_rows = constants(response.own_rows);
         buffers->greatest = greatest_light(response);
         buffers->black_bodies = constants(black_body_table(*observer));

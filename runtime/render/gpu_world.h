@@ -14,7 +14,9 @@ namespace starbow {
 struct ResponseBuffers {
     Buffer rows;
     vk::raii::BufferView texels = nullptr; ///< rows as texels
-    float first_log2_D = 0, per_octave = 1;
+    Image picture; ///< the rows for the device's sampler; none where the processor draws
+    float at_rest = 0, octave = 1; ///< of the table's width: the place of D = 1, and an octave of D
+    float last_log2_D = 0; ///< of its last row
     Buffer own_rows;
     Buffer black_bodies; ///< made by black_body_table
     LightBound greatest;

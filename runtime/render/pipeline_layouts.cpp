@@ -42,7 +42,7 @@ PipelineLayouts::PipelineLayouts(const Device& device)
     warp_set = make_set_layout(device, "warp descriptor set layout", both,
         {picture, picture, Type::eUniformTexelBuffer, Type::eUniformTexelBuffer, picture, picture, picture, picture, picture,
             picture, constants, picture, constants, picture, picture, constants, picture, picture, picture, picture,
-            constants});
+            constants, picture});
     star_set = make_set_layout(device, "star descriptor set layout", vk::ShaderStageFlagBits::eVertex,
         {Type::eUniformBufferDynamic, Type::eStorageBuffer, constants});
     picture_set = make_set_layout(device, "picture descriptor set layout", fragment, {picture, picture});

@@ -108,6 +108,22 @@ Spirv stars_shader(const WarpVariant& v)
 
 } // namespace
 
+std::string describe(const PipelinePass& pass)
+{
+#define STARBOW_NAME(id, type, NAME, member, usual) {Constant::member, #member},
+    static const std::map<Constant, const char*> names{COEFFICIENT_CONSTANTS(STARBOW_NAME) SURFACE_CONSTANTS(STARBOW_NAME)
+            VIEW_CONSTANTS_ALONE(STARBOW_NAME) PASS_CONSTANTS(STARBOW_NAME)};
+#undef STARBOW_NAME
+    std::string text;
+    for (std::size_t i = 0; i < pass.constants.count; ++i)
+        if (const auto& [constant, value] = pass.constants.list[i]; value != 0)
+            text += names.at(constant) + (value == 1 ? "" : "=" + std::to_string(value)) + ", ";
+    text += "to";
+    for (const vk::Format format : pass.target.colours)
+        text += " " + vk::to_string(format);
+    return pass.target.samples == vk::SampleCountFlagBits::e1 ? text : text + " x " + vk::to_string(pass.target.samples);
+}
+
 Pipelines::Pipelines(Device& device)
     : layouts(device)
     , device_(device)
@@ -204,7 +220,8 @@ vk::raii::Pipeline Pipelines::make(const PipelinePass& pass) const
         &blending, &dynamics, *(layouts.*pass.layout));
     info.pNext = &rendering;
     if (device_.statistics)
-        info.flags = vk::PipelineCreateFlagBits::eCaptureStatisticsKHR;
+        info.flags = vk::PipelineCreateFlagBits::eCaptureStatisticsKHR
+            | vk::PipelineCreateFlagBits::eCaptureInternalRepresentationsKHR;
     vk::raii::Pipeline pipeline = device_.device.createGraphicsPipeline(device_.cache, info);
     name_object(device_, vertex, pass.name);
     name_object(device_, fragment, pass.name);

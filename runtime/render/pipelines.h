@@ -162,6 +162,9 @@ struct PipelinePass {
     Blending blending = Blending::none;
 };
 
+/// The constants of a pass that are not 0, by their names in the code, and its target: one text for each pipeline of a name.
+std::string describe(const PipelinePass& pass);
+
 /// Pipelines that stay although no frame uses them. On lavapipe one takes 3 MB, and 0.05 s to make again from the driver's
 /// cache; a flight uses about ten at a time, a visit with all switches a hundred. On a GPU they are small, and the warm-up
 /// makes some hundreds.
@@ -211,11 +214,12 @@ public:
 
     /// All pipelines that are kept.
     std::vector<std::pair<PipelinePass, vk::Pipeline>> made() const;
+    /// The pipeline of a pass that any device's made() has told.
+    vk::Pipeline find_or_make(const PipelinePass& pass);
 
     const PipelineLayouts layouts;
 
 private:
-    vk::Pipeline find_or_make(const PipelinePass& pass);
     vk::raii::Pipeline make(const PipelinePass& pass) const;
 
     /// A pipeline's shaders by their name, its specialization constants and its targets tell it from all others.

@@ -28,24 +28,25 @@ double unit_of(const CompiledView& view) { return view.matrix ? std::sqrt(std::a
 
 } // namespace
 
+bool ViewConstants::reprojects(const ViewState& view) const { return state_.reprojects() && view.beside_m != glm::dvec3(0); }
+
 const PlannedImage* ViewConstants::single_image(const ViewState& view) const
 {
     const std::vector<PlannedImage>& images = eyes_.plans[view.eye].images;
-    const bool beside = state_.reprojects() && view.beside_m != glm::dvec3(0);
-    return images.size() == 1 && images[0].rest_frame == 0 && images[0].tile == TILE_FRONT && !beside ? &images[0] : nullptr;
+    const bool only = images.size() == 1 && images[0].rest_frame == 0 && images[0].tile == TILE_FRONT;
+    return only && !reprojects(view) ? &images[0] : nullptr;
 }
 
 WarpVariant ViewConstants::variant(const ViewState& view) const
 {
     const bool moves = eyes_.observer_of(view).E != 1
         || eyes_.all[view.eye].cube.several_rest_frames(); // without motion D is 1 everywhere
-    const bool beside = state_.reprojects() && view.beside_m != glm::dvec3(0);
     const Effects& on = eyes_.observer_of(view).shot.effects;
     WarpVariant variant;
     variant.map = view.compiled.map != nullptr, variant.channels = view.compiled.channels() == 3;
     set_effects(variant, on, moves);
     variant.mips = eyes_.plans[view.eye].levels > 1;
-    variant.reproject = beside, variant.turning = beside && state_.layout.stereo.turning;
+    variant.reproject = reprojects(view), variant.turning = variant.reproject && state_.layout.stereo.turning;
     variant.stars = !world_.stars.stars.empty() || world_.globes;
     const StoredLight light = eyes_.all[view.eye].cube.light();
     variant.coefficients = world_.coefficients(light);
@@ -85,6 +86,7 @@ WarpVariant ViewConstants::variant_shown(const ViewState& view) const
 {
     WarpVariant all = variant(view);
     all.rays = eyes_.rays_of(view);
+    all.sampled_response = bool(*world_.response(eyes_.observer_of(view).shot.effects).picture.view);
     return all;
 }
 
@@ -113,9 +115,9 @@ shared::ViewPush ViewConstants::push(const ViewState& view, const glm::dmat3& ax
     shared::ViewPush push{};
     push.row0 = shared::row(m, 0, unit_of(view.compiled));
     push.row1 = shared::row(m, 1, state_.pattern == Pattern::none ? eyes_.plans[view.eye].finest_clip_level[0] : 0);
-    push.row2 = shared::row(m, 2, response.first_log2_D);
+    push.row2 = shared::row(m, 2, response.at_rest);
     push.origin = glm::vec4(view.geometry().corner, 1.0 / atlas.width, 1.0 / atlas.height);
-    push.corner = glm::vec4(view.geometry().corner, 0, response.per_octave);
+    push.corner = glm::vec4(view.geometry().corner, 2 * response.last_log2_D, response.octave);
     if (state_.pattern == Pattern::none) {
         const PlannedImage* single = single_image(view);
         push.eye = single ? tile_entry(*single).texel_from_face
@@ -151,6 +153,8 @@ shared::ViewPush ViewConstants::exposed_push(const ViewState& view, double expos
 {
     shared::ViewPush constants = push(view, eyes_.observer_of(view).rest_frames[0].motion_from_cockpit);
     constants.boost = boost(view, exposure);
+    if (!reprojects(view))
+        constants.zenith.x = std::log2(constants.boost.z);
     return constants;
 }
 

@@ -35,6 +35,7 @@ public:
     shared::ViewPush star_push(const ViewState& view, std::optional<double> exposure) const;
 
 private:
+    bool reprojects(const ViewState& view) const; ///< its cube map is not drawn at its own eye
     bool needs_table(const Effects& on, StoredLight light) const; ///< at D = 1
     glm::vec4 boost(const ViewState& view, double exposure) const;
 

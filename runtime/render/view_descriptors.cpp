@@ -116,6 +116,7 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
     image(set, 18, !globes ? nothing_ : false_colours ? globes->false_light : globes->light, nearest_);
     image(set, 19, globes ? globes->rings : nothing_, globes ? globes->ring_sampler : nearest_);
     buffer(set, 20, range_);
+    image(set, 21, *response.picture.view ? response.picture : nothing_, finest_);
 }
 
 void ViewDescriptors::write_globes(ViewState& view)

@@ -39,7 +39,7 @@ private:
     Image nothing_, no_maps_; ///< for views without an image, or without an array of them
     Buffer no_globes_;
     // The content of one view's sets, collected anew for each view and frame.
-    std::array<vk::DescriptorImageInfo, 20> image_infos_;
+    std::array<vk::DescriptorImageInfo, 21> image_infos_;
     std::array<vk::DescriptorBufferInfo, 4> buffer_infos_;
     std::array<vk::BufferView, 2> texel_views_;
     std::size_t images_used_ = 0, buffers_used_ = 0;

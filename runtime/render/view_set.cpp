@@ -117,7 +117,7 @@ void ViewSet::apply_layout(LayoutParts parts)
     before.clear();
     pool_ = nullptr;
     std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 4 * count},
-        {vk::DescriptorType::eUniformTexelBuffer, 2 * count}, {vk::DescriptorType::eCombinedImageSampler, 19 * count}};
+        {vk::DescriptorType::eUniformTexelBuffer, 2 * count}, {vk::DescriptorType::eCombinedImageSampler, 20 * count}};
     pool_ = device_.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2 * count, sizes});
     name_object(device_, pool_, "views: descriptor pool");
     auto make_set = [&](const vk::raii::DescriptorSetLayout& set_layout) {

@@ -102,7 +102,7 @@ Quality small_quality(Quality quality, const Layout& layout)
 } // namespace
 
 WarmUp::WarmUp(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
-    const Shot& start, vk::Format format, bool meters, double bloom)
+    const Shot& start, vk::Format format, bool meters, double bloom, bool draws)
     : device_(device)
     , pipelines_(pipelines)
     , start_(start)
@@ -111,6 +111,7 @@ WarmUp::WarmUp(Device& device, Pipelines& pipelines, const GpuWorld& world, cons
     , frame_(device, pipelines, world, small_layout(layout), quality_)
     , commands_(std::move(device.device.allocateCommandBuffers({*device.pool, vk::CommandBufferLevel::ePrimary, 1}).front()))
     , done_(device.device.createFence({}))
+    , draws_(draws)
 {
     frame_.meter(meters);
     frame_.bloom(bloom);
@@ -168,7 +169,7 @@ bool WarmUp::step(const Panel* hud)
                 vk::AccessFlagBits2::eColorAttachmentWrite);
         frame_.draw(*commands_, shot, hud, targets_);
         commands_.end();
-        if (pipelines_.count() > before) {
+        if (draws_ && pipelines_.count() > before) {
             const vk::CommandBufferSubmitInfo buffer(*commands_);
             device_.queue.submit2(vk::SubmitInfo2({}, {}, buffer, {}), *done_);
             submitted_ = true;

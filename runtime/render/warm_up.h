@@ -12,9 +12,9 @@ namespace starbow {
 class WarmUp {
 public:
     /// start: a shot in the world, which is warmed up in this quality. format: of the outputs' targets. meters: the exposure
-    /// is automatic. Throws NoRoom and InputError.
+    /// is automatic. draws: false records the passes alone, which makes their pipelines. Throws NoRoom and InputError.
     WarmUp(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
-        const Shot& start, vk::Format format, bool meters, double bloom);
+        const Shot& start, vk::Format format, bool meters, double bloom, bool draws = true);
     ~WarmUp(); ///< waits for the device
 
     /// True if the device has drawn the picture before: step() will not wait.
@@ -49,7 +49,7 @@ private:
     std::vector<Target> targets_;
     vk::raii::CommandBuffer commands_ = nullptr;
     vk::raii::Fence done_;
-    bool submitted_ = false;
+    bool draws_, submitted_ = false;
 };
 
 } // namespace starbow

@@ -6,29 +6,44 @@ struct AberratedRay {
     real D;  // Doppler factor
 };
 
-// cos^2 (x) and sin^2 (y) of half the angle between n and the z axis, each without cancellation.
-FN rvec2 half_angle_squares(rvec3 n)
+// cos^2 (x) and sin^2 (y) of half the angle between v and the z axis, times v's length, each without cancellation.
+FN rvec2 half_angle_squares(rvec3 v, real length_)
 {
-    real across = n.x * n.x + n.y * n.y;
-    real large = real(0.5) * (real(1.0) + abs(n.z));
+    real across = v.x * v.x + v.y * v.y;
+    real large = real(0.5) * (length_ + abs(v.z));
     real small = real(0.25) * across / large;
-    return n.z >= real(0.0) ? rvec2(large, small) : rvec2(small, large);
+    return v.z >= real(0.0) ? rvec2(large, small) : rvec2(small, large);
 }
 
-// The world's direction and D of the camera's direction n. E = e^rapidity >= 1 and inverse_E = 1/E. tan(theta_w / 2) = E
-// tan(theta_c / 2), written in the half angles' squares: no acos, no gamma, and the result is unit by construction. At rest
-// (E = 1) it is the identity to the bit.
+// A direction towards the source in the other frame, of any length. Much needs no unit direction, and of D its logarithm alone.
+struct AberratedWay {
+    rvec3 way;
+    real length_; // that of the direction it was made from, over D
+};
+
+// The world's direction of the camera's direction v. E = e^rapidity >= 1 and inverse_E = 1/E. tan(theta_w / 2) = E tan(theta_c / 2),
+// written in the half angles' squares: no acos, no gamma, and no division but theirs.
+FN AberratedWay world_way_from_camera(rvec3 v, real length_, real E, real inverse_E)
+{
+    rvec2 h = half_angle_squares(v, length_);
+    real A = h.x * inverse_E;
+    real B = h.y * E;
+    AberratedWay there;
+    there.way = rvec3(v.x, v.y, A - B);
+    there.length_ = A + B;
+    return there;
+}
+
+// The world's unit direction and D of the camera's unit direction n. At rest (E = 1) it is the identity to the bit.
 FN AberratedRay world_from_camera(rvec3 n, real E, real inverse_E)
 {
     AberratedRay sight;
     sight.n = n;
     sight.D = real(1.0);
     if (E != real(1.0)) {
-        rvec2 h = half_angle_squares(n);
-        real A = h.x * inverse_E;
-        real B = h.y * E;
-        sight.D = real(1.0) / (A + B);
-        sight.n = rvec3(n.x * sight.D, n.y * sight.D, (A - B) * sight.D);
+        AberratedWay there = world_way_from_camera(n, real(1.0), E, inverse_E);
+        sight.D = real(1.0) / there.length_;
+        sight.n = there.way * sight.D;
     }
     return sight;
 }
@@ -38,7 +53,7 @@ FN AberratedRay camera_from_world(rvec3 n, real E, real inverse_E)
 {
     AberratedRay sight = world_from_camera(n, inverse_E, E);
     if (E != real(1.0)) {
-        rvec2 h = half_angle_squares(n);
+        rvec2 h = half_angle_squares(n, real(1.0));
         sight.D = h.x * E + h.y * inverse_E;
     }
     return sight;

@@ -4,6 +4,8 @@
 #include "shaders/shared_structs.h"
 #include "tests/support/planck.h"
 #include <cmath>
+#include <cstdio>
+#include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
 
 namespace colour_test {
@@ -34,6 +36,43 @@ glm::dvec3 black_body_xyz(double kelvin)
 }
 
 } // namespace
+
+// The rows for a device's sampler, interpolated here by hand, with the sampler's 8 bits for the place between two of them.
+TEST(Colour, TheSamplersRowsAreTheTables)
+{
+    const auto sunlit = [sun = sunlit_white()](double middle_nm) -> Spectrum {
+        return [=](double nm) { return sun(nm) * std::exp(-std::pow((nm - middle_nm) / 60, 2)); };
+    };
+    const Response response = response_of(spectral_basis({sunlit(450), sunlit(540), sunlit(620)}, 3, {}), eye());
+    const std::vector<glm::u16vec4> picture = picture_of(response);
+    ASSERT_EQ(picture.size(), std::size_t(3 * RESPONSE_ROWS));
+    const std::array<double, 3> coefficients{0.7, 0.2, 1.3};
+    double brightest = 0, worst = 0;
+    for (double row = 0; row < RESPONSE_ROWS - 1.01; row += 0.37) {
+        const double D = std::exp2(response.first_log2_D + row / response.per_octave);
+        const int i = int(row);
+        const double part = std::round(256 * (row - i)) / 256;
+        glm::dvec3 light(0);
+        double log2 = 0;
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec4 here(glm::unpackHalf4x16(glm::packUint4x16(picture[std::size_t(k * RESPONSE_ROWS + i)])));
+            const glm::dvec4 next(glm::unpackHalf4x16(glm::packUint4x16(picture[std::size_t(k * RESPONSE_ROWS + i + 1)])));
+            light += coefficients[std::size_t(k)] * glm::dvec3(glm::mix(here, next, part));
+            log2 += k < 2 ? glm::mix(here.w, next.w, part) : 0;
+        }
+        light *= std::exp2(log2);
+        const glm::dvec3 right = seen(response, coefficients, D);
+        const double most = std::max({std::abs(right.x), std::abs(right.y), std::abs(right.z)});
+        if (most < 1e-34) // what a float cannot hold
+            continue;
+        // Up to there the steepest step between rows is of two stops, of which half of a 256th is 0.3 %.
+        worst = std::max(worst, glm::length(light - right) / most);
+        EXPECT_LE(glm::length(light - right), 0.004 * most) << D;
+        brightest = std::max(brightest, most);
+    }
+    std::printf("  off by %.4f %% at most\n", 100 * worst);
+    EXPECT_GT(brightest, 0.1);
+}
 
 TEST(Colour, AtRestColoursAreUnchanged)
 {

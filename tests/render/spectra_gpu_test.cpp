@@ -405,4 +405,45 @@ TEST(Spectra, FalseColoursShowTheInfraredRedAndTheUltravioletBlue)
     }
 }
 
+// On a GPU the sampler interpolates the response's rows, whose light is therefore rounded to halves, and the place between
+// two rows to a 256th. Both together are less than one step of a picture's bytes, whatever D is.
+TEST(SampledResponse, ShowsTheSamePicture)
+{
+    const Layout layout = one_view(Equirectangular{}, {240, 120});
+    for (const auto& [name, level] :
+        {std::pair("avenue", SpectralLevel::colours), {"chart", SpectralLevel::middle}, {"chart", SpectralLevel::fine}}) {
+        const SceneFile scene
+            = load_scene_file(starbow::testing::source_dir() / "config/scenes" / (std::string(name) + ".json"));
+        std::vector<std::vector<std::uint8_t>> pictures[2];
+        for (const bool sampled : {false, true}) {
+            device().draws_as_gpu = sampled;
+            const GpuWorld world = upload(device(), pipelines(), load_world(scene), scene, {}, level);
+            device().draws_as_gpu = false;
+            OffscreenRenderer live = renderer(world, layout, false);
+            for (const double gamma : {1.3, 4.0, 100.0})
+                for (const double ev : {-4.0, 0.0, 6.0}) {
+                    Shot shot = scene.start;
+                    shot.u = {0, 0, -std::sqrt(gamma * gamma - 1)}, shot.exposure_ev = ev;
+                    pictures[sampled].push_back(live.picture(shot)[0]);
+                }
+        }
+        const auto made = pipelines().made();
+        EXPECT_TRUE(std::ranges::any_of(
+            made, [](const auto& one) { return describe(one.first).find("sampled_response") != std::string::npos; }));
+        int most = 0;
+        std::size_t differ = 0, all = 0, lit = 0;
+        for (std::size_t i = 0; i < pictures[0].size(); ++i)
+            for (std::size_t k = 0; k < pictures[0][i].size(); ++k) {
+                if (k % 4 == 3) // alpha
+                    continue;
+                const int off = std::abs(int(pictures[0][i][k]) - int(pictures[1][i][k]));
+                most = std::max(most, off), differ += off > 0, ++all, lit += pictures[0][i][k] > 0;
+            }
+        std::printf("  %s, level %d: %zu of %zu bytes differ, by %d at most\n", name, int(level), differ, all, most);
+        EXPECT_LE(most, 1);
+        EXPECT_LT(differ, all / 20);
+        EXPECT_GT(lit, all / 4);
+    }
+}
+
 } // namespace starbow::gpu_test::spectra_gpu_test

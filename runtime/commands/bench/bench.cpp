@@ -8,7 +8,9 @@
 #include "runtime/commands/commands.h"
 #include "runtime/commands/options/command_line.h"
 #include "runtime/commands/tools.h"
+#include "runtime/render/absent_card.h"
 #include "scaling.h"
+#include "shaders.h"
 #include "stars.h"
 #include "worlds.h"
 #include <memory>
@@ -21,7 +23,8 @@ struct BenchOptions {
     bool input = false;
     std::string json, layout, shot = "avenue-gamma4";
     bool stars = false, bodies = false, worlds = false, cubes = false, flight = false, scaling = false, governor = false;
-    std::string ladder = "ladder";
+    bool shaders = false;
+    std::string family = card_families.front(), pass, scene, against, ladder = "ladder";
     double frame_budget_ms = 0;
 };
 
@@ -39,6 +42,8 @@ int bench(const BenchOptions& options)
         bench_worlds(options.rounds);
     else if (options.flight)
         bench_flight();
+    else if (options.shaders)
+        bench_shaders(options.family, options.pass, options.scene, options.json, options.against);
     else if (options.scaling)
         bench_scaling(options.rounds);
     else if (options.cubes)
@@ -59,8 +64,9 @@ static void add_bench(Subcommand& app, std::function<int()>& chosen)
     command->add_option("--rounds", options->rounds, "How often each stage is timed")
         ->check(whole_number(3, 10000))
         ->capture_default_str();
-    command->add_option(
-        "--json", options->json, "Also time the dome, bodies, worlds and the flight, and write all figures to this file");
+    command->add_option("--json", options->json,
+        "Also time the dome, bodies, worlds and the flight, and write all figures to this file; with --shaders: each "
+        "pipeline's figures");
     command->add_option("--layout", options->layout,
         "Instead: this layout stage by stage, and displays compared with each other: kinds of projection, many viewports, "
         "stereo methods");
@@ -85,7 +91,17 @@ static void add_bench(Subcommand& app, std::function<int()>& chosen)
     command->add_option("--seconds", options->seconds, "With --input and --governor: how long")
         ->check(whole_number(1, 3600))
         ->capture_default_str();
-    command->footer("Examples:\n  starbow bench --json out/bench.json\n  starbow bench --input --seconds 60");
+    command->add_flag("--shaders", options->shaders,
+        "Instead: what each pass's shaders cost on a graphics card that need not be there, as its compiler (RADV) says");
+    command->add_option("--family", options->family, "With --shaders: the card's family")
+        ->check(one_of({card_families.begin(), card_families.end()}))
+        ->capture_default_str();
+    command->add_option("--pass", options->pass, "With --shaders: each variant of this pass, instead of all passes");
+    command->add_option("--scene", options->scene, "With --shaders: this world alone [all that are shipped]");
+    command->add_option(
+        "--against", options->against, "With --shaders: a file of an earlier --json; what changed is printed");
+    command->footer("Examples:\n  starbow bench --json out/bench.json\n  starbow bench --input --seconds 60\n"
+                    "  starbow bench --shaders --scene avenue --pass warp");
     command->callback([options, &chosen] { chosen = [options] { return bench(*options); }; });
 }
 

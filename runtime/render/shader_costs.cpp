@@ -1,0 +1,76 @@
+#include "shader_costs.h"
+#include "absent_card.h"
+#include "config/model/quality.h"
+#include "config/model/shipped.h"
+#include "render_context.h"
+#include "runtime/hud/hud.h"
+#include "warm_up.h"
+#include <algorithm>
+#include <chrono>
+
+namespace starbow {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Passes by name and description. Their SPIR-V is part of the program.
+using Reached = std::map<std::pair<std::string_view, std::string>, PipelinePass>;
+
+void add_reached(Reached& all, const std::filesystem::path& scene)
+{
+    Device::Options options = device_options(false);
+    options.as_gpu = true;
+    RenderContext context(scene, options);
+    const Panel panel = plate({64, 32}, 4);
+    for (const char* layout : {"desk", "dome", "stereo"})
+        for (const char* quality : {"balanced", "fine"}) {
+            WarmUp states(context.device, context.pipelines, context.world, load_layout(shipped_file("layouts", layout)),
+                within(context.device, load_quality(shipped_file("qualities", quality))), context.world.scene.start,
+                vk::Format::eB8G8R8A8Srgb, true, 0.1, false);
+            while (states.step(&panel)) { }
+        }
+    for (const auto& [pass, pipeline] : context.pipelines.made())
+        all.emplace(std::pair(std::string_view(pass.name), describe(pass)), pass);
+}
+
+ShaderCost cost_of(
+    const Device& card, const Reached::value_type& reached, vk::Pipeline pipeline, vk::ShaderStageFlagBits stage)
+{
+    std::string pass(reached.first.first.substr(0, reached.first.first.rfind(" pipeline")));
+    ShaderCost cost{
+        .pass = pass + (stage == vk::ShaderStageFlagBits::eVertex ? ", vertex" : ""), .variant = reached.first.second};
+    const std::map<std::string, double> figures = shader_statistics(card, pipeline, stage);
+    for (std::size_t i = 0; i < shader_figures.size(); ++i)
+        cost.figures[i] = figures.at(shader_figures[i].figure);
+    return cost;
+}
+
+} // namespace
+
+ShaderCosts shader_costs(const std::vector<std::filesystem::path>& scenes, const std::string& family,
+    const std::function<void(const std::string&, double)>& told)
+{
+    const Clock::time_point began = Clock::now();
+    const auto left = [&](std::size_t done, std::size_t of) {
+        const double s = std::chrono::duration<double>(Clock::now() - began).count();
+        return done == 0 ? -1 : s / double(done) * double(of - done);
+    };
+    Reached reached;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        told(scenes[i].stem(), left(i, scenes.size()));
+        add_reached(reached, scenes[i]);
+    }
+    told(std::to_string(reached.size()) + " pipelines for " + family, 0.05 * double(reached.size()));
+    const std::unique_ptr<Device> card = open_absent_card(family);
+    Pipelines pipelines(*card);
+    ShaderCosts all{.card = card->name(), .shaders = {}};
+    for (const auto& one : reached)
+        for (const auto stage : {vk::ShaderStageFlagBits::eFragment, vk::ShaderStageFlagBits::eVertex})
+            all.shaders.push_back(cost_of(*card, one, pipelines.find_or_make(one.second), stage));
+    std::ranges::stable_sort(all.shaders, [](const ShaderCost& a, const ShaderCost& b) {
+        return a.pass != b.pass ? a.pass < b.pass : a.figures[1] > b.figures[1];
+    });
+    return all;
+}
+
+} // namespace starbow
