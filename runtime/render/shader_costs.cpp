@@ -50,23 +50,27 @@ ShaderCost cost_of(
 ShaderCosts shader_costs(const std::vector<std::filesystem::path>& scenes, const std::string& family,
     const std::function<void(const std::string&, double)>& told)
 {
-    const Clock::time_point began = Clock::now();
-    const auto left = [&](std::size_t done, std::size_t of) {
+    Clock::time_point began = Clock::now();
+    const auto tell = [&](const std::string& next, std::size_t done, std::size_t of) {
         const double s = std::chrono::duration<double>(Clock::now() - began).count();
-        return done == 0 ? -1 : s / double(done) * double(of - done);
+        told(next, done == 0 ? -1 : s / double(done) * double(of - done));
     };
     Reached reached;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        told(scenes[i].stem(), left(i, scenes.size()));
+        tell(scenes[i].stem(), i, scenes.size());
         add_reached(reached, scenes[i]);
     }
-    told(std::to_string(reached.size()) + " pipelines for " + family, 0.05 * double(reached.size()));
     const std::unique_ptr<Device> card = open_absent_card(family);
     Pipelines pipelines(*card);
     ShaderCosts all{.card = card->name(), .shaders = {}};
-    for (const auto& one : reached)
+    began = Clock::now();
+    for (std::size_t done = 0; const auto& one : reached) {
+        if (done % 100 == 0)
+            tell("pipeline " + std::to_string(done + 1) + " of " + std::to_string(reached.size()), done, reached.size());
         for (const auto stage : {vk::ShaderStageFlagBits::eFragment, vk::ShaderStageFlagBits::eVertex})
             all.shaders.push_back(cost_of(*card, one, pipelines.find_or_make(one.second), stage));
+        ++done;
+    }
     std::ranges::stable_sort(all.shaders, [](const ShaderCost& a, const ShaderCost& b) {
         return a.pass != b.pass ? a.pass < b.pass : a.figures[1] > b.figures[1];
     });

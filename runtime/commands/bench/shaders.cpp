@@ -124,8 +124,12 @@ void bench_shaders(const std::string& family, const std::string& pass, const std
         print_variants(costs, pass);
     if (!against.empty())
         print_changes(now, before);
-    if (!json.empty())
-        write_whole(json, now.dump(1) + "\n");
+    if (json.empty())
+        return;
+    std::error_code ignored; // write_whole reports a folder that can't be made
+    if (json.has_parent_path())
+        std::filesystem::create_directories(json.parent_path(), ignored);
+    write_whole(json, now.dump(1) + "\n");
 }
 
 } // namespace starbow
