@@ -63,7 +63,7 @@
 
 // A view's pixels, and the light that they receive.
 #define MAP_CONSTANTS(CONSTANT) CONSTANT(30, bool, MAP, map, false) /* a direction map; otherwise linear in the pixel */
-#define SAMPLE_CONSTANTS(CONSTANT) CONSTANT(42, int, CUBE_SAMPLES, cube_samples, 1) /* of each texel; surfaces know it too */
+#define SAMPLE_CONSTANTS(CONSTANT) CONSTANT(42, int, CUBE_SAMPLES, cube_samples, 1) /* of each texel; also in the cube pass */
 #define RECEIVED_CONSTANTS(CONSTANT) \
     CONSTANT(31, bool, ABERRATION, aberration, false) \
     CONSTANT(32, bool, DOPPLER, doppler, false) \
@@ -101,7 +101,7 @@
     PANORAMA_CONSTANTS(CONSTANT) GLOBE_CONSTANTS(CONSTANT) RANGE_CONSTANTS(CONSTANT) PART_CONSTANTS(CONSTANT) \
     LINEAR_CONSTANTS(CONSTANT) RESPONSE_CONSTANTS(CONSTANT)
 
-// The device's sampler interpolates the response: slower where the processor draws, and within the half of a step of 8 bits.
+// The device's sampler interpolates the response: faster on a GPU, slower in software, and 0.3 % off at most.
 #define RESPONSE_CONSTANTS(CONSTANT) CONSTANT(53, bool, SAMPLED_RESPONSE, sampled_response, false)
 
 // Single passes.

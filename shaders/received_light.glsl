@@ -40,8 +40,8 @@ layout(set = 0, binding = 10) uniform Own { vec4 own_rows[MOST_OWN_ROWS]; };
 
 layout(set = 0, binding = 11) uniform sampler2D covered_atlas; // the covered part of a texel; the same times its depth
 layout(set = 0, binding = 12) uniform RestFrames { RestFrameConstants rest_frames; };
-layout(set = 0, binding = 21) uniform sampler2D response_picture; // the same rows as columns; see response.h's picture_of
 layout(set = 0, binding = 14) uniform sampler2D milky_way; // the sky's panorama
+layout(set = 0, binding = 21) uniform sampler2D response_picture; // SAMPLED_RESPONSE: the rows as columns (picture_of in response.h)
 
 // A rest frame's part of the cube map and the eye event there, in the cube map's axes.
 struct RestFrameView {
@@ -345,47 +345,53 @@ Shown shown_at(vec2 pixel, int channel, float coarser, out float pixel_angle)
     return Shown(n, AberratedRay(n, 1.0), 0.0, 0.0, vec3(0.0)); // nothing
 }
 
-// True where a view's light is that of one cube map by its own eye, and nothing else.
+// True where a view shows the light of one cube map, drawn at its own eye, and no other.
 #if defined ONE_REST_FRAME && !defined WITH_GLOBES
 const bool ONE_LIGHT = true;
 #else
 const bool ONE_LIGHT = false;
 #endif
 
-// The light of the ship's direction v, times 2^stops; square: v's length squared. For one light it needs no unit direction and no
-// D, but its logarithm.
+// The light along the ship's vector v, times 2^stops. square: of v's length. One light needs no unit direction, and of D its
+// logarithm alone.
 vec3 light_along(vec3 v, float square, float pixel_angle, float stops)
 {
     if (!ONE_LIGHT)
         return shown_along(v * inversesqrt(square), pixel_angle).light * exp2(stops);
-    vec3 way = v;
+    vec3 in_world = v;
     float D = 1.0, log2_D = 0.0, magnified = 1.0; // angles
     if (GALILEAN) {
         vec3 n = v * inversesqrt(square);
         AberratedRay sight = from_camera(n, view.boost.xy);
-        way = sight.n, D = sight.D, log2_D = log2(D), magnified = growth(sight, n, view.boost.xy);
+        in_world = sight.n, D = sight.D, log2_D = log2(D), magnified = growth(sight, n, view.boost.xy);
     } else if (ABERRATION || DOPPLER || HEADLIGHT) {
-        AberratedWay there = world_way_from_camera(v, sqrt(square), view.boost.x, view.boost.y);
-        way = there.way, magnified = D = sqrt(square) / there.length_, log2_D = 0.5 * log2(square) - log2(there.length_);
+        AberratedVector there = world_vector_from_camera(v, sqrt(square), view.boost.x, view.boost.y);
+        in_world = there.v, magnified = D = sqrt(square) / there.length_;
+        log2_D = 0.5 * log2(square) - log2(there.length_);
     }
     if (!ABERRATION)
-        way = v, magnified = 1.0;
-    Place place = place_of(in_cube_axes(way, world_rest_frame()), world_rest_frame());
+        in_world = v, magnified = 1.0;
+    Place place = place_of(in_cube_axes(in_world, world_rest_frame()), world_rest_frame());
     return light_seen(place, D, log2_D, magnified * pixel_angle, stops);
 }
 
-// The light of a pixel, times 2^stops: the mean along RAYS x RAYS evenly distributed directions. It is 0
-// where the angle is.
-vec3 light_at(vec2 pixel, int channel, float stops, out float pixel_angle)
+// The light along the middle of a pixel, times 2^stops; 0 where the angle is.
+vec3 light_at_middle(vec2 pixel, int channel, float stops, out float pixel_angle)
 {
     float square;
-    if (RAYS == 1) {
-        vec3 v = look_along(view.row0, view.row1, view.row2, pixel, channel, square, pixel_angle);
-        return !MAP || pixel_angle > 0.0 ? light_along(v, square, pixel_angle, stops) : vec3(0.0);
-    }
+    vec3 v = look_along(view.row0, view.row1, view.row2, pixel, channel, square, pixel_angle);
+    return !MAP || pixel_angle > 0.0 ? light_along(v, square, pixel_angle, stops) : vec3(0.0);
+}
+
+// The light of a pixel, times 2^stops: the mean along RAYS x RAYS evenly distributed directions; 0 where the angle is.
+vec3 light_at(vec2 pixel, int channel, float stops, out float pixel_angle)
+{
+    if (RAYS == 1)
+        return light_at_middle(pixel, channel, stops, pixel_angle);
     vec3 sum = vec3(0.0);
     for (int ray = 0; ray < RAYS * RAYS; ++ray) {
         vec2 offset = (vec2(ray % RAYS, ray / RAYS) + 0.5) / float(RAYS) - 0.5;
+        float square;
         vec3 v = look_within(view.row0, view.row1, view.row2, pixel, offset, channel, square, pixel_angle);
         if (MAP && pixel_angle == 0.0)
             return sum;

@@ -41,8 +41,8 @@ float reached_from_afar(ShadowEntry map, vec3 point, vec3 above)
 {
     vec3 from_eye = rows(map.u, map.v, map.depth, point), at = from_eye + vec3(map.u.w, map.v.w, map.depth.w);
     at += rows(map.u, map.v, map.depth, above);
-    vec3 own = rows(map.u, map.v, map.depth, place); // the texel's middle
-    vec3 x = dFdx(own), y = dFdy(own); // without the offset, beside which near steps would be rounded away
+    vec3 middle_ = rows(map.u, map.v, map.depth, place); // the texel's
+    vec3 x = dFdx(middle_), y = dFdy(middle_); // without the offset, beside which near steps would be rounded away
     float area = x.x * y.y - x.y * y.x;
     vec2 slope = vec2(x.z * y.y - y.z * x.y, y.z * x.x - x.z * y.x) / (abs(area) > 0.0 ? area : 1e-30);
     slope = clamp(slope, vec2(-map.map.z), vec2(map.map.z));
@@ -67,8 +67,8 @@ float reached_from_near(ShadowEntry map, vec3 point, vec3 above)
 {
     vec3 from_eye = rows(map.u, map.v, map.depth, point), way = from_eye + vec3(map.u.w, map.v.w, map.depth.w);
     way += rows(map.u, map.v, map.depth, above);
-    vec3 own = rows(map.u, map.v, map.depth, place); // the texel's middle
-    vec3 facet = cross(dFdx(own), dFdy(own)), size = abs(way);
+    vec3 middle_ = rows(map.u, map.v, map.depth, place); // the texel's
+    vec3 facet = cross(dFdx(middle_), dFdy(middle_)), size = abs(way);
     bool x = size.x >= size.y && size.x >= size.z, y = !x && size.y >= size.z;
     float along = x ? way.x : y ? way.y : way.z, sign_ = along < 0.0 ? -1.0 : 1.0;
     vec2 side = (x ? way.yz : y ? way.xz : way.xy) / max(abs(along), 1e-30);

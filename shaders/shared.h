@@ -191,18 +191,18 @@ struct MaterialEntry {
 struct ViewPush {
     vec4 row0, row1, row2; // planar: rows of direction_from_pixel; map: rows of the rotation from the map's axes. The star
                            // pass has the inverse of both. row0.w: planar: a pixel's step on the plane at distance 1;
-                           // row1.w: finest clip level; row2.w: D = 1 in the response, whose width is 1; in the star pass the light
-                           // at which glare ends, or 0: no glare
+                           // row1.w: finest clip level; row2.w: the place of D = 1 in the response, whose width is 1; in the
+                           // star pass the light at which glare ends, or 0: no glare
     vec4 boost; // E, 1/E, exposure gain / pre-exposure (star pass: pre-exposure), near plane
     vec4 origin; // viewport's top left corner in the target, pixels; z, w: 1 / the atlas's size in texels
     vec4 eye; // REPROJECT: the eye's place from the cube map's, world, the cube map's axes. TURNING: xyz: the cockpit's
               // up in motion axes; w: the eye's distance from the middle, to the right. SINGLE: TileEntry::texel_from_face
-    vec4 zenith; // x: TURNING: sine of the angle from the zenith at which the separation is full, without REPROJECT log2 of boost.z; y: REPROJECT: distance of
-                 // the nearest possible surface, scene units; z, w: the viewport's size, pixels; in the meter: pixels of the
-                 // viewport for each sample
+    vec4 zenith; // x: TURNING: sine of the angle from the zenith at which the separation is full; without REPROJECT: log2 of
+                 // boost.z. y: REPROJECT: distance of the nearest possible surface, scene units. z, w: the viewport's size,
+                 // pixels; in the meter: pixels of the viewport for each sample
     vec4 corner; // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere; for stars'
-                 // luminance samples: pixels across and down, and z: the number of stars for each sample. w: an octave of D in
-                 // the response, and otherwise z: twice log2 of the response's greatest D
+                 // luminance samples: pixels across and down, and z: the number of stars for each sample. Otherwise z: twice
+                 // log2 of the response's greatest D, w: the part of the response's width that an octave of D takes
 };
 
 // The warp pass's data of one rest frame for one view's eye, like ViewPush, which has the world's.

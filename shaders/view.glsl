@@ -20,8 +20,8 @@ vec4 unpacked(uvec2 texel)
     return vec4(n * inversesqrt(dot(n, n)), uintBitsToFloat((texel.x & 255u) << 16 | (texel.y & 255u) << 24));
 }
 
-// The direction in the axes that the rows lead to, of any length, its square, and the angle of a pixel in radians: 0 where nothing
-// is shown. channel: 0 except for maps with a direction for each colour.
+// The direction in the axes that the rows lead to, as a vector of any length; that length's square; and the angle of a pixel in
+// radians: 0 where nothing is shown. channel: 0 except for maps with a direction for each colour.
 vec3 look_along(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, int channel, out float square, out float pixel_angle)
 {
     vec3 from;

@@ -22,18 +22,15 @@ vec4 starlight_at(vec2 pixel) { return texelFetch(stars_picture, ivec2(pixel + v
 // Exposed. shows: false where the map shows nothing; there the light is 0.
 vec3 exposed_light(vec2 pixel, int channel, out bool shows)
 {
-    float pixel_angle;
+    float pixel_angle, stops = ONE_LIGHT ? view.zenith.x : 0.0; // of one light the exposure joins its other powers of two
 #if defined DARK
     vec3 light = vec3(0.0);
     if (MAP)
         look(view.row0, view.row1, view.row2, pixel, channel, pixel_angle);
 #elif defined ONE_RAY
-    float square;
-    vec3 v = look_along(view.row0, view.row1, view.row2, pixel, channel, square, pixel_angle), light = vec3(0.0);
-    if (!MAP || pixel_angle > 0.0)
-        light = light_along(v, square, pixel_angle, ONE_LIGHT ? view.zenith.x : 0.0);
+    vec3 light = light_at_middle(pixel, channel, stops, pixel_angle);
 #else
-    vec3 light = light_at(pixel, channel, ONE_LIGHT ? view.zenith.x : 0.0, pixel_angle);
+    vec3 light = light_at(pixel, channel, stops, pixel_angle);
 #endif
     shows = !MAP || pixel_angle > 0.0;
     if (WITH_SUN_GLARE && !RANGE && shows) {

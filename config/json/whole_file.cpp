@@ -146,6 +146,12 @@ void refuse_writing(const std::filesystem::path& file, int why)
         file.string(), "", std::string("can't be written (") + std::strerror(why) + "); a place for a file is right");
 }
 
+void make_folder_of(const std::filesystem::path& file)
+{
+    std::error_code ignored; // the write reports it
+    std::filesystem::create_directories(file.parent_path(), ignored);
+}
+
 void write_whole(const std::filesystem::path& file, std::span<const unsigned char> bytes, Durability lasting)
 {
     // Renaming would replace a device such as /dev/null, or a link, by a plain file.
@@ -161,8 +167,7 @@ void write_whole(const std::filesystem::path& file, std::span<const unsigned cha
 void write_own(const std::filesystem::path& file, std::span<const std::span<const unsigned char>> parts, Durability lasting,
     unsigned rights)
 {
-    std::error_code ignored; // writing reports it
-    std::filesystem::create_directories(file.parent_path(), ignored);
+    make_folder_of(file);
     replace(file, file, parts, lasting, rights);
 }
 

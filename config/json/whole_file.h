@@ -41,6 +41,9 @@ enum class Durability { of_the_system, fsync };
 /// Throws the InputError for a file that can't be written; why: an errno.
 [[noreturn]] void refuse_writing(const std::filesystem::path& file, int why);
 
+/// Makes the folder of a file that is about to be written. Where it can't be made, the write says so.
+void make_folder_of(const std::filesystem::path& file);
+
 /// Writes the whole file or nothing: no reader of the folder sees a part of it, and the old file stays until then. A link
 /// stays a link. Throws InputError.
 void write_whole(

@@ -48,9 +48,7 @@ int show(const ChallengeOptions& options)
     const Words words = words_in(options.language);
     if (!options.sheet.empty()) {
         const std::filesystem::path file = options.sheet;
-        std::error_code ignored;
-        if (file.has_parent_path())
-            std::filesystem::create_directories(file.parent_path(), ignored);
+        make_folder_of(file);
         write_whole(file, challenge_sheet(words));
         std::printf("%s\n", file.c_str());
         return 0;

@@ -78,9 +78,7 @@ int gather(const ClassOptions& options)
             [&](double part) { progress.show(log, (double(i) + part) / double(options.logs.size())); });
     }
     const std::string text = class_page(all, words);
-    std::error_code ignored;
-    if (page.has_parent_path())
-        std::filesystem::create_directories(page.parent_path(), ignored);
+    make_folder_of(page);
     write_whole(csv, all.csv);
     write_whole(page, text);
     long lines = 0;

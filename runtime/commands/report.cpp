@@ -124,9 +124,7 @@ int report(const ReportOptions& options)
     }
     const std::filesystem::path out = options.out.empty() ? std::filesystem::path("out") / ("report-" + date + ".html")
                                                           : std::filesystem::path(options.out);
-    std::error_code ignored;
-    if (out.has_parent_path())
-        std::filesystem::create_directories(out.parent_path(), ignored);
+    make_folder_of(out);
     write_whole(out, page_of(day, first, last, all));
     std::printf("%s: %llu visits, %llu pictures, %llu missed refreshes; the page is %s\n", date.c_str(),
         (unsigned long long)all.visits, (unsigned long long)all.frames(), (unsigned long long)all.missed_refreshes,

@@ -120,9 +120,7 @@ int inspect(const WarpOptions& options)
 
 void write_text(const std::filesystem::path& file, const std::string& bytes)
 {
-    std::error_code ignored; // writing reports it
-    if (file.has_parent_path())
-        std::filesystem::create_directories(file.parent_path(), ignored);
+    make_folder_of(file);
     write_whole(file, bytes);
     std::printf("%s\n", file.c_str());
 }

@@ -214,7 +214,7 @@ public:
 
     /// All pipelines that are kept.
     std::vector<std::pair<PipelinePass, vk::Pipeline>> made() const;
-    /// The pipeline of a pass that any device's made() has told.
+    /// The pipeline of a described pass. The description may come from another device's made().
     vk::Pipeline find_or_make(const PipelinePass& pass);
 
     const PipelineLayouts layouts;

@@ -4,14 +4,14 @@
 #include "config/model/shipped.h"
 #include "render_context.h"
 #include "runtime/hud/hud.h"
+#include "runtime/operation/progress.h"
 #include "warm_up.h"
 #include <algorithm>
-#include <chrono>
+#include <map>
+#include <string_view>
 
 namespace starbow {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Passes by name and description. Their SPIR-V is part of the program.
 using Reached = std::map<std::pair<std::string_view, std::string>, PipelinePass>;
@@ -47,32 +47,28 @@ ShaderCost cost_of(
 
 } // namespace
 
-ShaderCosts shader_costs(const std::vector<std::filesystem::path>& scenes, const std::string& family,
-    const std::function<void(const std::string&, double)>& told)
+ShaderCosts shader_costs(const std::vector<std::filesystem::path>& scenes, const std::string& family)
 {
-    Clock::time_point began = Clock::now();
-    const auto tell = [&](const std::string& next, std::size_t done, std::size_t of) {
-        const double s = std::chrono::duration<double>(Clock::now() - began).count();
-        told(next, done == 0 ? -1 : s / double(done) * double(of - done));
-    };
     Reached reached;
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-        tell(scenes[i].stem(), i, scenes.size());
-        add_reached(reached, scenes[i]);
+    {
+        Progress progress;
+        for (std::size_t i = 0; i < scenes.size(); ++i) {
+            progress.show("the pipelines of " + scenes[i].stem().string(), double(i) / double(scenes.size()));
+            add_reached(reached, scenes[i]);
+        }
     }
     const std::unique_ptr<Device> card = open_absent_card(family);
     Pipelines pipelines(*card);
     ShaderCosts all{.card = card->name(), .shaders = {}};
-    began = Clock::now();
+    Progress progress;
     for (std::size_t done = 0; const auto& one : reached) {
-        if (done % 100 == 0)
-            tell("pipeline " + std::to_string(done + 1) + " of " + std::to_string(reached.size()), done, reached.size());
+        progress.show(std::to_string(reached.size()) + " pipelines for " + family, double(done) / double(reached.size()));
         for (const auto stage : {vk::ShaderStageFlagBits::eFragment, vk::ShaderStageFlagBits::eVertex})
             all.shaders.push_back(cost_of(*card, one, pipelines.find_or_make(one.second), stage));
         ++done;
     }
     std::ranges::stable_sort(all.shaders, [](const ShaderCost& a, const ShaderCost& b) {
-        return a.pass != b.pass ? a.pass < b.pass : a.figures[1] > b.figures[1];
+        return a.pass != b.pass ? a.pass < b.pass : a.figures[cycles_figure] > b.figures[cycles_figure];
     });
     return all;
 }

@@ -1,10 +1,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
-#include <functional>
-#include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace starbow {
@@ -17,6 +14,7 @@ struct ShaderFigure {
 constexpr std::array<ShaderFigure, 7> shader_figures{
     {{"instructions", "Instructions"}, {"cycles", "Inverse Throughput"}, {"latency", "Latency"}, {"loads", "Loads"},
         {"VGPRs", "VGPRs"}, {"waves", "Subgroups per SIMD", true}, {"spills", "Spilled VGPRs"}}};
+constexpr std::size_t cycles_figure = 1;
 
 /// A shader of a pipeline and its figures, in the order of shader_figures. pass: such as "warp" or "warp, vertex". variant:
 /// its constants and its target.
@@ -25,17 +23,16 @@ struct ShaderCost {
     std::array<double, shader_figures.size()> figures{};
 };
 
-/// Figures on a card by the card's name.
+/// The costs on one card.
 struct ShaderCosts {
-    std::string card;
+    std::string card; ///< as its driver names it
     std::vector<ShaderCost> shaders; ///< by pass, then by cycles, the most first
 };
 
 /// The costs of all pipelines that these scenes reach in windows, domes and stereo pairs, in the qualities `balanced` and
 /// `fine`, at each speed and with each switch, on a card that need not be there: Mesa compiles for any of AMD's families.
-/// scenes: files. family: one of card_families. told: what is done next, and the seconds that are left, or less than 0.
-/// Afterwards this process finds no other device. Throws InputError and NoRoom.
-ShaderCosts shader_costs(const std::vector<std::filesystem::path>& scenes, const std::string& family,
-    const std::function<void(const std::string&, double)>& told);
+/// scenes: files. family: one of card_families. Shows its progress. Afterwards this process finds no other device. Throws
+/// InputError and NoRoom.
+ShaderCosts shader_costs(const std::vector<std::filesystem::path>& scenes, const std::string& family);
 
 } // namespace starbow

@@ -391,9 +391,12 @@ void ViewPasses::record_measured(
     }
     device_.begin_rendering(commands, {{}, {{0, 0}, target.camera.extent}, 1, 0, colours});
     for (const ViewState& view : views_.all)
-        if (drawn_on(view, output, layer, 0))
-            draw_warp(commands, view, pipelines_.measure(constants_.variant_shown(view)), constants_.exposed_push(view, 1),
-                view.geometry().corner, view.geometry().size);
+        if (drawn_on(view, output, layer, 0)) {
+            WarpVariant exact = constants_.variant_shown(view);
+            exact.sampled_response = false; // numbers do without the rounding of the device's sampler
+            draw_warp(commands, view, pipelines_.measure(exact), constants_.exposed_push(view, 1), view.geometry().corner,
+                view.geometry().size);
+        }
     device_.end_rendering(commands);
     for (const Image* image : {&target.light_and_depth, &target.camera, &target.world})
         transition(commands, *image, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,

@@ -15,21 +15,21 @@ FN rvec2 half_angle_squares(rvec3 v, real length_)
     return v.z >= real(0.0) ? rvec2(large, small) : rvec2(small, large);
 }
 
-// A direction towards the source in the other frame, of any length. Much needs no unit direction, and of D its logarithm alone.
-struct AberratedWay {
-    rvec3 way;
-    real length_; // that of the direction it was made from, over D
+// A vector of any length towards the source in the other frame. Much needs no unit direction, and of D its logarithm alone.
+struct AberratedVector {
+    rvec3 v;
+    real length_; // of v: the length of the camera's vector, over D
 };
 
-// The world's direction of the camera's direction v. E = e^rapidity >= 1 and inverse_E = 1/E. tan(theta_w / 2) = E tan(theta_c / 2),
-// written in the half angles' squares: no acos, no gamma, and no division but theirs.
-FN AberratedWay world_way_from_camera(rvec3 v, real length_, real E, real inverse_E)
+// The world's vector of the camera's vector v. E = e^rapidity >= 1 and inverse_E = 1/E. tan(theta_w / 2) = E tan(theta_c / 2),
+// written in the half angles' squares: no acos, no gamma, and one division.
+FN AberratedVector world_vector_from_camera(rvec3 v, real length_, real E, real inverse_E)
 {
     rvec2 h = half_angle_squares(v, length_);
     real A = h.x * inverse_E;
     real B = h.y * E;
-    AberratedWay there;
-    there.way = rvec3(v.x, v.y, A - B);
+    AberratedVector there;
+    there.v = rvec3(v.x, v.y, A - B);
     there.length_ = A + B;
     return there;
 }
@@ -41,9 +41,9 @@ FN AberratedRay world_from_camera(rvec3 n, real E, real inverse_E)
     sight.n = n;
     sight.D = real(1.0);
     if (E != real(1.0)) {
-        AberratedWay there = world_way_from_camera(n, real(1.0), E, inverse_E);
+        AberratedVector there = world_vector_from_camera(n, real(1.0), E, inverse_E);
         sight.D = real(1.0) / there.length_;
-        sight.n = there.way * sight.D;
+        sight.n = there.v * sight.D;
     }
     return sight;
 }

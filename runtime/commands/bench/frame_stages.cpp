@@ -184,9 +184,7 @@ void bench_frame_stages(int rounds, const std::filesystem::path& file)
         json["worlds"][shot + "_ms"] = ms;
     const FlightTimes flight = bench_flight();
     json["flight"] = {{"longest_ms", flight.longest_ms}, {"p50_ms", flight.p50_ms}, {"p99_ms", flight.p99_ms}};
-    std::error_code ignored; // write_whole reports a folder that can't be made
-    if (file.has_parent_path())
-        std::filesystem::create_directories(file.parent_path(), ignored);
+    make_folder_of(file);
     write_whole(file, json.dump(2) + "\n");
 }
 

@@ -3,10 +3,8 @@
 #include "config/json/whole_file.h"
 #include "config/model/shipped.h"
 #include "runtime/commands/median.h"
-#include "runtime/render/absent_card.h"
 #include "runtime/render/shader_costs.h"
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -70,8 +68,8 @@ void print_variants(const ShaderCosts& costs, const std::string& pass)
         }
 }
 
-/// What differs from the table of another time, pass by pass: variants that came and went, and the sum of cycles and the
-/// most registers of those in both.
+/// Prints the changes since an earlier table, pass by pass: the numbers of new and of missing variants, and of the variants
+/// in both tables the sum of cycles and the most registers.
 void print_changes(const Json& now, const Json& before)
 {
     std::printf("\n%-28s%9s%9s%22s%16s\n", "changed", "new", "gone", "cycles of the others", "most VGPRs");
@@ -110,10 +108,7 @@ void bench_shaders(const std::string& family, const std::string& pass, const std
     std::vector<std::filesystem::path> scenes;
     for (const std::string& name : scene.empty() ? shipped_names("scenes") : std::vector{scene})
         scenes.push_back(shipped_file("scenes", name));
-    const ShaderCosts costs = shader_costs(scenes, family, [](const std::string& next, double left_s) {
-        std::fprintf(stderr, "%s%s\n", next.c_str(),
-            left_s < 0 ? "" : (", about " + std::to_string(std::lround(left_s)) + " s left").c_str());
-    });
+    const ShaderCosts costs = shader_costs(scenes, family);
     const Json now = json_of(costs, family);
     if (!pass.empty() && !now["shaders"].contains(pass))
         throw InputError("--pass: " + pass + " is no pass; warp, or another of those that bench --shaders prints, is right");
@@ -126,9 +121,7 @@ void bench_shaders(const std::string& family, const std::string& pass, const std
         print_changes(now, before);
     if (json.empty())
         return;
-    std::error_code ignored; // write_whole reports a folder that can't be made
-    if (json.has_parent_path())
-        std::filesystem::create_directories(json.parent_path(), ignored);
+    make_folder_of(json);
     write_whole(json, now.dump(1) + "\n");
 }
 

@@ -54,9 +54,7 @@ SoakLog::SoakLog(const std::filesystem::path& file, const std::string& use, long
     std::istringstream stream(RegularFile(file).read_all(std::size_t(64) << 20));
     std::string line;
     if (!std::getline(stream, line)) {
-        std::error_code ignored;
-        if (file.has_parent_path())
-            std::filesystem::create_directories(file.parent_path(), ignored);
+        make_folder_of(file);
         write_whole(file, head + "\n" + columns + "\n");
         return;
     }
