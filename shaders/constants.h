@@ -47,8 +47,9 @@
     CONSTANT(17, bool, LAMPS_MOVE, lamps_move, false) \
     CONSTANT(18, bool, CONES, cones, false) /* some lamps shine in cones */ \
     CONSTANT(19, bool, UNSHIFTED, unshifted, false) /* light is stored as its colour at D = 1 */ \
-    CONSTANT(20, int, SHADOWS, shadows, 0) /* bits: lamps with maps; from the 8th on point lamps; the 16th daylight */ \
-    CONSTANT(21, bool, BLENDED, blended, false) /* over what is behind it, by its alpha */
+    CONSTANT(20, int, SHADOWS, shadows, 0) /* bits: lamps with maps; the 16th daylight */ \
+    CONSTANT(21, bool, BLENDED, blended, false) /* over what is behind it, by its alpha */ \
+    CONSTANT(26, int, POINT_LAMPS, point_lamps, 0) /* bits: point lamps; the others are directional */
 
 // Surfaces with gloss, or with maps that have coordinates of their own.
 #define GLOSS_CONSTANTS(CONSTANT) \

@@ -95,15 +95,13 @@ void add_white(inout vec4 coefficients[MAX_GROUPS + 1], int kind, vec3 light)
 }
 #endif
 
-// The retarded position of a lamp that may move, as seen from a surface. Its distance is the light's travel distance in
+// The retarded position of a point lamp that may move, as seen from a surface. Its distance is the light's travel distance in
 // the lamp's frame, its direction is in the surface's. It also yields D; 0: no light. towards: from the surface, at the
 // eye's time. The surface's light left `delay` earlier, and the lamp's light that it reflects left before that.
 vec3 lamp_seen(LightEntry lamp, vec3 towards, float delay, out float D)
 {
     D = lamp.kind.w;
     float u = lamp.way.w, own = 0.0;
-    if (lamp.place.w == 0.0)
-        return towards;
     if (u > 0.0) {
         RetardedPosition seen = retarded_position(towards - lamp.way.xyz * (u / lamp.shifts.w * delay), lamp.way.xyz, u, lamp.shifts.w);
         D = seen.D;
@@ -193,29 +191,29 @@ vec3 white_light[KEPT]; // that a surface reflects as white, by its kind
 #endif
 
 // Adds a lamp's light on a surface: to `light` by its kind, or to the coefficients at once where each lamp has a shift of
-// its own.
-void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], LightEntry lamp, vec3 point, SURFACE at,
-    vec3 base, float lit)
+// its own. is_point: a point lamp, otherwise a directional one.
+void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], LightEntry lamp, bool is_point, vec3 point,
+    SURFACE at, vec3 base, float lit)
 {
-    vec3 towards = lamp.place.xyz - lamp.place.w * point;
-    float D = 1.0;
-    if (LAMPS_MOVE)
+    vec3 towards = is_point ? lamp.place.xyz - point : lamp.place.xyz;
+    float D = lamp.kind.w;
+    if (LAMPS_MOVE && is_point)
         towards = lamp_seen(lamp, towards, -light_travel_offset(point), D);
     if (LAMPS_MOVE && towards == vec3(0.0))
         return;
-    float square = lamp.place.w == 0.0 ? 1.0 : dot(towards, towards);
+    float square = is_point ? dot(towards, towards) : 1.0;
     if (CONES)
         lit *= in_cone(lamp, towards * inversesqrt(square));
 #ifdef MAPPED
-    float distance_ = lamp.place.w == 0.0 ? 1.0 : sqrt(square);
+    float distance_ = is_point ? sqrt(square) : 1.0;
     float facing = dot(at.n, towards) / distance_;
     if (!(facing > 0.0))
         return;
-    vec3 falling = lit * (lamp.place.w == 0.0 ? lamp.radiance.rgb : lamp.radiance.rgb * (lamp.radiance.w / square));
+    vec3 falling = lit * (is_point ? lamp.radiance.rgb * (lamp.radiance.w / square) : lamp.radiance.rgb);
     vec2 parts = reflected_lamp(at, towards / distance_, facing);
     vec3 add = falling * parts.x, white = falling * parts.y;
 #else
-    float fall = lamp.place.w == 0.0 ? 1.0 : lamp.radiance.w / (square * sqrt(square));
+    float fall = is_point ? lamp.radiance.w / (square * sqrt(square)) : 1.0;
     vec3 add = lamp.radiance.rgb * (max(dot(at, towards), 0.0) * fall * lit);
 #endif
     int first = int(lamp.kind.x);
@@ -329,11 +327,13 @@ void main()
         light[0] = cube.ambient.rgb * daylight;
 #endif
         for (int i = 0; i < LIGHTS; ++i) {
+            bool is_point = (POINT_LAMPS & 1 << i) != 0;
             float lit = 1.0;
             if ((SHADOWS & 1 << i) != 0)
-                lit = (SHADOWS & 256 << i) != 0 ? reached_from_near(cube.shadows[i], lit_place, above)
-                                                    : reached_from_afar(cube.shadows[i], lit_place, above);
-            add_lamp(coefficients, light, cube.lights[int(cube.first.w) + i], lit_place, at, base.rgb, lit);
+                lit = is_point ? reached_from_near(cube.shadows[i], lit_place, above)
+                               : reached_from_afar(cube.shadows[i], lit_place, above);
+            add_lamp(coefficients, light, cube.lights[int(cube.first.w) + i], is_point, lit_place, at, base.rgb,
+                lit);
         }
     }
 

@@ -81,8 +81,8 @@ struct TileEntry {
 #define TILE_ENTRY(tile, cell) (MAX_REST_FRAMES * TILE_COUNT + 2 * (TILE_SUB_TILES * TILE_SUB_TILES * (tile) + (cell)))
 
 struct LightEntry {
-    vec4 place; // w = 0: unit direction towards the light; w = 1: its place from the eye, at the eye's time. The cube
-                // map's axes.
+    vec4 place; // of a point lamp: its place from the eye, at the eye's time; of a directional one: unit direction towards it.
+                // The cube map's axes.
     vec4 radiance; // Rec. 709 linear, pre-exposed; w: square of the distance at which it holds, 0 for a direction
     vec4 kind; // x: index of its spectrum, 0 for sunlight; for a moving lamp the first of `shifts`. y, z: begin and end of
                // its existence in its proper time, counted from that at `place`. w: D of a moving directional light

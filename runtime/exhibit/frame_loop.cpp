@@ -56,6 +56,7 @@ FrameLoop::FrameLoop(Session& session, RemoteControl& remote, Presenter& present
     if (session.options.trace) {
         device_.trace = session.options.trace;
         session.options.trace->name_thread("flight");
+        count_commands(device_);
     }
 }
 
@@ -145,6 +146,7 @@ bool FrameLoop::fly_frame()
         master_->send(shared(picture), session_.light.leapt());
     const Panel* panel = pictures_.set_up(picture, session_.words, *frame_);
     const std::size_t pipelines = context_.pipelines.count();
+    const CommandCounts before = command_counts();
     begin_commands();
     frame_->draw(*commands_[0], *commands_[1], picture.shot, panel, screens_.targets());
     end_commands();
@@ -159,6 +161,7 @@ bool FrameLoop::fly_frame()
     device_.device.resetFences(*done_);
     screens_.submit(*commands_[0], *commands_[1], *done_);
     submitted_ = true;
+    trace_calls(command_counts() - before);
     const Clock::time_point handed = Clock::now();
     if (master_) {
         if (master_->awaits_drawing())
@@ -342,6 +345,16 @@ void FrameLoop::trace_passes()
     for (const PassTime& pass : timer_.passes())
         device_.trace->gpu(
             pass.name, submitted_ns_ + std::int64_t(1e6 * pass.begin_ms), std::int64_t(1e6 * pass.duration_ms));
+}
+
+void FrameLoop::trace_calls(const CommandCounts& counts)
+{
+    if (!device_.trace)
+        return;
+    for (std::size_t kind = 0; kind < counts.of.size(); ++kind)
+        if (counts.of[kind] != traced_.of[kind])
+            device_.trace->counter(command_count_names[kind], double(counts.of[kind]));
+    traced_ = counts;
 }
 
 void FrameLoop::fit_outputs()

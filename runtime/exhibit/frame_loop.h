@@ -5,6 +5,7 @@
 #include "picture_setup.h"
 #include "presenter_window.h"
 #include "remote_control.h"
+#include "runtime/render/command_counts.h"
 #include "runtime/render/frame_timer.h"
 #include "runtime/render/live_copy.h"
 #include "runtime/render/render_context.h"
@@ -87,6 +88,8 @@ private:
     void end_commands();
     /// Adds the device's passes of the frame before to the trace.
     void trace_passes();
+    /// Adds what this frame asks of the device, where it differs from the frame before.
+    void trace_calls(const CommandCounts& counts);
     void gather_lacks();
 
     Session& session_;
@@ -119,6 +122,7 @@ private:
     bool submitted_ = false; ///< a frame since the last wait for the device
     double prepared_ms_ = 0; ///< the processor's part of the frame before
     std::int64_t submitted_ns_ = 0; ///< steady clock; of the frame before
+    CommandCounts traced_{}; ///< as they stand in the trace
     PresenterWindow presenter_window_;
 };
 

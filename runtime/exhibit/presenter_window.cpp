@@ -5,7 +5,6 @@
 #include "runtime/render/debug.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <cstring>
 #include <utility>
 
 namespace starbow {
@@ -180,7 +179,7 @@ void PresenterWindow::copy(const PresenterPicture& picture)
     // A window that has just changed its size shows what there is of the old picture.
     const glm::ivec2 shown = glm::min(picture.size, window_->size());
     grow(device_, texels_, picture.texels.size(), vk::BufferUsageFlagBits::eTransferSrc);
-    std::memcpy(texels_.mapped, picture.texels.data(), picture.texels.size());
+    write(texels_, std::as_bytes(std::span(picture.texels)));
     commands_[0].reset();
     commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     const vk::Image image = window_->picture();

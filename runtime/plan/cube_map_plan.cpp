@@ -447,8 +447,9 @@ std::span<const PlannedImage> of_first_tile(std::span<const PlannedImage> images
     return images.first(std::size_t(std::find_if(images.begin(), images.end(), other) - images.begin()));
 }
 
-void write_tiles(const CubeMapPlan& plan, shared::TileTable& table)
+std::size_t write_tiles(const CubeMapPlan& plan, shared::TileTable& table)
 {
+    std::size_t bytes = plan.finest_clip_level.size() * TILE_COUNT * (sizeof table.sub_tiles_from_face[0] + sizeof table.entries[0]);
     for (std::size_t tile = 0; tile < plan.finest_clip_level.size() * TILE_COUNT; ++tile) {
         table.sub_tiles_from_face[tile] = glm::vec4(0);
         table.entries[tile * SUB_TILE_COUNT] = {};
@@ -463,6 +464,7 @@ void write_tiles(const CubeMapPlan& plan, shared::TileTable& table)
             continue;
         }
         table.sub_tiles_from_face[tile] = glm::vec4(sub_tiles_from_face(images[0].tile));
+        bytes += SUB_TILE_COUNT * sizeof entries[0];
         std::array<bool, SUB_TILE_COUNT> written{};
         for (const PlannedImage& image : images) {
             const shared::TileEntry entry = tile_entry(image);
@@ -478,6 +480,7 @@ void write_tiles(const CubeMapPlan& plan, shared::TileTable& table)
                 entries[sub_tile]
                     = tile_entry(nearest_image(images, {sub_tile % TILE_SUB_TILES, sub_tile / TILE_SUB_TILES}));
     }
+    return bytes;
 }
 
 } // namespace starbow

@@ -77,8 +77,8 @@ glm::dmat4 clip_from_cube(const PlannedImage& image, double near_distance);
 /// list.
 std::span<const PlannedImage> of_first_tile(std::span<const PlannedImage> images);
 
-/// The warp shader's entries: of one image, and of the whole plan.
+/// The warp shader's entries: of one image, and of the whole plan; the second returns the bytes that it writes.
 shared::TileEntry tile_entry(const PlannedImage& image);
-void write_tiles(const CubeMapPlan& plan, shared::TileTable& table);
+std::size_t write_tiles(const CubeMapPlan& plan, shared::TileTable& table);
 
 } // namespace starbow

@@ -1,10 +1,10 @@
 #include "cube_uploads.h"
+#include "command_counts.h"
 #include "debug.h"
 #include "lamp.h"
 #include "runtime/world/clock.h"
 #include "runtime/world/shadows.h"
 #include <algorithm>
-#include <cstring>
 
 namespace starbow {
 
@@ -44,8 +44,7 @@ void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_even
 {
     auto put = [&](Buffer& buffer, const auto& data, vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer) {
         grow(device_, buffer, data.size() * sizeof(data[0]), usage);
-        if (!data.empty())
-            std::memcpy(buffer.mapped, data.data(), data.size() * sizeof(data[0]));
+        starbow::write(buffer, std::as_bytes(std::span(data)));
     };
     put(instances_, list.instances);
     put(visible_, list.visible);
@@ -56,7 +55,7 @@ void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_even
     for (std::size_t rest_frame = 0; rest_frame < eye_events.size(); ++rest_frame) {
         shared::CubeConstants constants = constants_of(eye_events[rest_frame], light, pre_exposure);
         constants.first = glm::vec4(list.first[rest_frame], times.size(), list.first_pose[rest_frame], 0);
-        std::memcpy(static_cast<std::byte*>(constants_.mapped) + rest_frame * stride_, &constants, sizeof constants);
+        starbow::write(constants_, std::as_bytes(std::span(&constants, 1)), rest_frame * stride_);
         const auto own = time_entries(world_.world, eye_events[rest_frame], world_.scene.seconds_per_time_unit());
         times.insert(times.end(), own.begin(), own.end());
     }
@@ -68,7 +67,7 @@ void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_even
 
 void CubeUploads::write_tile_table(const CubeMapPlan& plan)
 {
-    write_tiles(plan, *static_cast<shared::TileTable*>(tiles_.mapped));
+    count_upload(write_tiles(plan, *static_cast<shared::TileTable*>(tiles_.mapped)));
 }
 
 void CubeUploads::bind(vk::CommandBuffer commands, int rest_frame) const

@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+VULKAN_HPP_DEFAULT_DISPATCH_LOADER_DYNAMIC_STORAGE
+
 namespace starbow {
 namespace {
 
@@ -339,6 +341,8 @@ Device::Device(const Options& options)
         features13.pNext = &executables;
     }
     device = physical.createDevice({{}, queue_info, {}, extensions, &features, &features13}, allocator_of(options));
+    // The loader's functions, which serve every device.
+    VULKAN_HPP_DEFAULT_DISPATCHER.init(*instance, context.getDispatcher()->vkGetInstanceProcAddr);
     queue = device.getQueue(family, 0);
     pool = device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
     const std::vector<std::uint8_t> kept = kept_pipelines(properties);

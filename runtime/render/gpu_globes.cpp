@@ -1,11 +1,12 @@
 #include "gpu_globes.h"
+#include "config/json/reader.h"
 #include "config/model/angles.h"
 #include "debug.h"
 #include "pipelines.h"
 #include "shaders/physics/physics.h"
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <glm/gtc/packing.hpp>
 
 namespace starbow {
 namespace {
@@ -62,7 +63,7 @@ Image make_maps(Device& device, const std::vector<const Texture*>& maps, bool se
             size = glm::max(size / 2u, 1u);
         }
         Buffer staging = make_mapped_buffer(device, all.size(), vk::BufferUsageFlagBits::eTransferSrc);
-        std::memcpy(staging.mapped, all.data(), all.size());
+        write(staging, std::as_bytes(std::span(all)));
         device.now([&](vk::CommandBuffer commands) {
             if (layer == 0)
                 transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {},

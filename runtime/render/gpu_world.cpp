@@ -283,7 +283,7 @@ void put_shadows(Device& device, GpuWorld& gpu, World& world)
     for (std::size_t i = 0; i < world.lamps.size(); ++i)
         for (const ShadowMap& map : from->maps)
             if (map.light == world.lamps[i].light)
-                gpu.shadows |= 1 << i | (map.point ? 256 << i : 0);
+                gpu.shadows |= 1 << i;
     auto kept = std::make_shared<Shadows>();
     kept->size = from->size, kept->maps = from->maps;
     kept->cells = from->cells, kept->low = from->low, kept->cell = from->cell;
@@ -299,6 +299,9 @@ SurfaceVariant GpuWorld::variant(int material, StoredLight light) const
     variant.base_texture = m.base_texture >= 0, variant.emissive_texture = m.emissive_texture >= 0;
     variant.masked = m.alpha_cutoff > 0;
     variant.unlit = m.unlit, variant.lights = m.unlit ? 0 : int(world.lamps.size());
+    for (int i = 0; i < variant.lights; ++i)
+        variant.point_lamps
+            |= std::holds_alternative<PointLight>(scene.lights[world.lamps[std::size_t(i)].light]) ? 1 << i : 0;
     if (light != StoredLight::plain && m.mapped()) {
         variant.mapped = true, variant.matt = !m.gloss;
         variant.roughness_map = m.gloss && m.gloss->metallic_roughness.texture >= 0;

@@ -48,7 +48,7 @@ shared::LightEntry light_entry(const GpuWorld& world, const Lamp& lamp, const Ey
         entry.way = glm::vec4(eye_event.cube_from_frame * (relative.u / u), u);
         entry.shifts.w = float(gamma);
     }
-    entry.place = glm::vec4(eye_event.cube_from_frame * (place - eye_event.place), 1);
+    entry.place = glm::vec4(eye_event.cube_from_frame * (place - eye_event.place), 0);
     if (point.cone) {
         entry.cone = glm::vec4(cube_from_lamp * point.cone->axis, 0);
         const double outer = std::cos(point.cone->outer_rad), inner = std::cos(point.cone->inner_rad);

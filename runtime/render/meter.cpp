@@ -51,7 +51,7 @@ Meter::Meter(const Device& device, std::span<const glm::ivec2> views, std::uint3
         {meter_format, {std::uint32_t(size.x), std::uint32_t(size.y)},
             vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
     name_object(device, picture_, "meter: picture");
-    back_ = make_mapped_buffer(
+    back_ = make_read_buffer(
         device, std::size_t(size.x) * size.y * sizeof(LuminanceSample), vk::BufferUsageFlagBits::eTransferDst);
     name_object(device, back_, "meter: back");
 }

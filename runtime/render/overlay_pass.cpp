@@ -3,7 +3,6 @@
 #include "runtime/world/eye_event.h"
 #include "shaders/physics/physics.h"
 #include <cmath>
-#include <cstring>
 
 namespace starbow {
 namespace {
@@ -57,7 +56,7 @@ void OverlayPass::prepare(std::size_t view, const Content& content, const Measur
     for (int i = 0; i < 2; ++i)
         if (const auto& mark = content.marks[std::size_t(i)])
             c.marks[i] = glm::vec4(to_motion * ray_to(observer, *mark, world.world).ship, 1);
-    std::memcpy(static_cast<std::byte*>(constants_.mapped) + view * stride, &c, sizeof c);
+    write(constants_, std::as_bytes(std::span(&c, 1)), view * stride);
 }
 
 void OverlayPass::draw(vk::CommandBuffer commands, std::size_t view, const WarpVariant& variant, Overlay overlay,

@@ -1,6 +1,6 @@
 #include "panel_pass.h"
 #include "debug.h"
-#include <cstring>
+#include <utility>
 
 namespace starbow {
 namespace {
@@ -38,7 +38,7 @@ void PanelPass::prepare(const Panel& panel, const Place& place)
         name_object(device_, picture_, "panel pass: picture");
     }
     grow(device_, texels_, panel.texels.size(), vk::BufferUsageFlagBits::eTransferSrc);
-    std::memcpy(texels_.mapped, panel.texels.data(), panel.texels.size());
+    write(texels_, std::as_bytes(std::span(panel.texels)));
     new_ = true;
 }
 

@@ -1,4 +1,5 @@
 #include "pass_timer.h"
+#include "debug.h"
 #include "frame_timer.h"
 
 namespace starbow {
@@ -22,17 +23,17 @@ PassTimer::PassTimer(Device& device, OffscreenRenderer& renderer)
         targets_.push_back(renderer.target(output));
 }
 
-void PassTimer::draw(vk::CommandBuffer commands, const Shot& shot, const Panel* hud)
+void PassTimer::draw(vk::CommandBuffer world, vk::CommandBuffer outputs, const Shot& shot, const Panel* hud)
 {
     for (const Target& target : targets_)
-        make_writable(commands, target);
-    frame_.draw(commands, shot, hud, targets_);
+        make_writable(outputs, target);
+    frame_.draw(world, outputs, shot, hud, targets_);
 }
 
 double PassTimer::frame(const Shot& shot, const Panel* hud)
 {
     return milliseconds([&] {
-        device_.now([&](vk::CommandBuffer commands) { draw(commands, shot, hud); });
+        device_.now([&](vk::CommandBuffer commands) { draw(commands, commands, shot, hud); });
         (void)frame_.metered();
     });
 }
@@ -106,6 +107,24 @@ double PassTimer::metering()
     });
 }
 
+CommandCounts PassTimer::counts(const Shot& shot, const Panel* hud)
+{
+    const vk::raii::CommandBuffers parts(device_.device, {*device_.pool, vk::CommandBufferLevel::ePrimary, 2});
+    const vk::raii::Fence done = device_.device.createFence({});
+    name_object(device_, parts[0], "counted frame: world"), name_object(device_, parts[1], "counted frame: outputs");
+    name_object(device_, done, "counted frame");
+    for (const auto& part : parts)
+        part.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    const CommandCounts before = command_counts();
+    draw(*parts[0], *parts[1], shot, hud);
+    for (const auto& part : parts)
+        part.end();
+    submit_frame(device_, *parts[0], *parts[1], {}, {}, *done);
+    const CommandCounts counts = command_counts() - before;
+    device_.await(*done, "the end of a counted frame (fence)");
+    return counts;
+}
+
 double PassTimer::busy(const Shot& shot, int frames)
 {
     FrameTimer timer(device_);
@@ -113,7 +132,7 @@ double PassTimer::busy(const Shot& shot, int frames)
     device_.now([&](vk::CommandBuffer commands) {
         timer.begin(commands);
         for (int i = 0; i < frames; ++i)
-            processor += milliseconds([&] { draw(commands, shot, nullptr); });
+            processor += milliseconds([&] { draw(commands, commands, shot, nullptr); });
         timer.end(commands);
     });
     return processor + timer.ms().value_or(0);

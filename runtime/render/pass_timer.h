@@ -1,4 +1,5 @@
 #pragma once
+#include "command_counts.h"
 #include "offscreen.h"
 #include <chrono>
 
@@ -33,13 +34,16 @@ public:
     double finish(); ///< of all outputs
     double metering();
 
+    /// The calls of the whole frame, submitted as an exhibit's; count_commands() comes before it.
+    CommandCounts counts(const Shot& shot, const Panel* hud = nullptr);
+
     /// The time that the processor and then the device are busy with so many frames in one submission, without the wait for
     /// either.
     double busy(const Shot& shot, int frames);
 
 private:
     template <class Record> double each_output(Record&& record);
-    void draw(vk::CommandBuffer commands, const Shot& shot, const Panel* hud);
+    void draw(vk::CommandBuffer world, vk::CommandBuffer outputs, const Shot& shot, const Panel* hud);
 
     Device& device_;
     FrameRenderer& frame_;

@@ -36,7 +36,7 @@ Probe::Probe(const Device& device, const std::vector<ProbeRay>& rays, double pix
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
         name_object(device, image, "probe: image");
     }
-    back_ = make_mapped_buffer(
+    back_ = make_read_buffer(
         device, images_.size() * rays.size() * sizeof(glm::vec4), vk::BufferUsageFlagBits::eTransferDst);
     name_object(device, back_, "probe: back");
 }

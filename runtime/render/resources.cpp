@@ -1,6 +1,8 @@
 #include "resources.h"
+#include "command_counts.h"
 #include "config/json/error.h"
 #include "debug.h"
+#include "memory_type.h"
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -17,48 +19,42 @@ std::uint64_t next_serial()
     return ++last;
 }
 
-std::uint32_t memory_type(const Device& device, std::uint32_t allowed, vk::MemoryPropertyFlags wanted)
-{
-    for (std::uint32_t i = 0; i < device.memory.memoryTypeCount; ++i)
-        if ((allowed >> i & 1) && (device.memory.memoryTypes[i].propertyFlags & wanted) == wanted)
-            return i;
-    throw InputError(
-        "The GPU offers no memory of the kind " + vk::to_string(wanted) + ": use another GPU or a newer driver");
-}
-
 /// Gives a buffer or an image its memory, in an arena or by itself. Software devices report a lack of memory only at the
 /// binding.
 template <class Resource>
-vk::raii::DeviceMemory bind(
-    const Device& device, const Resource& resource, vk::MemoryPropertyFlags wanted, MemoryArena* arena = nullptr)
+vk::raii::DeviceMemory bind(const Device& device, const Resource& resource, MemoryUse use, MemoryArena* arena = nullptr)
 {
     const vk::MemoryRequirements needs = resource.getMemoryRequirements();
-    const std::uint32_t type = memory_type(device, needs.memoryTypeBits, wanted);
+    const auto type = memory_type(device.memory, needs.memoryTypeBits, use, needs.size);
+    if (!type)
+        throw InputError("The GPU offers no memory that the program needs: use another GPU or a newer driver");
     try {
         if (arena) {
-            const MemoryArena::Place place = arena->place(device, needs, type);
+            const MemoryArena::Place place = arena->place(device, needs, *type);
             resource.bindMemory(place.memory, place.offset);
             return nullptr;
         }
-        vk::raii::DeviceMemory memory = device.device.allocateMemory({needs.size, type});
+        vk::raii::DeviceMemory memory = device.device.allocateMemory({needs.size, *type});
         resource.bindMemory(*memory, 0);
         return memory;
     } catch (const vk::SystemError& error) {
         if (!lacks_memory(error))
             throw;
+        if (use == MemoryUse::written) // the device's own memory that the processor reaches may be small
+            return bind(device, resource, MemoryUse::staged, arena);
         throw NoRoom("The GPU has no " + std::to_string(needs.size >> 20)
             + " MiB in one piece: use smaller outputs, a smaller world, or a GPU with more memory");
     }
 }
 
-Buffer make_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage, vk::MemoryPropertyFlags wanted)
+Buffer make_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage, MemoryUse use)
 {
     Buffer buffer;
     buffer.serial = next_serial();
     buffer.size = std::max<vk::DeviceSize>(size, 16);
     buffer.buffer = device.device.createBuffer({{}, buffer.size, usage});
-    buffer.memory = bind(device, buffer.buffer, wanted);
-    if (wanted & vk::MemoryPropertyFlagBits::eHostVisible)
+    buffer.memory = bind(device, buffer.buffer, use);
+    if (use != MemoryUse::device)
         buffer.mapped = buffer.memory.mapMemory(0, buffer.size);
     std::array<char, 64> name;
     std::snprintf(name.data(), name.size(), "buffer of %llu bytes", static_cast<unsigned long long>(buffer.size));
@@ -85,31 +81,31 @@ bool lacks_memory(const vk::SystemError& error)
 
 Buffer make_mapped_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage)
 {
-    return make_buffer(
-        device, size, usage, vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent);
+    const bool staged = usage == vk::BufferUsageFlags(vk::BufferUsageFlagBits::eTransferSrc);
+    return make_buffer(device, size, usage, staged ? MemoryUse::staged : MemoryUse::written);
 }
 
 Buffer make_read_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage)
 {
-    constexpr auto mapped = vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
-    constexpr auto cached = mapped | vk::MemoryPropertyFlagBits::eHostCached;
-    for (std::uint32_t type = 0; type < device.memory.memoryTypeCount; ++type)
-        if ((device.memory.memoryTypes[type].propertyFlags & cached) == cached)
-            return make_buffer(device, size, usage, cached);
-    return make_buffer(device, size, usage, mapped);
+    return make_buffer(device, size, usage, MemoryUse::read);
 }
 
 Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::BufferUsageFlags usage)
 {
     Buffer staging = make_mapped_buffer(device, data.size(), vk::BufferUsageFlagBits::eTransferSrc);
-    if (!data.empty())
-        std::memcpy(staging.mapped, data.data(), data.size());
-    Buffer buffer = make_buffer(
-        device, data.size(), usage | vk::BufferUsageFlagBits::eTransferDst, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    write(staging, data);
+    Buffer buffer = make_buffer(device, data.size(), usage | vk::BufferUsageFlagBits::eTransferDst, MemoryUse::device);
     device.now([&](vk::CommandBuffer commands) {
         commands.copyBuffer(*staging.buffer, *buffer.buffer, vk::BufferCopy(0, 0, buffer.size));
     });
     return buffer;
+}
+
+void write(const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize at)
+{
+    if (!data.empty())
+        std::memcpy(static_cast<std::byte*>(buffer.mapped) + at, data.data(), data.size());
+    count_upload(data.size());
 }
 
 void grow(const Device& device, Buffer& buffer, vk::DeviceSize size, vk::BufferUsageFlags usage)
@@ -138,7 +134,7 @@ Image make_image(const Device& device, const ImageSpec& spec)
         vk::ImageTiling::eOptimal, spec.usage);
     image.image = device.device.createImage(info);
     image.bytes = image.image.getMemoryRequirements().size;
-    image.memory = bind(device, image.image, vk::MemoryPropertyFlagBits::eDeviceLocal, spec.arena);
+    image.memory = bind(device, image.image, MemoryUse::device, spec.arena);
     image.view = device.device.createImageView({{}, *image.image,
         spec.cube        ? vk::ImageViewType::eCube
             : spec.array ? vk::ImageViewType::e2DArray
@@ -294,7 +290,7 @@ void set_area(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size)
 std::vector<std::byte> read_back(Device& device, const Image& image, std::uint32_t bytes_per_texel)
 {
     std::size_t size = std::size_t(image.extent.width) * image.extent.height * bytes_per_texel;
-    Buffer staging = make_mapped_buffer(device, size, vk::BufferUsageFlagBits::eTransferDst);
+    const Buffer staging = make_read_buffer(device, size, vk::BufferUsageFlagBits::eTransferDst);
     device.now([&](vk::CommandBuffer commands) {
         commands.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *staging.buffer,
             vk::BufferImageCopy(

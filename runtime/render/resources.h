@@ -33,7 +33,7 @@ struct Buffer {
     vk::raii::DeviceMemory memory = nullptr;
     vk::raii::Buffer buffer = nullptr;
     vk::DeviceSize size = 0;
-    void* mapped = nullptr; ///< null for device-local ones
+    void* mapped = nullptr; ///< null where the device alone has it; of a mapped buffer written alone, as reads may be slow
     std::uint64_t serial = 0; ///< unique for each buffer and image: Vulkan may reuse a handle
 };
 
@@ -48,12 +48,15 @@ struct Image {
     std::uint64_t serial = 0; ///< unique, as Buffer's
 };
 
-/// A host-visible, mapped buffer that the processor writes each frame or reads back.
+/// A mapped buffer that the processor writes and never reads, in each frame, or, as a source of transfers alone, once.
 Buffer make_mapped_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage);
-/// The same for reading back: in the processor's cache where the device has such memory, else reads would be slow.
+/// A mapped buffer that the processor reads.
 Buffer make_read_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage);
 /// A device-local buffer, filled once.
 Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::BufferUsageFlags usage);
+
+/// Copies data into a mapped buffer, from the byte `at` on.
+void write(const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize at = 0);
 
 /// Replaces a mapped buffer that is too small by one of 1.5 times the size.
 void grow(const Device& device, Buffer& buffer, vk::DeviceSize size, vk::BufferUsageFlags usage);

@@ -28,16 +28,19 @@ void SeenStars::follow(const EyeEvent& event, bool exactly)
         return;
     // The stars' places are those from the Sun.
     const glm::dvec3 eye = event.place + (globes_ ? globes_->from_sun(event.time) : glm::dvec3(0));
-    auto* all = static_cast<shared::StarEntry*>(entries_.mapped);
-    if (globes_)
-        globes_->as_stars(globes_->seen(event), {all + field_.stars.size(), globes().count});
+    if (globes_) {
+        seen_globes_.resize(globes().count);
+        globes_->as_stars(globes_->seen(event), seen_globes_);
+        write(entries_, std::as_bytes(std::span(seen_globes_)), field_.stars.size() * sizeof(shared::StarEntry));
+    }
     const double reach = exactly ? 0 : least_change * std::max(nearest_, field_.least_distance);
     if (eye_ && glm::distance(eye, *eye_) <= reach)
         return;
-    const std::span entries(all, field_.stars.size());
     eye_ = eye;
-    nearest_ = stars_from(field_, eye, entries);
-    patches_ = star_patches(entries, std::move(patches_));
+    stars_.resize(field_.stars.size());
+    nearest_ = stars_from(field_, eye, stars_);
+    write(entries_, std::as_bytes(std::span(stars_)));
+    patches_ = star_patches(stars_, std::move(patches_));
 }
 
 } // namespace starbow

@@ -25,6 +25,7 @@ private:
     const GpuGlobes* globes_; ///< null: none
     std::optional<glm::dvec3> eye_; ///< for which the entries are; nullopt: none yet
     double nearest_ = 0; ///< distance of the nearest star, scene units
+    std::vector<shared::StarEntry> stars_, seen_globes_; ///< as in `entries_`, which is slow to read
     Buffer entries_;
     std::vector<StarPatch> patches_;
 };

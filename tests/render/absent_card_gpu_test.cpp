@@ -22,7 +22,7 @@ void make_surfaces(Pipelines& pipelines)
             plain.topology = topology, plain.mapped = mapped;
             SurfaceVariant lit = plain;
             lit.base_texture = lit.emissive_texture = lit.masked = lit.cones = true;
-            lit.lights = 8, lit.shadows = 1 << 16 | 1 << 8 | 1;
+            lit.lights = 8, lit.shadows = 1 << 16 | 1, lit.point_lamps = 0x55;
             lit.roughness_map = lit.normal_map = lit.occlusion_map = mapped;
             SurfaceVariant moving = lit;
             moving.several_rest_frames = moving.clock = moving.finite_existence = moving.blink = moving.moves

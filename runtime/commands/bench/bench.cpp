@@ -1,4 +1,5 @@
 #include "bodies.h"
+#include "counts.h"
 #include "cubes.h"
 #include "flight.h"
 #include "frame_stages.h"
@@ -23,7 +24,7 @@ struct BenchOptions {
     bool input = false;
     std::string json, layout, shot = "avenue-gamma4";
     bool stars = false, bodies = false, worlds = false, cubes = false, flight = false, scaling = false, governor = false;
-    bool shaders = false;
+    bool shaders = false, counts = false;
     std::string family = card_families.front(), pass, scene, against, ladder = "ladder";
     double frame_budget_ms = 0;
 };
@@ -44,6 +45,8 @@ int bench(const BenchOptions& options)
         bench_flight();
     else if (options.shaders)
         bench_shaders(options.family, options.pass, options.scene, options.json, options.against);
+    else if (options.counts)
+        bench_counts();
     else if (options.scaling)
         bench_scaling(options.rounds);
     else if (options.cubes)
@@ -91,6 +94,8 @@ static void add_bench(Subcommand& app, std::function<int()>& chosen)
     command->add_option("--seconds", options->seconds, "With --input and --governor: how long")
         ->check(whole_number(1, 3600))
         ->capture_default_str();
+    command->add_flag("--counts", options->counts,
+        "Instead: how many passes, draws, binds and other calls a frame makes, by world, layout and speed");
     command->add_flag("--shaders", options->shaders,
         "Instead: what each pass's shaders cost on a graphics card that need not be there, as its compiler (RADV) says");
     command->add_option("--family", options->family, "With --shaders: the card's family")
