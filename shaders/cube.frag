@@ -18,15 +18,17 @@ SAMPLE_CONSTANTS(DECLARED)
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // Spectra::columns
 layout(set = 0, binding = 4) readonly buffer Times { TimeEntry times[]; };
+layout(set = 0, binding = 9) readonly buffer Surfaces { SurfaceEntry surfaces[]; };
 layout(set = 1, binding = 0) uniform sampler2D base_texture;
 layout(set = 1, binding = 1) uniform sampler2D emissive_texture;
-layout(push_constant) uniform Push { CubePush push; };
 
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 colour;
-layout(location = 4) flat in uint instance; // for CLOCK, FINITE_EXISTENCE, BLINK
+layout(location = 4) flat in uvec3 draw; // instance, and the members of DrawEntry
+layout(location = 7) flat in vec4 emissive; // SurfaceEntry's members
+layout(location = 8) flat in vec4 beyond;
 layout(location = 0) out vec4 coefficients0;
 layout(location = 1) out vec4 coefficients1;
 layout(location = 2) out vec4 coefficients2;
@@ -57,26 +59,25 @@ float mean(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
 // The reflected light in the ultraviolet and the infrared.
 vec2 beyond_visible(vec3 lit, vec3 light)
 {
-    return vec2(push.beyond.x < 0.0 ? mean(lit) : push.beyond.x * mean(light),
-        push.beyond.y < 0.0 ? mean(lit) : push.beyond.y * mean(light));
+    return vec2(beyond.x < 0.0 ? mean(lit) : beyond.x * mean(light), beyond.y < 0.0 ? mean(lit) : beyond.y * mean(light));
 }
 
-// Adds the coefficients of reflected light of one kind, by a set's columns. lit: the colour; beyond: ultraviolet and infrared.
-void add_columns(inout vec4 coefficients[MAX_GROUPS + 1], int set, int kind, vec3 lit, vec2 beyond)
+// Adds the coefficients of reflected light of one kind, by a set's columns. lit: the colour; invisible: ultraviolet and infrared.
+void add_columns(inout vec4 coefficients[MAX_GROUPS + 1], int set, int kind, vec3 lit, vec2 invisible)
 {
     int at = (UNSHIFTED ? OWN : 0) + (set * KINDS + kind) * (GROUPS * 5);
     for (int group = 0; group < GROUPS; ++group) {
         int column = at + group * 5;
         coefficients[group] += columns[column] * lit.r + columns[column + 1] * lit.g + columns[column + 2] * lit.b
-            + columns[column + 3] * beyond.x + columns[column + 4] * beyond.y;
+            + columns[column + 3] * invisible.x + columns[column + 4] * invisible.y;
     }
 }
 // Adds a surface's coefficients under a light of one kind, and those of the sunlit colour that it emits.
 void add_lit(inout vec4 coefficients[MAX_GROUPS + 1], int kind, vec3 base, vec3 light, vec3 emitted)
 {
     vec3 lit = base * light;
-    vec2 beyond = beyond_visible(lit, light) + mean(emitted);
-    add_columns(coefficients, int(push.beyond.z), kind, lit + emitted, beyond);
+    vec2 invisible = beyond_visible(lit, light) + mean(emitted);
+    add_columns(coefficients, int(beyond.z), kind, lit + emitted, invisible);
 }
 
 #ifdef MAPPED
@@ -137,7 +138,7 @@ void apply_time(inout vec4 base, out float ink, out float lit_part)
     lit_part = 1.0;
     if (!CLOCK && !FINITE_EXISTENCE && !BLINK)
         return;
-    TimeEntry time = times[instance - int(cube.first.x) + int(cube.first.y)];
+    TimeEntry time = times[draw.x - uint(cube.first.x) + uint(cube.first.y)];
     float offset_s = travel_offset_from(place, time.middle);
     float late = light_travel_offset(place);
     vec2 step_ = vec2(dFdx(late), dFdy(late));
@@ -173,7 +174,7 @@ vec2 lit_offset()
 
 vec3 emitted_light(float ink, float lit_part)
 {
-    vec3 emitted = push.emissive.rgb;
+    vec3 emitted = emissive.rgb;
     if (EMISSIVE_TEXTURE)
         emitted *= texture(emissive_texture, emissive_uv()).rgb;
     if (CLOCK)
@@ -249,9 +250,9 @@ void add_reflected(inout vec4 coefficients[MAX_GROUPS + 1], vec3 light[KEPT], ve
     vec3 lit = base * light[0];
     coefficients[0].rgb = lit + emitted;
     if (REFLECTED == 5) {
-        vec2 beyond = beyond_visible(lit, light[0]) + mean(emitted);
-        add_to(coefficients, 3, beyond.x);
-        add_to(coefficients, 4, beyond.y);
+        vec2 invisible = beyond_visible(lit, light[0]) + mean(emitted);
+        add_to(coefficients, 3, invisible.x);
+        add_to(coefficients, 4, invisible.y);
     }
 }
 
@@ -289,7 +290,7 @@ void main()
         base *= texture(base_texture, uv);
     float ink, lit_part;
     apply_time(base, ink, lit_part);
-    if (MASKED && (base.a < push.emissive.w) != BLENDED)
+    if (MASKED && (base.a < emissive.w) != BLENDED)
         discard;
     vec3 emitted = emitted_light(ink, lit_part);
 
@@ -313,7 +314,7 @@ void main()
         }
         vec3 n = normalize(gl_FrontFacing ? lit_normal : -lit_normal);
         float daylight = SHADOWS == 0 ? 1.0 : ambient_part(lit_place, n);
-        vec3 above = push.surface.y * n; // to a place that is on the lit side of the full surface, or on it
+        vec3 above = uintBitsToFloat(draw.z) * n; // to a place that is on the lit side of the full surface, or on it
 #ifdef MAPPED
         Glossy at = glossy_at(lit_place, n, gl_FrontFacing);
         at.occlusion *= daylight;
@@ -337,14 +338,14 @@ void main()
         }
     }
 
-    bool own_emission = OWN > 0 && push.beyond.w >= 0.0;
+    bool own_emission = OWN > 0 && beyond.w >= 0.0;
     add_reflected(coefficients, light, base.rgb, own_emission ? vec3(0.0) : emitted);
 #ifdef MAPPED
     for (int kind = 0; kind < KEPT && !UNLIT && !MATT; ++kind)
         add_white(coefficients, kind, white_light[kind]);
 #endif
     for (int i = 0; i < OWN; ++i) {
-        float own = push.own[i] + (int(push.beyond.w) == i ? dot(luminance, emitted) : 0.0);
+        float own = surfaces[draw.y].own[i] + (int(beyond.w) == i ? dot(luminance, emitted) : 0.0);
         if (UNSHIFTED)
             coefficients[0] += columns[i] * own;
         else

@@ -13,6 +13,8 @@ layout(set = 0, binding = 1) readonly buffer Instances { InstanceEntry instances
 layout(set = 0, binding = 2) readonly buffer Visible { uint visible[]; };
 layout(set = 0, binding = 4) readonly buffer Times { TimeEntry times[]; };
 layout(set = 0, binding = 7) readonly buffer Deforming { vec4 deforming[]; }; // World::deforming
+layout(set = 0, binding = 8) readonly buffer Draws { DrawEntry draws[]; };
+layout(set = 0, binding = 9) readonly buffer Surfaces { SurfaceEntry surfaces[]; };
 layout(push_constant) uniform Push { CubePush push; };
 
 layout(location = 0) in vec3 position;
@@ -31,7 +33,9 @@ layout(location = 0) out vec3 out_place;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec2 out_uv;
 layout(location = 3) out vec4 out_colour;
-layout(location = 4) flat out uint out_instance;
+layout(location = 4) flat out uvec3 out_draw; // instance, and the members of DrawEntry
+layout(location = 7) flat out vec4 out_emissive; // SurfaceEntry's members
+layout(location = 8) flat out vec4 out_beyond;
 
 #include "light_travel_offset.glsl"
 
@@ -130,9 +134,11 @@ void main()
 #endif
     out_place = place.xyz;
     out_uv = uv;
-    out_colour = colour * push.base_colour;
-    if (CLOCK || FINITE_EXISTENCE || BLINK)
-        out_instance = visible[gl_InstanceIndex];
+    DrawEntry entry = draws[int(push.surface.y) + gl_DrawID];
+    out_draw = uvec3(visible[gl_InstanceIndex], entry.material, floatBitsToUint(entry.apart));
+    out_colour = colour * surfaces[entry.material].base_colour;
+    out_emissive = surfaces[entry.material].emissive;
+    out_beyond = surfaces[entry.material].beyond;
     gl_Position = vec4(dot(push.clip_x, place), dot(push.clip_y, place), push.surface.x, dot(push.clip_w, place));
     gl_PointSize = 1.0; // always: Mesa 22.3's driver for AMD's cards crashes where a size that no point has is left out
     if (TOPOLOGY == 2) { // points

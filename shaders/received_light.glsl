@@ -388,13 +388,19 @@ vec3 light_at(vec2 pixel, int channel, float stops, out float pixel_angle)
 {
     if (RAYS == 1)
         return light_at_middle(pixel, channel, stops, pixel_angle);
+    MapAround map;
+    if (MAP) {
+        map = map_around(pixel, channel);
+        pixel_angle = map.here.w;
+        if (pixel_angle == 0.0)
+            return vec3(0.0);
+    }
     vec3 sum = vec3(0.0);
     for (int ray = 0; ray < RAYS * RAYS; ++ray) {
         vec2 offset = (vec2(ray % RAYS, ray / RAYS) + 0.5) / float(RAYS) - 0.5;
         float square;
-        vec3 v = look_within(view.row0, view.row1, view.row2, pixel, offset, channel, square, pixel_angle);
-        if (MAP && pixel_angle == 0.0)
-            return sum;
+        vec3 v = MAP ? look_within(view.row0, view.row1, view.row2, map, offset, square)
+                     : look_along(view.row0, view.row1, view.row2, pixel + offset, channel, square, pixel_angle);
         sum += light_along(v, square, pixel_angle / float(RAYS), stops);
     }
     return sum / float(RAYS * RAYS);

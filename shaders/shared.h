@@ -163,11 +163,25 @@ struct TimeEntry {
 
 // Push constants of the cube pass.
 struct CubePush {
-    vec4 clip_x, clip_y, clip_w; // rows of clip_from_cube. In the sky: the directions of the image's low corner, and from
-                                 // there to its other two
-    vec4 surface; // x: z in clip space of all vertices, as z is reversed and the far plane infinite; y: how far
-                  // the drawn surface may lie below the full one, scene units; z: texels of a pixel of the ship in the
-                  // middle of the face
+    vec4 clip_x, clip_y, clip_w; // rows of clip_from_cube
+    vec4 surface; // x: z in clip space of all vertices, as z is reversed and the far plane infinite; y: index of the first
+                  // draw's DrawEntry; z: texels of a pixel of the ship in the middle of the face
+};
+
+// The sky of one image of the plan.
+struct SkyImage {
+    vec4 corner, along_a, along_b; // directions: of its low corner, and from there to the two next to it
+    vec4 place; // in the clip space of the area that all images take: xy: the low corner, zw: from there to the opposite one
+};
+
+// One draw into one image of the plan.
+struct DrawEntry {
+    uint material; // index of its SurfaceEntry
+    float apart; // how far the drawn surface may lie below the full one, scene units
+};
+
+// The light of a material's surfaces.
+struct SurfaceEntry {
     vec4 base_colour;
     vec4 emissive; // pre-exposed; w: alpha cut-off
     vec4 beyond; // reflectance in the ultraviolet and the infrared, below 0: the colour's mean; z: index of the matrices;

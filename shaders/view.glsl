@@ -51,31 +51,41 @@ vec3 look(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, int channel, out float pi
     return MAP ? v : v * (1.0 / sqrt(square));
 }
 
-// The change of a map's direction to the next pixel along `way`; where the map ends, the change in the opposite direction.
-vec3 map_step(vec3 here, ivec2 pixel, ivec2 way, int channel)
+// A map's direction and pixel angle; all 0 beside it.
+vec4 map_at(ivec2 pixel, int channel)
 {
-    ivec2 size = textureSize(direction_map, 0).xy;
-    for (int side = 1; side >= -1; side -= 2) {
-        ivec2 at = pixel + side * way;
-        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size)))
-            continue;
-        vec4 there = unpacked(texelFetch(direction_map, ivec3(at, channel), 0).rg);
-        if (there.w > 0.0)
-            return (there.xyz - here) * float(side);
-    }
-    return vec3(0.0);
+    ivec2 last = textureSize(direction_map, 0).xy - 1, inside = clamp(pixel, ivec2(0), last);
+    vec4 texel = unpacked(texelFetch(direction_map, ivec3(inside, channel), 0).rg);
+    return inside == pixel ? texel : vec4(0.0);
 }
 
-// The same as look_along, at an offset from the pixel's centre of at most half a pixel. A map's directions are linear to its
-// neighbours.
-vec3 look_within(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, vec2 offset, int channel, out float square, out float pixel_angle)
+// The change of a map's direction from a pixel to the next one; where the map ends, from the one on the other side.
+vec3 map_step(vec3 here, vec4 next, vec4 opposite)
 {
-    if (!MAP)
-        return look_along(row0, row1, row2, pixel + offset, channel, square, pixel_angle);
-    vec4 here = unpacked(texelFetch(direction_map, ivec3(pixel, channel), 0).rg);
-    pixel_angle = here.w;
-    vec3 from = here.xyz + abs(offset.x) * map_step(here.xyz, ivec2(pixel), ivec2(sign(offset.x), 0), channel)
-        + abs(offset.y) * map_step(here.xyz, ivec2(pixel), ivec2(0, sign(offset.y)), channel);
+    return next.w > 0.0 ? next.xyz - here : opposite.w > 0.0 ? here - opposite.xyz : vec3(0.0);
+}
+
+// A map around a pixel: its direction and pixel angle, and the changes of the direction to the four pixels next to it.
+struct MapAround {
+    vec4 here;
+    vec3 right, left, down, up;
+};
+
+MapAround map_around(vec2 pixel, int channel)
+{
+    ivec2 at = ivec2(pixel);
+    vec4 here = map_at(at, channel), right = map_at(at + ivec2(1, 0), channel), left = map_at(at - ivec2(1, 0), channel),
+         down = map_at(at + ivec2(0, 1), channel), up = map_at(at - ivec2(0, 1), channel);
+    return MapAround(here, map_step(here.xyz, right, left), map_step(here.xyz, left, right), map_step(here.xyz, down, up),
+        map_step(here.xyz, up, down));
+}
+
+// The same as look_along, at an offset from the centre of the map's pixel, of at most half a pixel. The map's directions are
+// linear to its neighbours.
+vec3 look_within(vec4 row0, vec4 row1, vec4 row2, MapAround map, vec2 offset, out float square)
+{
+    vec3 from = map.here.xyz + abs(offset.x) * (offset.x < 0.0 ? map.left : map.right)
+        + abs(offset.y) * (offset.y < 0.0 ? map.up : map.down);
     vec3 v = vec3(dot(row0.xyz, from), dot(row1.xyz, from), dot(row2.xyz, from));
     square = dot(v, v);
     return v;

@@ -1,5 +1,6 @@
 #include "cube_pass.h"
 #include "runtime/operation/trace.h"
+#include "runtime/plan/scratch.h"
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -26,6 +27,20 @@ void set_guarded_area(vk::CommandBuffer commands, const PlannedImage& image)
     commands.setScissor(0, rect_of(image.atlas, image.size));
 }
 
+/// The directions in which the two coordinates of an image's face grow.
+std::pair<glm::dvec3, glm::dvec3> axes_of(const PlannedImage& image)
+{
+    const glm::dvec3 middle = face_direction(image.face, {0, 0});
+    return {face_direction(image.face, {1, 0}) - middle, face_direction(image.face, {0, 1}) - middle};
+}
+
+/// A mirrored pair of face axes turns a surface's front round.
+bool mirrored(const PlannedImage& image)
+{
+    const auto [a, b] = axes_of(image);
+    return glm::dot(glm::cross(a, b), face_direction(image.face, {0, 0})) < 0;
+}
+
 } // namespace
 
 CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, bool keeps_depth)
@@ -50,10 +65,12 @@ void CubePass::prepare(const CubeMapPlan& plan, std::span<const EyeEvent> eye_ev
     {
         const Trace::Span span(device_.trace, "cull");
         list_ = cull(world_.world, eye_events, images_, quality_, std::move(list_));
+        group_draws();
     }
     const Trace::Span span(device_.trace, "upload");
     eye_events_.assign(eye_events.begin(), eye_events.end());
     target_.fit(plan.atlas_size, plan.levels);
+    find_sky_images();
     uploads_.write(list_, eye_events, light, pre_exposure_);
     uploads_.write_tile_table(plan);
 }
@@ -63,7 +80,9 @@ void CubePass::prepare_plain(const PlannedImage& image, const EyeEvent& eye_even
     images_ = {image};
     use_ = {false, StoredLight::plain};
     list_ = cull(world_.world, {&eye_event, 1}, images_, quality_, std::move(list_));
+    group_draws();
     eye_events_ = {eye_event};
+    find_sky_images();
     uploads_.write(list_, {&eye_event, 1}, use_.light, pre_exposure_);
     target_.fit_depth(image.size);
 }
@@ -83,7 +102,7 @@ void CubePass::record(vk::CommandBuffer commands)
     std::array<glm::vec4, MAX_GROUPS + 1> clear{};
     for (std::size_t group = 0; group < kind.colours.size() && !use_.several_rest_frames; ++group)
         clear[group] = glm::vec4(world_.spectra_of(use_.light).sky[1][group] * pre_exposure_);
-    target_.begin(commands, use_, area_, std::span(clear).first(kind.colours.size()), 2 + std::uint32_t(images_.size()));
+    target_.begin(commands, use_, area_, std::span(clear).first(kind.colours.size()), 3 + 2 * std::uint32_t(images_.size()));
     draw_images(commands, kind);
     target_.end(commands, use_, images_, levels_);
 }
@@ -113,113 +132,169 @@ float CubePass::line_width(const PlannedImage& image) const
     return float(std::clamp(width, 1.0, double(device_.widest_line)));
 }
 
+CubePass::SurfaceState CubePass::state_of(const Draw& draw) const
+{
+    const auto material = std::size_t(world_.world.primitives[draw.primitive].material);
+    return {variant_of(draw, use_.light), world_.set_of_material[material], world_.world.materials[material].double_sided};
+}
+
+void CubePass::group_draws()
+{
+    runs_.clear();
+    std::vector<Draw>& draws = list_.draws;
+    for (std::size_t first = 0, last; first < draws.size(); first = last) {
+        const auto alike = [&](const Draw& draw) {
+            return draw.image == draws[first].image && draw.blended == draws[first].blended;
+        };
+        // The runs in the order of their nearest surfaces. Blended surfaces keep their order, from behind.
+        const std::size_t first_run = runs_.size();
+        run_of_draw_.clear();
+        for (last = first; last < draws.size() && alike(draws[last]); ++last) {
+            const SurfaceState state = state_of(draws[last]);
+            std::size_t run = draws[first].blended ? std::max(runs_.size(), first_run + 1) - 1 : first_run;
+            while (run < runs_.size() && runs_[run].state != state)
+                ++run;
+            if (run == runs_.size())
+                runs_.push_back({state, draws[first].image, draws[first].blended, 0, 0});
+            ++runs_[run].count;
+            run_of_draw_.push_back(run);
+        }
+        std::size_t next = first;
+        for (std::size_t run = first_run; run < runs_.size(); ++run)
+            runs_[run].first = std::uint32_t(next), next += runs_[run].count;
+        grouped_.assign(draws.begin() + std::ptrdiff_t(first), draws.begin() + std::ptrdiff_t(last));
+        for (std::size_t k = 0; k < grouped_.size(); ++k)
+            draws[runs_[run_of_draw_[k]].first++] = grouped_[k];
+        for (std::size_t run = first_run; run < runs_.size(); ++run)
+            runs_[run].first -= runs_[run].count;
+    }
+    reserve_headroom(runs_), reserve_headroom(run_of_draw_), reserve_headroom(grouped_);
+}
+
 void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
 {
-    const World& world = world_.world;
     commands.bindVertexBuffers(0, *world_.vertices.buffer, vk::DeviceSize(0));
     if (*world_.vertex_maps.buffer)
         commands.bindVertexBuffers(1, *world_.vertex_maps.buffer, vk::DeviceSize(0));
     commands.bindIndexBuffer(*world_.indices.buffer, 0, vk::IndexType::eUint32);
-    constexpr auto stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
-    auto draw = list_.draws.begin();
-    vk::Pipeline bound;
-    int rest_frame = -1; // whose uploads are bound
-    for (std::uint32_t i = 0; i < images_.size(); ++i) {
-        const PlannedImage& image = images_[i];
-        if (!image.needed)
+    for (const PlannedImage& image : images_)
+        if (image.needed && image.clip_hole > 0)
+            fill_clip_hole(commands, image);
+    BoundState bound;
+    const bool blends = std::ranges::any_of(runs_, &Run::blended);
+    draw_surfaces(commands, kind, false, bound);
+    if (!sky_images_.empty())
+        draw_sky(commands, kind, bound);
+    if (!blends)
+        return;
+    commands.bindIndexBuffer(uploads_.sorted_indices(), 0, vk::IndexType::eUint32);
+    draw_surfaces(commands, kind, true, bound);
+}
+
+/// Nothing is nearer than the near plane. A fragment in the clip-map hole therefore fails the depth test and is not shaded.
+void CubePass::fill_clip_hole(vk::CommandBuffer commands, const PlannedImage& image) const
+{
+    const glm::dvec2 low = glm::ceil((-glm::dvec2(image.clip_hole) - image.low) * image.texels_per_unit);
+    const glm::dvec2 high = glm::floor((glm::dvec2(image.clip_hole) - image.low) * image.texels_per_unit);
+    const glm::ivec2 first = glm::clamp(glm::ivec2(low), glm::ivec2(0), image.size),
+                     last = glm::clamp(glm::ivec2(high), first, image.size);
+    if (last.x > first.x && last.y > first.y)
+        commands.clearAttachments(
+            vk::ClearAttachment(vk::ImageAspectFlagBits::eDepth, 0, vk::ClearDepthStencilValue(1, 0)),
+            vk::ClearRect(rect_of(image.atlas + first, last - first), 0, 1));
+}
+
+void CubePass::bind(
+    vk::CommandBuffer commands, vk::Pipeline pipeline, std::size_t material_set, bool double_sided, BoundState& bound) const
+{
+    if (bound.pipeline != pipeline)
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+    if (bound.material_set != material_set)
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.surface_layout, 1,
+            *world_.material_sets[material_set], {});
+    if (bound.double_sided != double_sided)
+        commands.setCullMode(double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+    bound.pipeline = pipeline, bound.material_set = material_set, bound.double_sided = double_sided;
+}
+
+void CubePass::bind_uploads(vk::CommandBuffer commands, int rest_frame, BoundState& bound) const
+{
+    if (std::exchange(bound.rest_frame, rest_frame) != rest_frame)
+        uploads_.bind(commands, rest_frame);
+}
+
+void CubePass::push(vk::CommandBuffer commands, const shared::CubePush& push) const
+{
+    commands.pushConstants<shared::CubePush>(
+        *pipelines_.layouts.surface_layout, vk::ShaderStageFlagBits::eVertex, 0, push);
+}
+
+void CubePass::draw_surfaces(vk::CommandBuffer commands, const TargetKind& kind, bool blended, BoundState& bound)
+{
+    constexpr std::uint32_t stride = sizeof(vk::DrawIndexedIndirectCommand);
+    shared::CubePush constants{};
+    std::optional<std::uint32_t> at; // image
+    for (const Run& run : runs_) {
+        if (run.blended != blended)
             continue;
-        set_guarded_area(commands, image);
-        commands.setLineWidth(line_width(image));
-        if (image.rest_frame != std::exchange(rest_frame, image.rest_frame))
-            uploads_.bind(commands, image.rest_frame);
-        glm::dmat4 clip = clip_from_cube(image, near_distance);
-        clip[2] *= eye_events_[std::size_t(image.rest_frame)].contraction;
-        clip = glm::scale(glm::dmat4(1), glm::dvec3(1 / guard_of(image), 1 / guard_of(image), 1)) * clip;
-        shared::CubePush push{};
-        push.clip_x = shared::row(clip, 0), push.clip_y = shared::row(clip, 1), push.clip_w = shared::row(clip, 3);
-        push.surface.x = near_distance;
-        push.surface.z = float(pixel_rad_ * image.texels_per_unit);
-        // A mirrored pair of face axes turns a surface's front round.
-        glm::dvec3 a = face_direction(image.face, {1, 0}) - face_direction(image.face, {0, 0});
-        glm::dvec3 b = face_direction(image.face, {0, 1}) - face_direction(image.face, {0, 0});
-        bool mirrored = glm::dot(glm::cross(a, b), face_direction(image.face, {0, 0})) < 0;
-        commands.setFrontFace(mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
-        if (image.clip_hole > 0) {
-            // Nothing is nearer than the near plane. A fragment in the clip-map hole therefore fails the depth test and
-            // is not shaded.
-            glm::dvec2 low = glm::ceil((-glm::dvec2(image.clip_hole) - image.low) * image.texels_per_unit);
-            glm::dvec2 high = glm::floor((glm::dvec2(image.clip_hole) - image.low) * image.texels_per_unit);
-            glm::ivec2 first = glm::clamp(glm::ivec2(low), glm::ivec2(0), image.size),
-                       last = glm::clamp(glm::ivec2(high), first, image.size);
-            if (last.x > first.x && last.y > first.y)
-                commands.clearAttachments(
-                    vk::ClearAttachment(vk::ImageAspectFlagBits::eDepth, 0, vk::ClearDepthStencilValue(1, 0)),
-                    vk::ClearRect(rect_of(image.atlas + first, last - first), 0, 1));
-        }
-        int material = -1;
-        const auto bind = [&](vk::Pipeline pipeline) {
-            if (pipeline != bound)
-                commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
-        };
-        const auto push_constants
-            = [&] { commands.pushConstants<shared::CubePush>(*pipelines_.layouts.surface_layout, stages, 0, push); };
-        // The material of a draw's surface, and for shadows its distance from the full surface.
-        const auto put_surface = [&](const Draw& one) {
-            const int index = world.primitives[one.primitive].material;
-            const float apart = world_.shadows ? float(one.apart) : 0;
-            if (index == material && apart == push.surface.y)
-                return;
-            push.surface.y = apart;
-            if (index == material)
-                return push_constants();
-            material = index;
-            const Material& m = world.materials[material];
-            commands.bindDescriptorSets(
-                vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.surface_layout, 1, *world_.materials[material], {});
-            commands.setCullMode(m.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
-            push.base_colour = m.base_colour;
-            const Spectra::Surface& surface = world_.spectra.surfaces[std::size_t(material)];
-            push.emissive = glm::vec4(m.emissive * float(surface.emission * pre_exposure_), m.alpha_cutoff);
-            push.beyond = surface.beyond;
-            push.own = glm::vec4(surface.own * pre_exposure_);
-            push_constants();
-        };
-        const auto draw_surface = [&](const Draw& one) {
-            bind(pipelines_.surface(variant_of(one, use_.light), kind));
-            put_surface(one);
-            commands.drawIndexed(
-                one.index_count, one.count, one.first_index, world.primitives[one.primitive].vertex_offset, one.first);
-        };
-        for (; draw != list_.draws.end() && draw->image == i && !draw->blended; ++draw)
-            draw_surface(*draw);
-        const shared::CubePush surfaces_push = push;
-        if (sky_ && !use_.several_rest_frames) {
-            set_area(commands, image.atlas, image.size);
-            bind(pipelines_.sky(world.milky_way >= 0, kind));
-            commands.setCullMode(vk::CullModeFlagBits::eNone);
-            commands.bindDescriptorSets(
-                vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.surface_layout, 1, *world_.materials.back(), {});
-            glm::dvec3 origin = face_direction(image.face, image.low);
-            push.clip_x = glm::vec4(origin, 0);
-            push.clip_y = glm::vec4(a * (image.high.x - image.low.x), 0);
-            push.clip_w = glm::vec4(b * (image.high.y - image.low.y), 0);
-            push_constants();
-            commands.draw(3, 1, 0, 0);
-            push = surfaces_push, material = -1;
+        if (at != run.image) {
+            if (at && device_.keeper)
+                device_.keeper->hold(commands); // a scene ends whenever its memory is full
+            at = run.image;
+            const PlannedImage& image = images_[run.image];
             set_guarded_area(commands, image);
+            commands.setLineWidth(line_width(image));
+            commands.setFrontFace(mirrored(image) ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
+            bind_uploads(commands, image.rest_frame, bound);
+            constants = constants_of(image);
         }
-        // Blended surfaces, from behind.
-        const auto first_blended = draw;
-        for (; draw != list_.draws.end() && draw->image == i; ++draw) {
-            if (draw == first_blended)
-                commands.bindIndexBuffer(uploads_.sorted_indices(), 0, vk::IndexType::eUint32);
-            draw_surface(*draw);
-        }
-        if (draw != first_blended)
-            commands.bindIndexBuffer(*world_.indices.buffer, 0, vk::IndexType::eUint32);
-        if (device_.keeper)
-            device_.keeper->hold(commands); // a scene ends whenever its memory is full
+        bind(commands, pipelines_.surface(run.state.variant, kind), run.state.material_set, run.state.double_sided, bound);
+        constants.surface.y = float(run.first);
+        push(commands, constants);
+        commands.drawIndexedIndirect(uploads_.draw_commands(), run.first * stride, run.count, stride);
     }
+    if (at && device_.keeper)
+        device_.keeper->hold(commands);
+}
+
+shared::CubePush CubePass::constants_of(const PlannedImage& image) const
+{
+    glm::dmat4 clip = clip_from_cube(image, near_distance);
+    clip[2] *= eye_events_[std::size_t(image.rest_frame)].contraction;
+    clip = glm::scale(glm::dmat4(1), glm::dvec3(1 / guard_of(image), 1 / guard_of(image), 1)) * clip;
+    shared::CubePush constants{};
+    constants.clip_x = shared::row(clip, 0), constants.clip_y = shared::row(clip, 1), constants.clip_w = shared::row(clip, 3);
+    constants.surface.x = near_distance;
+    constants.surface.z = float(pixel_rad_ * image.texels_per_unit);
+    return constants;
+}
+
+void CubePass::find_sky_images()
+{
+    sky_images_.clear();
+    sky_area_ = glm::ivec2(0);
+    for (const PlannedImage& image : images_)
+        sky_area_ = glm::max(sky_area_, image.atlas + image.size);
+    for (const PlannedImage& image : images_) {
+        if (!image.needed || !sky_ || use_.several_rest_frames)
+            continue;
+        const auto [a, b] = axes_of(image);
+        const glm::dvec2 unit = 2.0 / glm::dvec2(sky_area_);
+        sky_images_.push_back({glm::vec4(face_direction(image.face, image.low), 0),
+            glm::vec4(a * (image.high.x - image.low.x), 0), glm::vec4(b * (image.high.y - image.low.y), 0),
+            glm::vec4(glm::dvec2(image.atlas) * unit - 1.0, glm::dvec2(image.size) * unit)});
+    }
+    uploads_.write_sky(sky_images_);
+}
+
+void CubePass::draw_sky(vk::CommandBuffer commands, const TargetKind& kind, BoundState& bound)
+{
+    set_area(commands, {0, 0}, sky_area_);
+    bind(commands, pipelines_.sky(world_.world.milky_way >= 0, kind), world_.set_of_material.back(), true, bound);
+    bind_uploads(commands, 0, bound);
+    commands.draw(6, std::uint32_t(sky_images_.size()), 0, 0);
+    if (device_.keeper)
+        device_.keeper->hold(commands);
 }
 
 void CubePass::record_plain(vk::CommandBuffer commands, const Target& target)

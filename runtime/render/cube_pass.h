@@ -45,9 +45,42 @@ public:
     vk::DeviceSize memory() const { return target_.memory(); }
 
 private:
+    /// What draws must share to be one call.
+    struct SurfaceState {
+        SurfaceVariant variant;
+        std::size_t material_set; ///< index of GpuWorld::material_sets
+        bool double_sided;
+        bool operator==(const SurfaceState&) const = default;
+    };
+    /// Draws of one image that are one call: `count` of DrawList::draws, from `first`.
+    struct Run {
+        SurfaceState state;
+        std::uint32_t image;
+        bool blended;
+        std::uint32_t first, count;
+    };
+    /// What is bound while commands are recorded, so that nothing is bound twice.
+    struct BoundState {
+        vk::Pipeline pipeline;
+        std::optional<std::size_t> material_set;
+        std::optional<bool> double_sided;
+        int rest_frame = -1; ///< whose uploads are
+    };
+    SurfaceState state_of(const Draw& draw) const;
+    void group_draws(); ///< makes runs_, and sorts the list's draws by them
     SurfaceVariant variant_of(const Draw& draw, StoredLight light) const;
     float line_width(const PlannedImage& image) const; ///< texels
+    /// All images' surfaces, then the sky behind them, then what is blended.
     void draw_images(vk::CommandBuffer commands, const TargetKind& kind);
+    void fill_clip_hole(vk::CommandBuffer commands, const PlannedImage& image) const;
+    void draw_surfaces(vk::CommandBuffer commands, const TargetKind& kind, bool blended, BoundState& bound);
+    void find_sky_images(); ///< of the images that the sky is drawn into, and uploads them
+    void draw_sky(vk::CommandBuffer commands, const TargetKind& kind, BoundState& bound);
+    void bind(vk::CommandBuffer commands, vk::Pipeline pipeline, std::size_t material_set, bool double_sided,
+        BoundState& bound) const;
+    void bind_uploads(vk::CommandBuffer commands, int rest_frame, BoundState& bound) const;
+    void push(vk::CommandBuffer commands, const shared::CubePush& push) const;
+    shared::CubePush constants_of(const PlannedImage& image) const;
 
     Device& device_;
     Pipelines& pipelines_;
@@ -64,6 +97,11 @@ private:
     double pre_exposure_ = 1;
     int levels_ = 1;
     DrawList list_;
+    std::vector<shared::SkyImage> sky_images_;
+    glm::ivec2 sky_area_{0}; ///< texels that hold all images
+    std::vector<Run> runs_; ///< by image, in the order in which they are drawn
+    std::vector<std::size_t> run_of_draw_; ///< of group_draws, kept for their memory
+    std::vector<Draw> grouped_;
 };
 
 } // namespace starbow

@@ -2,11 +2,23 @@
 #include "command_counts.h"
 #include "debug.h"
 #include "lamp.h"
+#include "runtime/plan/scratch.h"
 #include "runtime/world/clock.h"
 #include "runtime/world/shadows.h"
 #include <algorithm>
 
 namespace starbow {
+namespace {
+
+template <class T>
+void put(const Device& device, Buffer& buffer, const std::vector<T>& data,
+    vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer)
+{
+    grow(device, buffer, data.size() * sizeof(T), usage);
+    write(buffer, std::as_bytes(std::span(data)));
+}
+
+} // namespace
 
 CubeUploads::CubeUploads(Device& device, const Pipelines& pipelines, const GpuWorld& world)
     : device_(device)
@@ -24,7 +36,7 @@ CubeUploads::CubeUploads(Device& device, const Pipelines& pipelines, const GpuWo
     name_object(device, tiles_view_, "cube pass: tiles view");
     std::vector<vk::DescriptorPoolSize> sizes
         = {{vk::DescriptorType::eUniformBufferDynamic, 1}, {vk::DescriptorType::eUniformBuffer, 1},
-            {vk::DescriptorType::eStorageBuffer, 4}, {vk::DescriptorType::eCombinedImageSampler, 2}};
+            {vk::DescriptorType::eStorageBuffer, 7}, {vk::DescriptorType::eCombinedImageSampler, 2}};
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
     name_object(device, pool_, "cube pass: descriptor pool");
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.layouts.eye_set}).front());
@@ -42,14 +54,11 @@ CubeUploads::CubeUploads(Device& device, const Pipelines& pipelines, const GpuWo
 
 void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_events, StoredLight light, double pre_exposure)
 {
-    auto put = [&](Buffer& buffer, const auto& data, vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer) {
-        grow(device_, buffer, data.size() * sizeof(data[0]), usage);
-        starbow::write(buffer, std::as_bytes(std::span(data)));
-    };
-    put(instances_, list.instances);
-    put(visible_, list.visible);
+    put(device_, instances_, list.instances);
+    put(device_, visible_, list.visible);
     if (!list.sorted_indices.empty())
-        put(sorted_indices_, list.sorted_indices, vk::BufferUsageFlagBits::eIndexBuffer);
+        put(device_, sorted_indices_, list.sorted_indices, vk::BufferUsageFlagBits::eIndexBuffer);
+    write_draws(list, pre_exposure);
     std::vector<shared::TimeEntry>& times = time_writes_;
     times.clear();
     for (std::size_t rest_frame = 0; rest_frame < eye_events.size(); ++rest_frame) {
@@ -60,7 +69,7 @@ void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_even
         times.insert(times.end(), own.begin(), own.end());
     }
     if (!times.empty())
-        put(times_, times);
+        put(device_, times_, times);
 
     write_set(light == StoredLight::unshifted ? world_.unshifted_columns : world_.columns);
 }
@@ -70,25 +79,60 @@ void CubeUploads::write_tile_table(const CubeMapPlan& plan)
     count_upload(write_tiles(plan, *static_cast<shared::TileTable*>(tiles_.mapped)));
 }
 
+void CubeUploads::write_sky(std::span<const shared::SkyImage> images)
+{
+    grow(device_, sky_images_, images.size_bytes(), vk::BufferUsageFlagBits::eStorageBuffer);
+    starbow::write(sky_images_, std::as_bytes(images));
+}
+
 void CubeUploads::bind(vk::CommandBuffer commands, int rest_frame) const
 {
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.surface_layout, 0, *set_,
         std::uint32_t(std::size_t(rest_frame) * stride_));
 }
 
+void CubeUploads::write_draws(const DrawList& list, double pre_exposure)
+{
+    draw_writes_.clear(), command_writes_.clear(), surface_writes_.clear();
+    for (const Draw& draw : list.draws) {
+        const Primitive& primitive = world_.world.primitives[draw.primitive];
+        draw_writes_.push_back({std::uint32_t(primitive.material), world_.shadows ? float(draw.apart) : 0});
+        command_writes_.push_back(
+            {draw.index_count, draw.count, draw.first_index, std::int32_t(primitive.vertex_offset), draw.first});
+    }
+    for (std::size_t i = 0; i < world_.world.materials.size(); ++i) {
+        const Material& material = world_.world.materials[i];
+        const Spectra::Surface& surface = world_.spectra.surfaces[i];
+        surface_writes_.push_back({material.base_colour,
+            glm::vec4(material.emissive * float(surface.emission * pre_exposure), material.alpha_cutoff), surface.beyond,
+            glm::vec4(surface.own * pre_exposure)});
+    }
+    reserve_headroom(draw_writes_), reserve_headroom(command_writes_);
+    put(device_, draws_, draw_writes_);
+    put(device_, draw_commands_, command_writes_, vk::BufferUsageFlagBits::eIndirectBuffer);
+    put(device_, surfaces_, surface_writes_);
+}
+
 void CubeUploads::write_set(const Buffer& columns)
 {
     const Buffer& times = *times_.buffer ? times_ : instances_; // without finite existences the shader reads no times
-    const Buffer* held[] = {&constants_, &instances_, &visible_, &columns, &times};
-    std::array<std::uint64_t, 5> serials;
-    std::array<vk::DescriptorBufferInfo, 5> infos;
-    std::array<vk::WriteDescriptorSet, 5> writes;
-    constexpr vk::DescriptorType types[] = {vk::DescriptorType::eUniformBufferDynamic, vk::DescriptorType::eStorageBuffer,
-        vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer};
-    for (std::uint32_t i = 0; i < 5; ++i) {
-        serials[i] = held[i]->serial;
-        infos[i] = vk::DescriptorBufferInfo(*held[i]->buffer, 0, i == 0 ? sizeof(shared::CubeConstants) : VK_WHOLE_SIZE);
-        writes[i] = vk::WriteDescriptorSet(*set_, i, 0, 1, types[i], nullptr, &infos[i]);
+    struct Held {
+        std::uint32_t binding;
+        vk::DescriptorType type;
+        const Buffer* buffer;
+    };
+    constexpr auto storage = vk::DescriptorType::eStorageBuffer;
+    const std::array<Held, 8> held = {{{0, vk::DescriptorType::eUniformBufferDynamic, &constants_}, {1, storage, &instances_},
+        {2, storage, &visible_}, {3, vk::DescriptorType::eUniformBuffer, &columns}, {4, storage, &times}, {8, storage, &draws_},
+        {9, storage, &surfaces_}, {10, storage, &sky_images_}}};
+    std::array<std::uint64_t, held.size()> serials;
+    std::array<vk::DescriptorBufferInfo, held.size()> infos;
+    std::array<vk::WriteDescriptorSet, held.size()> writes;
+    for (std::size_t i = 0; i < held.size(); ++i) {
+        const auto& [binding, type, buffer] = held[i];
+        serials[i] = buffer->serial;
+        infos[i] = vk::DescriptorBufferInfo(*buffer->buffer, 0, binding == 0 ? sizeof(shared::CubeConstants) : VK_WHOLE_SIZE);
+        writes[i] = vk::WriteDescriptorSet(*set_, binding, 0, 1, type, nullptr, &infos[i]);
     }
     if (serials == written_)
         return;

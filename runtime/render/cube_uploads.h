@@ -10,16 +10,20 @@ class CubeUploads {
 public:
     CubeUploads(Device& device, const Pipelines& pipelines, const GpuWorld& world);
 
-    /// Writes the frame's data. Every stored radiance is multiplied by pre_exposure. eye_events: the eye events of the rest
+    /// Writes the frame's data, after write_sky. Every stored radiance is multiplied by pre_exposure. eye_events: the eye events of the rest
     /// frames. The device must have finished the frame before.
     void write(const DrawList& list, std::span<const EyeEvent> eye_events, StoredLight light, double pre_exposure);
     void write_tile_table(const CubeMapPlan& plan);
+    /// The sky's images, which the cube pass draws as instances.
+    void write_sky(std::span<const shared::SkyImage> images);
 
     /// Binds the set with the constants of one rest frame.
     void bind(vk::CommandBuffer commands, int rest_frame) const;
 
     /// Of DrawList::sorted_indices.
     vk::Buffer sorted_indices() const { return *sorted_indices_.buffer; }
+    /// DrawList::draws as vk::DrawIndexedIndirectCommand each.
+    vk::Buffer draw_commands() const { return *draw_commands_.buffer; }
 
     vk::BufferView tiles() const { return *tiles_view_; } ///< TileTable, as texels
     std::uint64_t tiles_serial() const { return tiles_.serial; }
@@ -27,6 +31,7 @@ public:
 private:
     shared::CubeConstants constants_of(const EyeEvent& eye_event, StoredLight light, double pre_exposure) const;
     void write_shadows(shared::CubeConstants& constants, const EyeEvent& eye_event) const;
+    void write_draws(const DrawList& list, double pre_exposure);
     void write_set(const Buffer& columns);
 
     Device& device_;
@@ -34,11 +39,16 @@ private:
     const GpuWorld& world_;
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::DescriptorSet set_ = nullptr;
-    Buffer constants_, instances_, visible_, tiles_, times_, sorted_indices_; ///< the last two: null without any
+    Buffer constants_, instances_, visible_, draws_, surfaces_, draw_commands_, sky_images_, tiles_;
+    Buffer times_, sorted_indices_; ///< null without any
     vk::raii::BufferView tiles_view_ = nullptr;
     vk::DeviceSize stride_; ///< bytes from one rest frame's constants to the next
-    std::vector<shared::TimeEntry> time_writes_; ///< a member so that its memory is reused
-    std::array<std::uint64_t, 5> written_{}; ///< serials of the buffers that set_ holds
+    // Members so that their memory is reused.
+    std::vector<shared::TimeEntry> time_writes_;
+    std::vector<shared::DrawEntry> draw_writes_;
+    std::vector<vk::DrawIndexedIndirectCommand> command_writes_;
+    std::vector<shared::SurfaceEntry> surface_writes_;
+    std::array<std::uint64_t, 8> written_{}; ///< serials of the buffers that set_ holds
 };
 
 } // namespace starbow

@@ -108,15 +108,19 @@ std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
         return "Vulkan 1.3";
     if (!physical.getFeatures().largePoints || physical.getProperties().limits.pointSizeRange[1] < 2 * STAR_REACH)
         return "the feature largePoints, with points of 192 pixels";
+    if (!physical.getFeatures().multiDrawIndirect || !physical.getFeatures().drawIndirectFirstInstance)
+        return "the features multiDrawIndirect and drawIndirectFirstInstance";
     if (physical.getProperties().limits.maxUniformBufferRange < 65536)
         return "64 KiB of constants at once (maxUniformBufferRange)";
     if (physical.getProperties().limits.maxTexelBufferElements < sizeof(shared::TileTable) / sizeof(glm::vec4))
         return "texel buffers of 7 MiB (maxTexelBufferElements)";
-    auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>()
-                        .get<vk::PhysicalDeviceVulkan13Features>();
-    if (!features.dynamicRendering)
+    const auto all = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
+        vk::PhysicalDeviceVulkan13Features>();
+    if (!all.get<vk::PhysicalDeviceVulkan11Features>().shaderDrawParameters)
+        return "the feature shaderDrawParameters";
+    if (!all.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering)
         return "the feature dynamicRendering";
-    if (!features.synchronization2)
+    if (!all.get<vk::PhysicalDeviceVulkan13Features>().synchronization2)
         return "the feature synchronization2";
     if (windows && !offers(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
         return "windows (VK_KHR_swapchain)";
@@ -306,6 +310,12 @@ Device::Device(const Options& options)
     features13.dynamicRendering = features13.synchronization2 = true;
     vk::PhysicalDeviceFeatures features;
     features.largePoints = true; // a star's spot
+    features.multiDrawIndirect = features.drawIndirectFirstInstance = true;
+    features.pipelineStatisticsQuery = options.invocations;
+    if (options.invocations && !physical.getFeatures().pipelineStatisticsQuery)
+        throw InputError(std::string(name()) + " does not count how often shaders run; a device with pipelineStatisticsQuery is right");
+    vk::PhysicalDeviceVulkan11Features features11;
+    features11.shaderDrawParameters = true, features11.pNext = &features13; // the draw's number in an indirect one
     features.wideLines = physical.getFeatures().wideLines;
     widest_line = features.wideLines ? properties.limits.lineWidthRange[1] : 1;
     features.samplerAnisotropy = physical.getFeatures().samplerAnisotropy;
@@ -340,7 +350,7 @@ Device::Device(const Options& options)
         extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
         features13.pNext = &executables;
     }
-    device = physical.createDevice({{}, queue_info, {}, extensions, &features, &features13}, allocator_of(options));
+    device = physical.createDevice({{}, queue_info, {}, extensions, &features, &features11}, allocator_of(options));
     // The loader's functions, which serve every device.
     VULKAN_HPP_DEFAULT_DISPATCHER.init(*instance, context.getDispatcher()->vkGetInstanceProcAddr);
     queue = device.getQueue(family, 0);

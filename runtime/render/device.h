@@ -19,6 +19,7 @@ public:
         bool validation = false; ///< the validation layers, synchronization included; see complaints()
         bool barrier = false; ///< VK_NV_present_barrier, where the GPU has it: screens of several machines change together
         bool statistics = false; ///< VK_KHR_pipeline_executable_properties: a pipeline says what its shaders cost
+        bool invocations = false; ///< InvocationCounter counts how often shaders run
         bool counted = false; ///< driver_memory() counts the host memory of all objects
         bool as_gpu = false; ///< draws_as_gpu even where the processor draws
         std::string name; ///< part of a GPU's name; empty: the GPU of the fastest kind

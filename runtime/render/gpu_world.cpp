@@ -195,7 +195,7 @@ void put_surfaces(Device& device, GpuWorld& gpu, const World& world)
     name_object(device, gpu.surfaces, "world: surfaces");
 }
 
-/// The descriptors of each material, and of the sky.
+/// The descriptors of all materials, and of the sky. A set holds pictures, and the material's maps where it has any.
 void put_materials(Device& device, Pipelines& pipelines, GpuWorld& gpu, const World& world)
 {
     put_surfaces(device, gpu, world);
@@ -208,8 +208,6 @@ void put_materials(Device& device, Pipelines& pipelines, GpuWorld& gpu, const Wo
         = {{vk::DescriptorType::eCombinedImageSampler, pictures * count}, {vk::DescriptorType::eUniformBuffer, count}};
     gpu.pool = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, sizes});
     name_object(device, gpu.pool, "world: descriptor pool");
-    std::vector<vk::DescriptorSetLayout> layouts(count, *pipelines.layouts.material_set);
-    gpu.materials = device.device.allocateDescriptorSets({*gpu.pool, layouts});
     const auto picture = [&](int texture) {
         const Sampler kind = texture < 0 ? Sampler{} : world.textures[std::size_t(texture)].sampler;
         auto found = gpu.samplers.find(kind);
@@ -218,8 +216,8 @@ void put_materials(Device& device, Pipelines& pipelines, GpuWorld& gpu, const Wo
         return vk::DescriptorImageInfo(*found->second, *(texture < 0 ? gpu.white : gpu.textures[std::size_t(texture)]).view,
             vk::ImageLayout::eShaderReadOnlyOptimal);
     };
+    std::map<std::array<int, 3>, std::size_t> sets; // by two textures, and the material that has maps of its own
     for (std::uint32_t i = 0; i < count; ++i) {
-        name_object(device, gpu.materials[i], "world: material");
         const bool sky = i + 1 == count;
         const Material material = sky ? Material{.base_texture = world.milky_way} : world.materials[i];
         const Gloss gloss = material.gloss.value_or(Gloss{});
@@ -227,10 +225,18 @@ void put_materials(Device& device, Pipelines& pipelines, GpuWorld& gpu, const Wo
             picture(gloss.metallic_roughness.texture), picture(gloss.normal.texture), picture(gloss.occlusion.texture),
             {*gpu.gloss_sampler, *gpu.gloss_table.view, vk::ImageLayout::eShaderReadOnlyOptimal}};
         const vk::DescriptorBufferInfo surface(*gpu.surfaces.buffer, i * gpu.surface_stride, sizeof(shared::MaterialEntry));
+        const auto [known, fresh] = sets.try_emplace(
+            {material.base_texture, material.emissive_texture, material.mapped() ? int(i) : -1}, gpu.material_sets.size());
+        gpu.set_of_material.push_back(known->second);
+        if (!fresh)
+            continue;
+        const vk::raii::DescriptorSet& set = gpu.material_sets.emplace_back(
+            std::move(device.device.allocateDescriptorSets({*gpu.pool, *pipelines.layouts.material_set}).front()));
+        name_object(device, set, "world: material");
         std::vector<vk::WriteDescriptorSet> writes;
         for (std::uint32_t k = 0; k < pictures; ++k)
-            writes.emplace_back(*gpu.materials[i], k, 0, vk::DescriptorType::eCombinedImageSampler, images[k]);
-        writes.emplace_back(*gpu.materials[i], pictures, 0, vk::DescriptorType::eUniformBuffer, nullptr, surface);
+            writes.emplace_back(*set, k, 0, vk::DescriptorType::eCombinedImageSampler, images[k]);
+        writes.emplace_back(*set, pictures, 0, vk::DescriptorType::eUniformBuffer, nullptr, surface);
         device.device.updateDescriptorSets(writes, {});
     }
 }

@@ -44,7 +44,8 @@ struct GpuWorld {
     Buffer surfaces; ///< a MaterialEntry for each material, and an empty one for the sky, in steps of surface_stride
     vk::DeviceSize surface_stride = 0;
     vk::raii::DescriptorPool pool = nullptr;
-    std::vector<vk::raii::DescriptorSet> materials; ///< and last the sky's, which is like a material
+    std::vector<vk::raii::DescriptorSet> material_sets; ///< materials with the same pictures share one
+    std::vector<std::size_t> set_of_material; ///< index of `material_sets`; last the sky's, which is like a material
 
     int shadows = 0; ///< SurfaceVariant::shadows of still surfaces
     Image shadow_maps, sky_cells; ///< of World::shadows, which has no texels any more; one texel without shadows

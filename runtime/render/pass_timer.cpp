@@ -125,6 +125,16 @@ CommandCounts PassTimer::counts(const Shot& shot, const Panel* hud)
     return counts;
 }
 
+std::vector<DrawInvocations> PassTimer::invocations(const Shot& shot, const Panel* hud)
+{
+    InvocationCounter counter(device_);
+    device_.now([&](vk::CommandBuffer commands) {
+        counter.begin(commands);
+        draw(commands, commands, shot, hud);
+    });
+    return counter.end();
+}
+
 double PassTimer::busy(const Shot& shot, int frames)
 {
     FrameTimer timer(device_);

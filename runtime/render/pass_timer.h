@@ -1,5 +1,6 @@
 #pragma once
 #include "command_counts.h"
+#include "invocations.h"
 #include "offscreen.h"
 #include <chrono>
 
@@ -36,6 +37,8 @@ public:
 
     /// The calls of the whole frame, submitted as an exhibit's; count_commands() comes before it.
     CommandCounts counts(const Shot& shot, const Panel* hud = nullptr);
+    /// How often the whole frame's shaders run; for a device that was opened with Options::invocations.
+    std::vector<DrawInvocations> invocations(const Shot& shot, const Panel* hud = nullptr);
 
     /// The time that the processor and then the device are busy with so many frames in one submission, without the wait for
     /// either.

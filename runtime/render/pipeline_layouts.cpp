@@ -36,7 +36,7 @@ PipelineLayouts::PipelineLayouts(const Device& device)
     constexpr Type constants = Type::eUniformBuffer;
     eye_set = make_set_layout(device, "eye descriptor set layout", both,
         {Type::eUniformBufferDynamic, Type::eStorageBuffer, Type::eStorageBuffer, constants, Type::eStorageBuffer, picture,
-            picture, Type::eStorageBuffer});
+            picture, Type::eStorageBuffer, Type::eStorageBuffer, Type::eStorageBuffer, Type::eStorageBuffer});
     material_set = make_set_layout(device, "material descriptor set layout", fragment,
         {picture, picture, picture, picture, picture, picture, constants});
     warp_set = make_set_layout(device, "warp descriptor set layout", both,
@@ -49,8 +49,8 @@ PipelineLayouts::PipelineLayouts(const Device& device)
     overlay_set = make_set_layout(device, "overlay descriptor set layout", fragment, {constants});
     finish_set
         = make_set_layout(device, "finish descriptor set layout", fragment, {picture, picture, picture, picture, picture});
-    surface_layout
-        = make_layout(device, "surface pipeline layout", {*eye_set, *material_set}, both, sizeof(shared::CubePush));
+    surface_layout = make_layout(device, "surface pipeline layout", {*eye_set, *material_set},
+        vk::ShaderStageFlagBits::eVertex, sizeof(shared::CubePush));
     warp_layout = make_layout(device, "warp pipeline layout", {*warp_set}, fragment, sizeof(shared::ViewPush));
     star_layout = make_layout(device, "star pipeline layout", {*warp_set, *star_set}, both, sizeof(shared::ViewPush));
     overlay_layout

@@ -41,7 +41,7 @@ struct Spectra {
                                     ///< each emission spectrum of the world's own
 
     struct Surface {
-        glm::vec4 beyond; ///< CubePush's member
+        glm::vec4 beyond; ///< SurfaceEntry's member
         double emission = 1; ///< the emissive colour's part in its coefficient
         glm::dvec4 own{0}; ///< glow: coefficients of the world's own emission spectra
     };

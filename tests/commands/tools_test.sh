@@ -21,6 +21,9 @@ for command in bench measure soak; do
     if "$program" $command --help | grep -q "starbow $command"; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
 
+refused '--family' bench --estimate --family geforce
+"$program" bench --estimate --layout desk --family polaris10 2>/dev/null | grep -q '^surface' && passed=$((passed + 1)) || fail "bench --estimate has no row of surfaces"
+
 # The reference needs no GPU, and a finished picture leaves no file to continue from.
 for time in once twice; do
     VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent "$program" render --shot starbow --size 40x30 --reference \

@@ -1,6 +1,7 @@
 #include "bodies.h"
 #include "counts.h"
 #include "cubes.h"
+#include "estimate.h"
 #include "flight.h"
 #include "frame_stages.h"
 #include "governor.h"
@@ -24,7 +25,7 @@ struct BenchOptions {
     bool input = false;
     std::string json, layout, shot = "avenue-gamma4";
     bool stars = false, bodies = false, worlds = false, cubes = false, flight = false, scaling = false, governor = false;
-    bool shaders = false, counts = false;
+    bool shaders = false, counts = false, estimate = false;
     std::string family = card_families.front(), pass, scene, against, ladder = "ladder";
     double frame_budget_ms = 0;
 };
@@ -45,6 +46,8 @@ int bench(const BenchOptions& options)
         bench_flight();
     else if (options.shaders)
         bench_shaders(options.family, options.pass, options.scene, options.json, options.against);
+    else if (options.estimate)
+        bench_estimate(options.family, options.layout.empty() ? "desk" : options.layout, options.shot);
     else if (options.counts)
         bench_counts();
     else if (options.scaling)
@@ -73,7 +76,7 @@ static void add_bench(Subcommand& app, std::function<int()>& chosen)
     command->add_option("--layout", options->layout,
         "Instead: this layout stage by stage, and displays compared with each other: kinds of projection, many viewports, "
         "stereo methods");
-    command->add_option("--shot", options->shot, "With --layout: the shot to time")->capture_default_str();
+    command->add_option("--shot", options->shot, "With --layout and --estimate: the shot")->capture_default_str();
     command->add_flag("--stars", options->stars, "Instead: what the stars cost, the avenue's own and a million");
     command->add_flag("--bodies", options->bodies, "Instead: what bodies that move cost, in view and out of it");
     command->add_flag("--worlds", options->worlds, "Instead: the shipped worlds in which something moves, stage by stage");
@@ -98,7 +101,9 @@ static void add_bench(Subcommand& app, std::function<int()>& chosen)
         "Instead: how many passes, draws, binds and other calls a frame makes, by world, layout and speed");
     command->add_flag("--shaders", options->shaders,
         "Instead: what each pass's shaders cost on a graphics card that need not be there, as its compiler (RADV) says");
-    command->add_option("--family", options->family, "With --shaders: the card's family")
+    command->add_flag("--estimate", options->estimate,
+        "Instead: what a frame of --layout and --shot takes at least on a card of --family, by its shaders' cycles");
+    command->add_option("--family", options->family, "With --shaders and --estimate: the card's family")
         ->check(one_of({card_families.begin(), card_families.end()}))
         ->capture_default_str();
     command->add_option("--pass", options->pass, "With --shaders: each variant of this pass, instead of all passes");
@@ -106,7 +111,8 @@ static void add_bench(Subcommand& app, std::function<int()>& chosen)
     command->add_option(
         "--against", options->against, "With --shaders: a file of an earlier --json; what changed is printed");
     command->footer("Examples:\n  starbow bench --json out/bench.json\n  starbow bench --input --seconds 60\n"
-                    "  starbow bench --shaders --scene avenue --pass warp");
+                    "  starbow bench --shaders --scene avenue --pass warp\n"
+                    "  starbow bench --estimate --layout dome --family navi21");
     command->callback([options, &chosen] { chosen = [options] { return bench(*options); }; });
 }
 
