@@ -179,7 +179,7 @@ void PresenterWindow::copy(const PresenterPicture& picture)
     // A window that has just changed its size shows what there is of the old picture.
     const glm::ivec2 shown = glm::min(picture.size, window_->size());
     grow(device_, texels_, picture.texels.size(), vk::BufferUsageFlagBits::eTransferSrc);
-    write(texels_, std::as_bytes(std::span(picture.texels)));
+    copy_to(texels_, std::as_bytes(std::span(picture.texels)));
     commands_[0].reset();
     commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     const vk::Image image = window_->picture();

@@ -449,7 +449,8 @@ std::span<const PlannedImage> of_first_tile(std::span<const PlannedImage> images
 
 std::size_t write_tiles(const CubeMapPlan& plan, shared::TileTable& table)
 {
-    std::size_t bytes = plan.finest_clip_level.size() * TILE_COUNT * (sizeof table.sub_tiles_from_face[0] + sizeof table.entries[0]);
+    std::size_t bytes
+        = plan.finest_clip_level.size() * TILE_COUNT * (sizeof table.sub_tiles_from_face[0] + sizeof table.entries[0]);
     for (std::size_t tile = 0; tile < plan.finest_clip_level.size() * TILE_COUNT; ++tile) {
         table.sub_tiles_from_face[tile] = glm::vec4(0);
         table.entries[tile * SUB_TILE_COUNT] = {};

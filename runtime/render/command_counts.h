@@ -17,7 +17,8 @@ struct CommandCounts {
         pipeline_binds,
         descriptor_binds,
         pushes, ///< of constants
-        states, ///< dynamic ones: viewports, scissors, cull modes, line widths and the like, and buffers of vertices and indices
+        states, ///< dynamic ones: viewports, scissors, cull modes, line widths and the like, and buffers of vertices and
+                ///< indices
         uploaded_bytes, ///< that the processor writes into mapped buffers
         kinds
     };

@@ -143,9 +143,8 @@ void CubePass::group_draws()
     runs_.clear();
     std::vector<Draw>& draws = list_.draws;
     for (std::size_t first = 0, last; first < draws.size(); first = last) {
-        const auto alike = [&](const Draw& draw) {
-            return draw.image == draws[first].image && draw.blended == draws[first].blended;
-        };
+        const auto alike
+            = [&](const Draw& draw) { return draw.image == draws[first].image && draw.blended == draws[first].blended; };
         // The runs in the order of their nearest surfaces. Blended surfaces keep their order, from behind.
         const std::size_t first_run = runs_.size();
         run_of_draw_.clear();
@@ -199,8 +198,7 @@ void CubePass::fill_clip_hole(vk::CommandBuffer commands, const PlannedImage& im
     const glm::ivec2 first = glm::clamp(glm::ivec2(low), glm::ivec2(0), image.size),
                      last = glm::clamp(glm::ivec2(high), first, image.size);
     if (last.x > first.x && last.y > first.y)
-        commands.clearAttachments(
-            vk::ClearAttachment(vk::ImageAspectFlagBits::eDepth, 0, vk::ClearDepthStencilValue(1, 0)),
+        commands.clearAttachments(vk::ClearAttachment(vk::ImageAspectFlagBits::eDepth, 0, vk::ClearDepthStencilValue(1, 0)),
             vk::ClearRect(rect_of(image.atlas + first, last - first), 0, 1));
 }
 
@@ -225,8 +223,7 @@ void CubePass::bind_uploads(vk::CommandBuffer commands, int rest_frame, BoundSta
 
 void CubePass::push(vk::CommandBuffer commands, const shared::CubePush& push) const
 {
-    commands.pushConstants<shared::CubePush>(
-        *pipelines_.layouts.surface_layout, vk::ShaderStageFlagBits::eVertex, 0, push);
+    commands.pushConstants<shared::CubePush>(*pipelines_.layouts.surface_layout, vk::ShaderStageFlagBits::eVertex, 0, push);
 }
 
 void CubePass::draw_surfaces(vk::CommandBuffer commands, const TargetKind& kind, bool blended, BoundState& bound)
@@ -263,7 +260,8 @@ shared::CubePush CubePass::constants_of(const PlannedImage& image) const
     clip[2] *= eye_events_[std::size_t(image.rest_frame)].contraction;
     clip = glm::scale(glm::dmat4(1), glm::dvec3(1 / guard_of(image), 1 / guard_of(image), 1)) * clip;
     shared::CubePush constants{};
-    constants.clip_x = shared::row(clip, 0), constants.clip_y = shared::row(clip, 1), constants.clip_w = shared::row(clip, 3);
+    constants.clip_x = shared::row(clip, 0), constants.clip_y = shared::row(clip, 1),
+    constants.clip_w = shared::row(clip, 3);
     constants.surface.x = near_distance;
     constants.surface.z = float(pixel_rad_ * image.texels_per_unit);
     return constants;
@@ -290,6 +288,8 @@ void CubePass::find_sky_images()
 void CubePass::draw_sky(vk::CommandBuffer commands, const TargetKind& kind, BoundState& bound)
 {
     set_area(commands, {0, 0}, sky_area_);
+    commands.setLineWidth(1);
+    commands.setFrontFace(vk::FrontFace::eCounterClockwise); // any: both sides are drawn
     bind(commands, pipelines_.sky(world_.world.milky_way >= 0, kind), world_.set_of_material.back(), true, bound);
     bind_uploads(commands, 0, bound);
     commands.draw(6, std::uint32_t(sky_images_.size()), 0, 0);

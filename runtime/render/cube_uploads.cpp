@@ -15,7 +15,7 @@ void put(const Device& device, Buffer& buffer, const std::vector<T>& data,
     vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer)
 {
     grow(device, buffer, data.size() * sizeof(T), usage);
-    write(buffer, std::as_bytes(std::span(data)));
+    copy_to(buffer, std::as_bytes(std::span(data)));
 }
 
 } // namespace
@@ -64,7 +64,7 @@ void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_even
     for (std::size_t rest_frame = 0; rest_frame < eye_events.size(); ++rest_frame) {
         shared::CubeConstants constants = constants_of(eye_events[rest_frame], light, pre_exposure);
         constants.first = glm::vec4(list.first[rest_frame], times.size(), list.first_pose[rest_frame], 0);
-        starbow::write(constants_, std::as_bytes(std::span(&constants, 1)), rest_frame * stride_);
+        copy_to(constants_, std::as_bytes(std::span(&constants, 1)), rest_frame * stride_);
         const auto own = time_entries(world_.world, eye_events[rest_frame], world_.scene.seconds_per_time_unit());
         times.insert(times.end(), own.begin(), own.end());
     }
@@ -82,7 +82,7 @@ void CubeUploads::write_tile_table(const CubeMapPlan& plan)
 void CubeUploads::write_sky(std::span<const shared::SkyImage> images)
 {
     grow(device_, sky_images_, images.size_bytes(), vk::BufferUsageFlagBits::eStorageBuffer);
-    starbow::write(sky_images_, std::as_bytes(images));
+    copy_to(sky_images_, std::as_bytes(images));
 }
 
 void CubeUploads::bind(vk::CommandBuffer commands, int rest_frame) const
@@ -122,16 +122,17 @@ void CubeUploads::write_set(const Buffer& columns)
         const Buffer* buffer;
     };
     constexpr auto storage = vk::DescriptorType::eStorageBuffer;
-    const std::array<Held, 8> held = {{{0, vk::DescriptorType::eUniformBufferDynamic, &constants_}, {1, storage, &instances_},
-        {2, storage, &visible_}, {3, vk::DescriptorType::eUniformBuffer, &columns}, {4, storage, &times}, {8, storage, &draws_},
-        {9, storage, &surfaces_}, {10, storage, &sky_images_}}};
+    const std::array<Held, 8> held = {{{0, vk::DescriptorType::eUniformBufferDynamic, &constants_},
+        {1, storage, &instances_}, {2, storage, &visible_}, {3, vk::DescriptorType::eUniformBuffer, &columns},
+        {4, storage, &times}, {8, storage, &draws_}, {9, storage, &surfaces_}, {10, storage, &sky_images_}}};
     std::array<std::uint64_t, held.size()> serials;
     std::array<vk::DescriptorBufferInfo, held.size()> infos;
     std::array<vk::WriteDescriptorSet, held.size()> writes;
     for (std::size_t i = 0; i < held.size(); ++i) {
         const auto& [binding, type, buffer] = held[i];
         serials[i] = buffer->serial;
-        infos[i] = vk::DescriptorBufferInfo(*buffer->buffer, 0, binding == 0 ? sizeof(shared::CubeConstants) : VK_WHOLE_SIZE);
+        infos[i]
+            = vk::DescriptorBufferInfo(*buffer->buffer, 0, binding == 0 ? sizeof(shared::CubeConstants) : VK_WHOLE_SIZE);
         writes[i] = vk::WriteDescriptorSet(*set_, binding, 0, 1, type, nullptr, &infos[i]);
     }
     if (serials == written_)

@@ -10,8 +10,8 @@ class CubeUploads {
 public:
     CubeUploads(Device& device, const Pipelines& pipelines, const GpuWorld& world);
 
-    /// Writes the frame's data, after write_sky. Every stored radiance is multiplied by pre_exposure. eye_events: the eye events of the rest
-    /// frames. The device must have finished the frame before.
+    /// Writes the frame's data, after write_sky. Every stored radiance is multiplied by pre_exposure. eye_events: the eye
+    /// events of the rest frames. The device must have finished the frame before.
     void write(const DrawList& list, std::span<const EyeEvent> eye_events, StoredLight light, double pre_exposure);
     void write_tile_table(const CubeMapPlan& plan);
     /// The sky's images, which the cube pass draws as instances.

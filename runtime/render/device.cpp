@@ -313,7 +313,8 @@ Device::Device(const Options& options)
     features.multiDrawIndirect = features.drawIndirectFirstInstance = true;
     features.pipelineStatisticsQuery = options.invocations;
     if (options.invocations && !physical.getFeatures().pipelineStatisticsQuery)
-        throw InputError(std::string(name()) + " does not count how often shaders run; a device with pipelineStatisticsQuery is right");
+        throw InputError(
+            std::string(name()) + " does not count how often shaders run; a device with pipelineStatisticsQuery is right");
     vk::PhysicalDeviceVulkan11Features features11;
     features11.shaderDrawParameters = true, features11.pNext = &features13; // the draw's number in an indirect one
     features.wideLines = physical.getFeatures().wideLines;

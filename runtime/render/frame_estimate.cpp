@@ -71,8 +71,8 @@ std::vector<PassEstimate> frame_estimate(
                 / (named.simds * named.clock_ghz * hertz_and_ms);
         };
         pass->vertices += one.vertices, pass->fragments += one.fragments;
-        pass->arithmetic_ms
-            += ms_of(one.vertices, vk::ShaderStageFlagBits::eVertex) + ms_of(one.fragments, vk::ShaderStageFlagBits::eFragment);
+        pass->arithmetic_ms += ms_of(one.vertices, vk::ShaderStageFlagBits::eVertex)
+            + ms_of(one.fragments, vk::ShaderStageFlagBits::eFragment);
         pass->memory_ms += one.fragments * bytes_of(one.pass) / (named.gigabytes_per_s * 1e6);
     }
     std::ranges::sort(passes, std::greater(), &PassEstimate::ms);

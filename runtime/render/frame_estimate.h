@@ -1,6 +1,7 @@
 #pragma once
 #include "config/model/layout.h"
 #include "config/model/shot.h"
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string>

@@ -63,7 +63,7 @@ Image make_maps(Device& device, const std::vector<const Texture*>& maps, bool se
             size = glm::max(size / 2u, 1u);
         }
         Buffer staging = make_mapped_buffer(device, all.size(), vk::BufferUsageFlagBits::eTransferSrc);
-        write(staging, std::as_bytes(std::span(all)));
+        copy_to(staging, std::as_bytes(std::span(all)));
         device.now([&](vk::CommandBuffer commands) {
             if (layer == 0)
                 transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {},

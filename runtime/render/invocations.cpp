@@ -86,8 +86,8 @@ std::vector<DrawInvocations> InvocationCounter::end()
             + "; a layout with fewer viewports is right");
     std::vector<DrawInvocations> all;
     for (std::uint32_t i = 0; i < counted.draws.size(); ++i) {
-        const auto [result, numbers] = queries_.getResults<std::uint64_t>(
-            i, 1, 2 * sizeof(std::uint64_t), 2 * sizeof(std::uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+        const auto [result, numbers] = queries_.getResults<std::uint64_t>(i, 1, 2 * sizeof(std::uint64_t),
+            2 * sizeof(std::uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
         all.push_back({counted.draws[i], numbers[0], numbers[1]});
     }
     return all;

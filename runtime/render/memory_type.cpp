@@ -11,7 +11,8 @@ std::optional<std::uint32_t> memory_type(
     const auto first_with = [&](vk::MemoryPropertyFlags wanted, vk::DeviceSize heap) -> std::optional<std::uint32_t> {
         for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
             const vk::MemoryType& type = memory.memoryTypes[i];
-            if ((allowed >> i & 1) && (type.propertyFlags & wanted) == wanted && memory.memoryHeaps[type.heapIndex].size >= heap)
+            if ((allowed >> i & 1) && (type.propertyFlags & wanted) == wanted
+                && memory.memoryHeaps[type.heapIndex].size >= heap)
                 return i;
         }
         return {};

@@ -56,7 +56,7 @@ void OverlayPass::prepare(std::size_t view, const Content& content, const Measur
     for (int i = 0; i < 2; ++i)
         if (const auto& mark = content.marks[std::size_t(i)])
             c.marks[i] = glm::vec4(to_motion * ray_to(observer, *mark, world.world).ship, 1);
-    write(constants_, std::as_bytes(std::span(&c, 1)), view * stride);
+    copy_to(constants_, std::as_bytes(std::span(&c, 1)), view * stride);
 }
 
 void OverlayPass::draw(vk::CommandBuffer commands, std::size_t view, const WarpVariant& variant, Overlay overlay,

@@ -38,7 +38,7 @@ void PanelPass::prepare(const Panel& panel, const Place& place)
         name_object(device_, picture_, "panel pass: picture");
     }
     grow(device_, texels_, panel.texels.size(), vk::BufferUsageFlagBits::eTransferSrc);
-    write(texels_, std::as_bytes(std::span(panel.texels)));
+    copy_to(texels_, std::as_bytes(std::span(panel.texels)));
     new_ = true;
 }
 

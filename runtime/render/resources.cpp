@@ -93,7 +93,7 @@ Buffer make_read_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsa
 Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::BufferUsageFlags usage)
 {
     Buffer staging = make_mapped_buffer(device, data.size(), vk::BufferUsageFlagBits::eTransferSrc);
-    write(staging, data);
+    copy_to(staging, data);
     Buffer buffer = make_buffer(device, data.size(), usage | vk::BufferUsageFlagBits::eTransferDst, MemoryUse::device);
     device.now([&](vk::CommandBuffer commands) {
         commands.copyBuffer(*staging.buffer, *buffer.buffer, vk::BufferCopy(0, 0, buffer.size));
@@ -101,7 +101,7 @@ Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::B
     return buffer;
 }
 
-void write(const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize at)
+void copy_to(const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize at)
 {
     if (!data.empty())
         std::memcpy(static_cast<std::byte*>(buffer.mapped) + at, data.data(), data.size());

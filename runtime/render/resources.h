@@ -56,7 +56,7 @@ Buffer make_read_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsa
 Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::BufferUsageFlags usage);
 
 /// Copies data into a mapped buffer, from the byte `at` on.
-void write(const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize at = 0);
+void copy_to(const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize at = 0);
 
 /// Replaces a mapped buffer that is too small by one of 1.5 times the size.
 void grow(const Device& device, Buffer& buffer, vk::DeviceSize size, vk::BufferUsageFlags usage);

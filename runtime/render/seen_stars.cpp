@@ -31,7 +31,7 @@ void SeenStars::follow(const EyeEvent& event, bool exactly)
     if (globes_) {
         seen_globes_.resize(globes().count);
         globes_->as_stars(globes_->seen(event), seen_globes_);
-        write(entries_, std::as_bytes(std::span(seen_globes_)), field_.stars.size() * sizeof(shared::StarEntry));
+        copy_to(entries_, std::as_bytes(std::span(seen_globes_)), field_.stars.size() * sizeof(shared::StarEntry));
     }
     const double reach = exactly ? 0 : least_change * std::max(nearest_, field_.least_distance);
     if (eye_ && glm::distance(eye, *eye_) <= reach)
@@ -39,7 +39,7 @@ void SeenStars::follow(const EyeEvent& event, bool exactly)
     eye_ = eye;
     stars_.resize(field_.stars.size());
     nearest_ = stars_from(field_, eye, stars_);
-    write(entries_, std::as_bytes(std::span(stars_)));
+    copy_to(entries_, std::as_bytes(std::span(stars_)));
     patches_ = star_patches(stars_, std::move(patches_));
 }
 

@@ -92,7 +92,7 @@ void StarPass::prepare(std::span<const Observer> observers)
         glm::vec4* rows[] = {&constants.row0, &constants.row1, &constants.row2};
         for (int i = 0; i < 3; ++i)
             *rows[i] = glm::vec4(turn[0][i], turn[1][i], turn[2][i], 0);
-        write(constants_, std::as_bytes(std::span(&constants, 1)), at * stride_);
+        copy_to(constants_, std::as_bytes(std::span(&constants, 1)), at * stride_);
     }
 }
 

@@ -134,7 +134,7 @@ void ViewDescriptors::write_globes(ViewState& view)
         seen = world_.globes->seen(eye_event_of(world, 0, place));
     shared::GlobeConstants constants = world_.globes->constants(seen, state_.pre_exposure);
     world_.globes->add_glare(constants, seen, world.motion_from_frame, world.E, eyes_.observer_of(view).shot.effects);
-    starbow::write(view.globes, std::as_bytes(std::span(&constants, 1)));
+    copy_to(view.globes, std::as_bytes(std::span(&constants, 1)));
 }
 
 void ViewDescriptors::write_range()
@@ -144,7 +144,7 @@ void ViewDescriptors::write_range()
     for (std::size_t k = 0; k < shown.size(); ++k)
         all.knots[k]
             = glm::vec4(shown[k] + state_.shot.exposure_ev, k + 1 < shown.size() ? shown[k + 1] - shown[k] : 0, 0, 0);
-    starbow::write(range_, std::as_bytes(std::span(&all, 1)));
+    copy_to(range_, std::as_bytes(std::span(&all, 1)));
 }
 
 void ViewDescriptors::write_rest_frames(ViewState& view)
@@ -181,7 +181,7 @@ void ViewDescriptors::write_rest_frames(ViewState& view)
     }
     all.count[0].x = float(count);
     all.sky = sky_constants(world_, eye.cube.light(), rest_frames[0].cube_from_frame, state_.pre_exposure);
-    starbow::write(view.rest_frames, std::as_bytes(std::span(&all, 1)));
+    copy_to(view.rest_frames, std::as_bytes(std::span(&all, 1)));
 }
 
 } // namespace starbow

@@ -12,16 +12,16 @@ std::array<std::uint64_t, CommandCounts::kinds> since(const CommandCounts& befor
 
 void turn_over(vk::CommandBuffer commands, const Image& image)
 {
-    transition(commands, image, vk::ImageLayout::eUndefined, vk::PipelineStageFlagBits2::eNone, {}, vk::ImageLayout::eGeneral,
-        vk::PipelineStageFlagBits2::eTransfer, {});
+    transition(commands, image, vk::ImageLayout::eUndefined, vk::PipelineStageFlagBits2::eNone, {},
+        vk::ImageLayout::eGeneral, vk::PipelineStageFlagBits2::eTransfer, {});
 }
 
 TEST(CommandCounts, EachCallOnceAndOnlyTheThreadsOwn)
 {
     count_commands(device());
     count_commands(device()); // counts no call twice
-    const Image image = make_image(
-        device(), {vk::Format::eR8G8B8A8Unorm, {8, 8}, vk::ImageUsageFlagBits::eColorAttachment, 1, 1});
+    const Image image
+        = make_image(device(), {vk::Format::eR8G8B8A8Unorm, {8, 8}, vk::ImageUsageFlagBits::eColorAttachment, 1, 1});
     const Buffer buffer = make_mapped_buffer(device(), 1000, vk::BufferUsageFlagBits::eUniformBuffer);
     const vk::RenderingAttachmentInfo colour(*image.view, vk::ImageLayout::eColorAttachmentOptimal);
     const CommandCounts before = command_counts();
@@ -34,17 +34,16 @@ TEST(CommandCounts, EachCallOnceAndOnlyTheThreadsOwn)
         device().begin_rendering(commands, {{}, {{0, 0}, {8, 8}}, 1, 0, colour});
         set_area(commands, {0, 0}, {8, 8});
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines().fade(image.format));
-        commands.pushConstants<float>(
-            *pipelines().layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, 0.5f);
+        commands.pushConstants<float>(*pipelines().layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, 0.5f);
         for (int i = 0; i < 5; ++i)
             commands.draw(3, 1, 0, 0);
         device().end_rendering(commands);
     });
     const std::vector<std::byte> bytes(700);
-    write(buffer, bytes, 300);
+    copy_to(buffer, bytes, 300);
     std::thread([&] {
         device().now([&](vk::CommandBuffer commands) { turn_over(commands, image); });
-        write(buffer, bytes);
+        copy_to(buffer, bytes);
     }).join();
     // submits, command buffers, passes, barriers, draws, pipelines, descriptor sets, pushes, states, bytes
     EXPECT_EQ(since(before), (std::array<std::uint64_t, CommandCounts::kinds>{1, 1, 1, 3, 5, 1, 0, 1, 2, 700}));
@@ -90,8 +89,8 @@ TEST(InvocationCounter, ShadersRunAsOftenAsTheirDrawsSay)
 TEST(CommandCounts, AFrameHasItsCeilings)
 {
     count_commands(device());
-    OffscreenRenderer window(device(), pipelines(), avenue().world, one_view(Planar{60}, {800, 600}),
-        default_quality(device(), false), false);
+    OffscreenRenderer window(
+        device(), pipelines(), avenue().world, one_view(Planar{60}, {800, 600}), default_quality(device(), false), false);
     window.frame().meter(true);
     PassTimer timer(device(), window);
     Shot shot = avenue().world.scene.start;
@@ -111,7 +110,8 @@ TEST(CommandCounts, AFrameHasItsCeilings)
         EXPECT_GT(first[Counts::uploaded_bytes], 1000u);
         EXPECT_LE(first[Counts::draws], most.draws) << "at gamma " << most.gamma;
         EXPECT_LE(first[Counts::pipeline_binds] + first[Counts::descriptor_binds], most.binds) << "at gamma " << most.gamma;
-        EXPECT_LE(first[Counts::passes] + first[Counts::barriers] + first[Counts::pushes] + first[Counts::states], most.others)
+        EXPECT_LE(
+            first[Counts::passes] + first[Counts::barriers] + first[Counts::pushes] + first[Counts::states], most.others)
             << "at gamma " << most.gamma;
     }
 }

@@ -34,9 +34,8 @@ void count(const CountedWorld& one)
     PassTimer timer(context.device, renderer);
     for (const auto& [name, gamma] : bench_speeds) {
         const Shot shot = counted_shot(one, context.world.scene.start, gamma);
-        const Panel panel
-            = Typesetter().draw(readings(ship_at(shot), context.world.scene, shot.effects), words_in("en"),
-                renderer.frame().views().hud_width());
+        const Panel panel = Typesetter().draw(readings(ship_at(shot), context.world.scene, shot.effects), words_in("en"),
+            renderer.frame().views().hud_width());
         timer.counts(shot, &panel); // makes room and pipelines
         const CommandCounts counts = timer.counts(shot, &panel);
         std::printf("%-8s%-8s%-10s", one.scene, one.layout, name);

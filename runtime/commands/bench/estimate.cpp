@@ -24,8 +24,8 @@ void bench_estimate(const std::string& family, const std::string& layout_name, c
         card->name, shot_name.c_str(), layout_name.c_str(), "", "vertices", "fragments", "arithmetic, ms", "memory, ms");
     double sum = 0;
     for (const PassEstimate& pass : passes) {
-        std::printf("%-16s%12.0f%12.0f%15.3f%12.3f\n", pass.pass.c_str(), pass.vertices, pass.fragments,
-            pass.arithmetic_ms, pass.memory_ms);
+        std::printf("%-16s%12.0f%12.0f%15.3f%12.3f\n", pass.pass.c_str(), pass.vertices, pass.fragments, pass.arithmetic_ms,
+            pass.memory_ms);
         sum += pass.ms();
     }
     std::printf("%-16s%39.3f, the greater one of each pass\n", "frame", sum);
