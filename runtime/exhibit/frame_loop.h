@@ -88,7 +88,7 @@ private:
     void end_commands();
     /// Adds the device's passes of the frame before to the trace.
     void trace_passes();
-    /// Adds what this frame asks of the device, where it differs from the frame before.
+    /// Adds the counts of this frame's calls that differ from those of the frame before.
     void trace_calls(const CommandCounts& counts);
     void gather_lacks();
 

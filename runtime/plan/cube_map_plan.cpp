@@ -449,11 +449,11 @@ std::span<const PlannedImage> of_first_tile(std::span<const PlannedImage> images
 
 std::size_t write_tiles(const CubeMapPlan& plan, shared::TileTable& table)
 {
-    std::size_t bytes
-        = plan.finest_clip_level.size() * TILE_COUNT * (sizeof table.sub_tiles_from_face[0] + sizeof table.entries[0]);
+    std::size_t bytes = 0;
+    const auto write = [&](auto& to, const auto& value) { to = value, bytes += sizeof to; };
     for (std::size_t tile = 0; tile < plan.finest_clip_level.size() * TILE_COUNT; ++tile) {
-        table.sub_tiles_from_face[tile] = glm::vec4(0);
-        table.entries[tile * SUB_TILE_COUNT] = {};
+        write(table.sub_tiles_from_face[tile], glm::vec4(0));
+        write(table.entries[tile * SUB_TILE_COUNT], shared::TileEntry{});
     }
     for (std::span<const PlannedImage> left = plan.images; !left.empty();) {
         const std::span<const PlannedImage> images = of_first_tile(left);
@@ -461,25 +461,24 @@ std::size_t write_tiles(const CubeMapPlan& plan, shared::TileTable& table)
         const std::size_t tile = std::size_t(images[0].rest_frame * TILE_COUNT + images[0].tile);
         shared::TileEntry* entries = table.entries + tile * SUB_TILE_COUNT;
         if (images[0].sub_tiles.all()) {
-            *entries = tile_entry(images[0]);
+            write(*entries, tile_entry(images[0]));
             continue;
         }
-        table.sub_tiles_from_face[tile] = glm::vec4(sub_tiles_from_face(images[0].tile));
-        bytes += SUB_TILE_COUNT * sizeof entries[0];
+        write(table.sub_tiles_from_face[tile], glm::vec4(sub_tiles_from_face(images[0].tile)));
         std::array<bool, SUB_TILE_COUNT> written{};
         for (const PlannedImage& image : images) {
             const shared::TileEntry entry = tile_entry(image);
             for (int y = image.sub_tiles.first.y; y < image.sub_tiles.first.y + image.sub_tiles.count.y; ++y)
                 for (int x = image.sub_tiles.first.x; x < image.sub_tiles.first.x + image.sub_tiles.count.x; ++x) {
-                    entries[y * TILE_SUB_TILES + x] = entry;
+                    write(entries[y * TILE_SUB_TILES + x], entry);
                     written[std::size_t(y * TILE_SUB_TILES + x)] = true;
                 }
         }
         // A sub-tile without pixels refers to the nearest drawn one, because rounding may lead there.
         for (int sub_tile = 0; sub_tile < SUB_TILE_COUNT; ++sub_tile)
             if (!written[std::size_t(sub_tile)])
-                entries[sub_tile]
-                    = tile_entry(nearest_image(images, {sub_tile % TILE_SUB_TILES, sub_tile / TILE_SUB_TILES}));
+                write(entries[sub_tile],
+                    tile_entry(nearest_image(images, {sub_tile % TILE_SUB_TILES, sub_tile / TILE_SUB_TILES})));
     }
     return bytes;
 }

@@ -6,8 +6,8 @@
 namespace starbow {
 
 /// Families of AMD's cards as RADV_FORCE_FAMILY names them. The driver ends the process for a name that it does not know.
-/// vangogh's shaders are also those of the processors of its generation; with rembrandt, one of them, Mesa 22.3 divides by
-/// zero.
+/// vangogh stands for all processors with graphics of its generation, RDNA 2; with rembrandt, another of them, Mesa 22.3
+/// divides by zero.
 constexpr std::array<const char*, 5> card_families{"navi21", "polaris10", "vega10", "vangogh", "gfx1100"};
 
 /// Opens a graphics card that is not there: RADV, Mesa's driver for AMD's cards, compiles shaders for each of its families

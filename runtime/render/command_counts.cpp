@@ -1,32 +1,41 @@
 #include "command_counts.h"
 #include "device.h"
+#include <tuple>
 #include <type_traits>
+#include <utility>
 
 namespace starbow {
 namespace {
 
 thread_local CommandCounts counts;
+thread_local DrawObserver* observer = nullptr;
+thread_local VkPipeline bound_pipeline = nullptr;
 
 /// Stands in for a function of Vulkan: it counts a call and makes it. `member` is the function's place in a dispatcher.
-template <auto member, class Function> struct Counted;
-template <auto member, class Result, class... Arguments> struct Counted<member, Result(VKAPI_PTR*)(Arguments...)> {
-    static inline Result(VKAPI_PTR* own)(Arguments...) = nullptr;
-    static inline CommandCounts::Kind kind;
-    static VKAPI_ATTR Result VKAPI_CALL call(Arguments... arguments)
+template <auto member, CommandCounts::Kind kind, class Function> struct Counted;
+template <auto member, CommandCounts::Kind kind, class... Arguments>
+struct Counted<member, kind, void(VKAPI_PTR*)(VkCommandBuffer, Arguments...)> {
+    static inline void(VKAPI_PTR* own)(VkCommandBuffer, Arguments...) = nullptr;
+    static VKAPI_ATTR void VKAPI_CALL call(VkCommandBuffer commands, Arguments... arguments)
     {
         ++counts.of[kind];
-        return own(arguments...);
+        if constexpr (kind == CommandCounts::pipeline_binds)
+            bound_pipeline = std::get<VkPipeline>(std::tuple(arguments...));
+        const bool observed = kind == CommandCounts::draws && observer;
+        if (observed)
+            observer->before_draw(commands, vk::Pipeline(bound_pipeline));
+        own(commands, arguments...);
+        if (observed)
+            observer->after_draw(commands);
     }
 };
 
-template <auto member, class Dispatcher> void count(Dispatcher& dispatcher, CommandCounts::Kind kind)
+template <auto member, CommandCounts::Kind kind, class Dispatcher> void count(Dispatcher& dispatcher)
 {
     auto& function = dispatcher.*member;
-    using Stand = Counted<member, std::remove_reference_t<decltype(function)>>;
-    if (function == Stand::call)
-        return;
-    Stand::own = function, Stand::kind = kind;
-    function = Stand::call;
+    using Stand = Counted<member, kind, std::remove_reference_t<decltype(function)>>;
+    if (function != Stand::call)
+        Stand::own = std::exchange(function, Stand::call);
 }
 
 PFN_vkQueueSubmit2 submit;
@@ -46,21 +55,21 @@ void count_commands(const Device& device)
 {
     auto& recording = VULKAN_HPP_DEFAULT_DISPATCHER;
     using Recording = std::remove_reference_t<decltype(recording)>;
-    count<&Recording::vkCmdBeginRendering>(recording, CommandCounts::passes);
-    count<&Recording::vkCmdPipelineBarrier2>(recording, CommandCounts::barriers);
-    count<&Recording::vkCmdDraw>(recording, CommandCounts::draws);
-    count<&Recording::vkCmdDrawIndexed>(recording, CommandCounts::draws);
-    count<&Recording::vkCmdDrawIndexedIndirect>(recording, CommandCounts::draws);
-    count<&Recording::vkCmdBindPipeline>(recording, CommandCounts::pipeline_binds);
-    count<&Recording::vkCmdBindDescriptorSets>(recording, CommandCounts::descriptor_binds);
-    count<&Recording::vkCmdPushConstants>(recording, CommandCounts::pushes);
-    count<&Recording::vkCmdSetViewport>(recording, CommandCounts::states);
-    count<&Recording::vkCmdSetScissor>(recording, CommandCounts::states);
-    count<&Recording::vkCmdSetCullMode>(recording, CommandCounts::states);
-    count<&Recording::vkCmdSetFrontFace>(recording, CommandCounts::states);
-    count<&Recording::vkCmdSetLineWidth>(recording, CommandCounts::states);
-    count<&Recording::vkCmdBindVertexBuffers>(recording, CommandCounts::states);
-    count<&Recording::vkCmdBindIndexBuffer>(recording, CommandCounts::states);
+    count<&Recording::vkCmdBeginRendering, CommandCounts::passes>(recording);
+    count<&Recording::vkCmdPipelineBarrier2, CommandCounts::barriers>(recording);
+    count<&Recording::vkCmdDraw, CommandCounts::draws>(recording);
+    count<&Recording::vkCmdDrawIndexed, CommandCounts::draws>(recording);
+    count<&Recording::vkCmdDrawIndexedIndirect, CommandCounts::draws>(recording);
+    count<&Recording::vkCmdBindPipeline, CommandCounts::pipeline_binds>(recording);
+    count<&Recording::vkCmdBindDescriptorSets, CommandCounts::descriptor_binds>(recording);
+    count<&Recording::vkCmdPushConstants, CommandCounts::pushes>(recording);
+    count<&Recording::vkCmdSetViewport, CommandCounts::states>(recording);
+    count<&Recording::vkCmdSetScissor, CommandCounts::states>(recording);
+    count<&Recording::vkCmdSetCullMode, CommandCounts::states>(recording);
+    count<&Recording::vkCmdSetFrontFace, CommandCounts::states>(recording);
+    count<&Recording::vkCmdSetLineWidth, CommandCounts::states>(recording);
+    count<&Recording::vkCmdBindVertexBuffers, CommandCounts::states>(recording);
+    count<&Recording::vkCmdBindIndexBuffer, CommandCounts::states>(recording);
     // The queue calls by the table of the device's handle, which hands it out as constant.
     const auto& handed = *device.device.getDispatcher();
     auto& queue = const_cast<std::remove_cvref_t<decltype(handed)>&>(handed);
@@ -77,6 +86,8 @@ CommandCounts operator-(const CommandCounts& later, const CommandCounts& earlier
         between.of[i] = later.of[i] - earlier.of[i];
     return between;
 }
+
+void observe_draws(DrawObserver* one) { observer = one; }
 
 void count_upload(std::uint64_t bytes) { counts.of[CommandCounts::uploaded_bytes] += bytes; }
 

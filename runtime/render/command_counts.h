@@ -1,12 +1,13 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <vulkan/vulkan.hpp>
 
 namespace starbow {
 
 class Device;
 
-/// What the processor asks of the device, counted at the calls of Vulkan themselves, so that no pass can be forgotten.
+/// Counts of calls of Vulkan, taken in Vulkan's table of functions, so that no pass can be forgotten.
 struct CommandCounts {
     enum Kind {
         submits,
@@ -38,5 +39,18 @@ const CommandCounts& command_counts();
 CommandCounts operator-(const CommandCounts& later, const CommandCounts& earlier);
 
 void count_upload(std::uint64_t bytes);
+
+/// Follows the draws of one thread.
+class DrawObserver {
+public:
+    virtual void before_draw(vk::CommandBuffer commands, vk::Pipeline bound) = 0;
+    virtual void after_draw(vk::CommandBuffer commands) = 0;
+
+protected:
+    ~DrawObserver() = default;
+};
+/// From now on `observer` follows the draws that the calling thread records; null: nobody does. count_commands() comes
+/// before it.
+void observe_draws(DrawObserver* observer);
 
 } // namespace starbow

@@ -70,20 +70,21 @@ void CubePass::prepare(const CubeMapPlan& plan, std::span<const EyeEvent> eye_ev
     const Trace::Span span(device_.trace, "upload");
     eye_events_.assign(eye_events.begin(), eye_events.end());
     target_.fit(plan.atlas_size, plan.levels);
-    find_sky_images();
-    uploads_.write(list_, eye_events, light, pre_exposure_);
+    find_skies();
+    uploads_.write(list_, skies_, eye_events, light, pre_exposure_);
     uploads_.write_tile_table(plan);
 }
 
 void CubePass::prepare_plain(const PlannedImage& image, const EyeEvent& eye_event)
 {
     images_ = {image};
+    area_ = image.size;
     use_ = {false, StoredLight::plain};
     list_ = cull(world_.world, {&eye_event, 1}, images_, quality_, std::move(list_));
     group_draws();
     eye_events_ = {eye_event};
-    find_sky_images();
-    uploads_.write(list_, {&eye_event, 1}, use_.light, pre_exposure_);
+    find_skies();
+    uploads_.write(list_, skies_, {&eye_event, 1}, use_.light, pre_exposure_);
     target_.fit_depth(image.size);
 }
 
@@ -182,7 +183,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
     BoundState bound;
     const bool blends = std::ranges::any_of(runs_, &Run::blended);
     draw_surfaces(commands, kind, false, bound);
-    if (!sky_images_.empty())
+    if (!skies_.empty())
         draw_sky(commands, kind, bound);
     if (!blends)
         return;
@@ -267,32 +268,28 @@ shared::CubePush CubePass::constants_of(const PlannedImage& image) const
     return constants;
 }
 
-void CubePass::find_sky_images()
+void CubePass::find_skies()
 {
-    sky_images_.clear();
-    sky_area_ = glm::ivec2(0);
-    for (const PlannedImage& image : images_)
-        sky_area_ = glm::max(sky_area_, image.atlas + image.size);
+    skies_.clear();
     for (const PlannedImage& image : images_) {
         if (!image.needed || !sky_ || use_.several_rest_frames)
             continue;
         const auto [a, b] = axes_of(image);
-        const glm::dvec2 unit = 2.0 / glm::dvec2(sky_area_);
-        sky_images_.push_back({glm::vec4(face_direction(image.face, image.low), 0),
+        const glm::dvec2 unit = 2.0 / glm::dvec2(area_);
+        skies_.push_back({glm::vec4(face_direction(image.face, image.low), 0),
             glm::vec4(a * (image.high.x - image.low.x), 0), glm::vec4(b * (image.high.y - image.low.y), 0),
             glm::vec4(glm::dvec2(image.atlas) * unit - 1.0, glm::dvec2(image.size) * unit)});
     }
-    uploads_.write_sky(sky_images_);
 }
 
 void CubePass::draw_sky(vk::CommandBuffer commands, const TargetKind& kind, BoundState& bound)
 {
-    set_area(commands, {0, 0}, sky_area_);
+    set_area(commands, {0, 0}, area_);
     commands.setLineWidth(1);
     commands.setFrontFace(vk::FrontFace::eCounterClockwise); // any: both sides are drawn
     bind(commands, pipelines_.sky(world_.world.milky_way >= 0, kind), world_.set_of_material.back(), true, bound);
     bind_uploads(commands, 0, bound);
-    commands.draw(6, std::uint32_t(sky_images_.size()), 0, 0);
+    commands.draw(6, std::uint32_t(skies_.size()), 0, 0);
     if (device_.keeper)
         device_.keeper->hold(commands);
 }

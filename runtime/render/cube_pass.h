@@ -45,7 +45,7 @@ public:
     vk::DeviceSize memory() const { return target_.memory(); }
 
 private:
-    /// What draws must share to be one call.
+    /// Pipeline, pictures and culling of a surface. Draws of one image with the same state are one call.
     struct SurfaceState {
         SurfaceVariant variant;
         std::size_t material_set; ///< index of GpuWorld::material_sets
@@ -59,7 +59,7 @@ private:
         bool blended;
         std::uint32_t first, count;
     };
-    /// What is bound while commands are recorded, so that nothing is bound twice.
+    /// The state that the commands have bound so far, so that nothing is bound twice.
     struct BoundState {
         vk::Pipeline pipeline;
         std::optional<std::size_t> material_set;
@@ -74,7 +74,7 @@ private:
     void draw_images(vk::CommandBuffer commands, const TargetKind& kind);
     void fill_clip_hole(vk::CommandBuffer commands, const PlannedImage& image) const;
     void draw_surfaces(vk::CommandBuffer commands, const TargetKind& kind, bool blended, BoundState& bound);
-    void find_sky_images(); ///< of the images that the sky is drawn into, and uploads them
+    void find_skies(); ///< of the images that the sky is drawn into
     void draw_sky(vk::CommandBuffer commands, const TargetKind& kind, BoundState& bound);
     void bind(vk::CommandBuffer commands, vk::Pipeline pipeline, std::size_t material_set, bool double_sided,
         BoundState& bound) const;
@@ -97,8 +97,7 @@ private:
     double pre_exposure_ = 1;
     int levels_ = 1;
     DrawList list_;
-    std::vector<shared::SkyImage> sky_images_;
-    glm::ivec2 sky_area_{0}; ///< texels that hold all images
+    std::vector<shared::SkyImage> skies_;
     std::vector<Run> runs_; ///< by image, in the order in which they are drawn
     std::vector<std::size_t> run_of_draw_; ///< of group_draws, kept for their memory
     std::vector<Draw> grouped_;

@@ -52,10 +52,12 @@ CubeUploads::CubeUploads(Device& device, const Pipelines& pipelines, const GpuWo
         {});
 }
 
-void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_events, StoredLight light, double pre_exposure)
+void CubeUploads::write(const DrawList& list, const std::vector<shared::SkyImage>& skies,
+    std::span<const EyeEvent> eye_events, StoredLight light, double pre_exposure)
 {
     put(device_, instances_, list.instances);
     put(device_, visible_, list.visible);
+    put(device_, skies_, skies);
     if (!list.sorted_indices.empty())
         put(device_, sorted_indices_, list.sorted_indices, vk::BufferUsageFlagBits::eIndexBuffer);
     write_draws(list, pre_exposure);
@@ -77,12 +79,6 @@ void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_even
 void CubeUploads::write_tile_table(const CubeMapPlan& plan)
 {
     count_upload(write_tiles(plan, *static_cast<shared::TileTable*>(tiles_.mapped)));
-}
-
-void CubeUploads::write_sky(std::span<const shared::SkyImage> images)
-{
-    grow(device_, sky_images_, images.size_bytes(), vk::BufferUsageFlagBits::eStorageBuffer);
-    copy_to(sky_images_, std::as_bytes(images));
 }
 
 void CubeUploads::bind(vk::CommandBuffer commands, int rest_frame) const
@@ -124,7 +120,7 @@ void CubeUploads::write_set(const Buffer& columns)
     constexpr auto storage = vk::DescriptorType::eStorageBuffer;
     const std::array<Held, 8> held = {{{0, vk::DescriptorType::eUniformBufferDynamic, &constants_},
         {1, storage, &instances_}, {2, storage, &visible_}, {3, vk::DescriptorType::eUniformBuffer, &columns},
-        {4, storage, &times}, {8, storage, &draws_}, {9, storage, &surfaces_}, {10, storage, &sky_images_}}};
+        {4, storage, &times}, {8, storage, &draws_}, {9, storage, &surfaces_}, {10, storage, &skies_}}};
     std::array<std::uint64_t, held.size()> serials;
     std::array<vk::DescriptorBufferInfo, held.size()> infos;
     std::array<vk::WriteDescriptorSet, held.size()> writes;

@@ -10,12 +10,11 @@ class CubeUploads {
 public:
     CubeUploads(Device& device, const Pipelines& pipelines, const GpuWorld& world);
 
-    /// Writes the frame's data, after write_sky. Every stored radiance is multiplied by pre_exposure. eye_events: the eye
-    /// events of the rest frames. The device must have finished the frame before.
-    void write(const DrawList& list, std::span<const EyeEvent> eye_events, StoredLight light, double pre_exposure);
+    /// Writes the frame's data. Every stored radiance is multiplied by pre_exposure. skies: which the cube pass draws as
+    /// instances. eye_events: the eye events of the rest frames. The device must have finished the frame before.
+    void write(const DrawList& list, const std::vector<shared::SkyImage>& skies, std::span<const EyeEvent> eye_events,
+        StoredLight light, double pre_exposure);
     void write_tile_table(const CubeMapPlan& plan);
-    /// The sky's images, which the cube pass draws as instances.
-    void write_sky(std::span<const shared::SkyImage> images);
 
     /// Binds the set with the constants of one rest frame.
     void bind(vk::CommandBuffer commands, int rest_frame) const;
@@ -39,7 +38,7 @@ private:
     const GpuWorld& world_;
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::DescriptorSet set_ = nullptr;
-    Buffer constants_, instances_, visible_, draws_, surfaces_, draw_commands_, sky_images_, tiles_;
+    Buffer constants_, instances_, visible_, draws_, surfaces_, draw_commands_, skies_, tiles_;
     Buffer times_, sorted_indices_; ///< null without any
     vk::raii::BufferView tiles_view_ = nullptr;
     vk::DeviceSize stride_; ///< bytes from one rest frame's constants to the next

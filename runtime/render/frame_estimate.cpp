@@ -6,12 +6,16 @@
 #include "pass_timer.h"
 #include "render_context.h"
 #include "runtime/hud/hud.h"
+#include "shader_costs.h"
 #include <algorithm>
-#include <string_view>
 #include <vulkan/vulkan_format_traits.hpp>
 
 namespace starbow {
 namespace {
+
+static_assert(std::ranges::equal(
+    card_families, named_cards, {}, [](const char* family) { return std::string_view(family); },
+    [](const NamedCard& card) { return std::string_view(card.family); }));
 
 /// A pipeline of a frame, and how often its shaders run.
 struct DrawnPass {
@@ -60,14 +64,14 @@ std::vector<PassEstimate> frame_estimate(
     Pipelines pipelines(*card);
     std::vector<PassEstimate> passes;
     for (const DrawnPass& one : drawn) {
-        const std::string name(one.pass.name, std::string_view(one.pass.name).rfind(" pipeline"));
+        const std::string name = table_name(one.pass);
         auto pass = std::ranges::find(passes, name, &PassEstimate::pass);
         if (pass == passes.end())
             pass = passes.insert(passes.end(), {.pass = name});
         const vk::Pipeline pipeline = pipelines.find_or_make(one.pass);
         const auto ms_of = [&](double invocations, vk::ShaderStageFlagBits stage) {
             constexpr double wave = 64, hertz_and_ms = 1e6; // of 1 GHz
-            return invocations / wave * shader_statistics(*card, pipeline, stage).at("Inverse Throughput")
+            return invocations / wave * shader_statistics(*card, pipeline, stage).at(shader_figures[cycles_figure].figure)
                 / (named.simds * named.clock_ghz * hertz_and_ms);
         };
         pass->vertices += one.vertices, pass->fragments += one.fragments;

@@ -18,8 +18,8 @@ constexpr std::array<NamedCard, 5> named_cards{{{"Radeon RX 6800", "navi21", 120
     {"Radeon RX 580", "polaris10", 144, 1.340, 256}, {"Radeon RX Vega 64", "vega10", 256, 1.546, 484},
     {"Radeon 680M with DDR5-4800", "vangogh", 24, 2.4, 77}, {"Radeon RX 7900 XTX", "gfx1100", 192, 2.5, 960}}};
 
-/// What one pass of a frame asks of a card, and how long that takes at least: the arithmetic of its shaders on all of the
-/// card's SIMDs, and the bytes of its targets through the card's memory. They run side by side.
+/// The work of one pass of a frame, and the time of its two parts, which run side by side: the arithmetic of the shaders on
+/// all of the card's SIMDs, and the bytes of the targets through the card's memory.
 struct PassEstimate {
     std::string pass;
     double vertices = 0, fragments = 0; ///< invocations

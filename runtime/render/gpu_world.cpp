@@ -305,9 +305,7 @@ SurfaceVariant GpuWorld::variant(int material, StoredLight light) const
     variant.base_texture = m.base_texture >= 0, variant.emissive_texture = m.emissive_texture >= 0;
     variant.masked = m.alpha_cutoff > 0;
     variant.unlit = m.unlit, variant.lights = m.unlit ? 0 : int(world.lamps.size());
-    for (int i = 0; i < variant.lights; ++i)
-        variant.point_lamps
-            |= std::holds_alternative<PointLight>(scene.lights[world.lamps[std::size_t(i)].light]) ? 1 << i : 0;
+    variant.point_lamps = m.unlit ? 0 : point_lamps;
     if (light != StoredLight::plain && m.mapped()) {
         variant.mapped = true, variant.matt = !m.gloss;
         variant.roughness_map = m.gloss && m.gloss->metallic_roughness.texture >= 0;
@@ -430,6 +428,8 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
     }
     note_large_images(gpu, world);
     put_materials(device, pipelines, gpu, world);
+    for (std::size_t i = 0; i < world.lamps.size(); ++i)
+        gpu.point_lamps |= std::holds_alternative<PointLight>(scene.lights[world.lamps[i].light]) ? 1 << i : 0;
     put_shadows(device, gpu, world);
     put_stars(gpu, stars);
     if (world.globes)

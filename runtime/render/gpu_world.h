@@ -48,6 +48,7 @@ struct GpuWorld {
     std::vector<std::size_t> set_of_material; ///< index of `material_sets`; last the sky's, which is like a material
 
     int shadows = 0; ///< SurfaceVariant::shadows of still surfaces
+    int point_lamps = 0; ///< SurfaceVariant's, of surfaces that lamps illuminate
     Image shadow_maps, sky_cells; ///< of World::shadows, which has no texels any more; one texel without shadows
     vk::raii::Sampler nearest_sampler = nullptr, sky_sampler = nullptr; ///< theirs
 

@@ -162,6 +162,13 @@ struct PipelinePass {
     Blending blending = Blending::none;
 };
 
+/// A pass's name for tables: "warp".
+inline std::string table_name(const PipelinePass& pass)
+{
+    const std::string_view name(pass.name);
+    return std::string(name.substr(0, name.rfind(" pipeline")));
+}
+
 /// The constants of a pass that are not 0, by their names in the code, and its target: one text for each pipeline of a name.
 std::string describe(const PipelinePass& pass);
 

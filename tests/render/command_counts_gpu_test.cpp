@@ -1,5 +1,5 @@
-// What the processor asks of the device, counted: calls that this file makes by itself, and ceilings of a frame, so that no
-// change adds a call unseen.
+// Counts of calls of Vulkan: of calls that this file makes by itself, and of a frame, which has ceilings, so that no change
+// adds a call unseen.
 #include "runtime/render/command_counts.h"
 #include "runtime/render/pass_timer.h"
 #include "tests/support/gpu_environment.h"

@@ -2,7 +2,7 @@
 
 namespace starbow {
 
-/// Prints what the processor asks of the device in one frame: passes, draws, binds and the like, by world, layout and speed.
+/// Prints the counts of one frame's calls of Vulkan: passes, draws, binds and the like, by world, layout and speed.
 /// The figures are the same on every machine with one kind of device.
 void bench_counts();
 
