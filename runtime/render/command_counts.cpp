@@ -38,15 +38,14 @@ template <auto member, CommandCounts::Kind kind, class Dispatcher> void count(Di
         Stand::own = std::exchange(function, Stand::call);
 }
 
-PFN_vkQueueSubmit2 submit;
-
 VKAPI_ATTR VkResult VKAPI_CALL counted_submit(
     VkQueue queue, std::uint32_t submit_count, const VkSubmitInfo2* submits, VkFence fence)
 {
     counts.of[CommandCounts::submits] += submit_count;
     for (std::uint32_t i = 0; i < submit_count; ++i)
         counts.of[CommandCounts::command_buffers] += submits[i].commandBufferInfoCount;
-    return submit(queue, submit_count, submits, fence);
+    // The loader's function finds the queue's device, as several may be counted.
+    return VULKAN_HPP_DEFAULT_DISPATCHER.vkQueueSubmit2(queue, submit_count, submits, fence);
 }
 
 } // namespace
@@ -73,8 +72,7 @@ void count_commands(const Device& device)
     // The queue calls by the table of the device's handle, which hands it out as constant.
     const auto& handed = *device.device.getDispatcher();
     auto& queue = const_cast<std::remove_cvref_t<decltype(handed)>&>(handed);
-    if (queue.vkQueueSubmit2 != counted_submit)
-        submit = std::exchange(queue.vkQueueSubmit2, counted_submit);
+    queue.vkQueueSubmit2 = counted_submit;
 }
 
 const CommandCounts& command_counts() { return counts; }

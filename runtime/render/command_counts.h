@@ -30,8 +30,8 @@ struct CommandCounts {
 inline constexpr std::array<const char*, CommandCounts::kinds> command_count_names = {"submits", "command buffers", "passes",
     "barriers", "draws", "pipeline binds", "descriptor binds", "pushes", "states", "uploaded bytes"};
 
-/// From now on the calls for this device are counted, until another device is opened. It must not be in use by another
-/// thread meanwhile. Without this, calls cost nothing more, and uploaded bytes alone are counted.
+/// From now on the calls for this device are counted, those that record until another device is opened. It must not be in
+/// use by another thread meanwhile. Without this, calls cost nothing more, and uploaded bytes alone are counted.
 void count_commands(const Device& device);
 
 /// All counts of the calling thread so far; a frame's are the difference of two.

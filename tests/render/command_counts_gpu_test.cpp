@@ -49,6 +49,17 @@ TEST(CommandCounts, EachCallOnceAndOnlyTheThreadsOwn)
     EXPECT_EQ(since(before), (std::array<std::uint64_t, CommandCounts::kinds>{1, 1, 1, 3, 5, 1, 0, 1, 2, 700}));
 }
 
+TEST(CommandCounts, ADeviceIsCountedWhereAnotherWasSince)
+{
+    count_commands(device());
+    Device other({.name = device_options(false).name});
+    count_commands(other);
+    const CommandCounts before = command_counts();
+    for (Device* each : {&device(), &other})
+        each->now([](vk::CommandBuffer) {});
+    EXPECT_EQ((command_counts() - before).of[CommandCounts::submits], 2u);
+}
+
 TEST(InvocationCounter, ShadersRunAsOftenAsTheirDrawsSay)
 {
     Device counting({.invocations = true, .name = device_options(false).name});
