@@ -1,4 +1,5 @@
 #include "describe.h"
+#include <bit>
 #include <cstdio>
 
 namespace starbow {
@@ -30,8 +31,7 @@ const Place* described::Members::find(const char* name, bool needed)
     return now ? &*now : nullptr;
 }
 
-void described::reject_others(
-    const Place& place, std::initializer_list<const char*> known, const Variation& as, bool names_schema)
+void described::reject_others(const Place& place, std::span<const char* const> known, const Variation& as, bool names_schema)
 {
     std::vector<std::string_view> names;
     if (as.tag)
@@ -105,6 +105,15 @@ Json described::reference(Json& definitions, const char* name, Json (*made)(Json
         definitions[name] = std::move(schema);
     }
     return {{"$ref", std::string("#/definitions/") + name}};
+}
+
+bool described::are_same(const Json& a, const Json& b)
+{
+    if (a.is_number_float() && b.is_number_float())
+        return std::bit_cast<std::uint64_t>(a.get<double>()) == std::bit_cast<std::uint64_t>(b.get<double>());
+    if (a.is_array() && b.is_array())
+        return std::ranges::equal(a, b, are_same);
+    return a == b;
 }
 
 Json described::list_schema(std::size_t least, std::size_t most, Json item)

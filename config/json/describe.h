@@ -1,7 +1,10 @@
 #pragma once
 #include "reader.h"
+#include <array>
 #include <cmath>
+#include <span>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 namespace starbow {
@@ -13,7 +16,9 @@ namespace starbow {
 //   several members has read_into(const Place&, Owner&, const Folder&) instead. The form of a value that `check` reads has
 //   neither.
 // - written(const Value&), the value as the file has it. A kind of file that is only read does not need it.
-// - schema(Json& definitions), the JSON schema of the value without its meaning and its default.
+// - schema(Json& definitions), the JSON schema of the value without its meaning and its default. A kind of file that only
+// the
+//   program writes does not need it.
 //
 // Rules between members are a function check(const Place&, Owner&, const Folder&), and `rules` in the schema. Rules of the
 // members' presence alone may be check_members(const Place&, const Owner*), which is called before values are read.
@@ -28,25 +33,47 @@ struct Folder {
     }
 };
 
+namespace described {
+
+/// Constants of several types. A std::tuple of the fields took a fifth of all compilation of what reads files.
+template <std::size_t, class T> struct Cell {
+    T value;
+};
+template <class Numbers, class... T> struct Cells;
+template <std::size_t... i, class... T> struct Cells<std::index_sequence<i...>, T...> : Cell<i, T>... {
+    template <class Visit> constexpr void each(Visit&& visit) const
+    {
+        (visit(static_cast<const Cell<i, T>&>(*this).value), ...);
+    }
+    template <class Function> constexpr decltype(auto) all(Function&& function) const
+    {
+        return function(static_cast<const Cell<i, T>&>(*this).value...);
+    }
+};
+template <class... T> using Row = Cells<std::index_sequence_for<T...>, T...>;
+template <class T> constexpr const T& first(const Cell<0, T>& cell) { return cell.value; }
+
+} // namespace described
+
 /// One value of a file. Members: none for a value that another field's form reads, too.
 template <class Form, class Owner, class... Values> struct Field {
     const char* name;
     Form form;
     const char* says; ///< its meaning, with its unit
     bool is_needed;
-    std::tuple<Values Owner::*...> members;
+    described::Row<Values Owner::*...> members;
     static constexpr bool is_again = false;
 };
 /// A value that may be left out.
 template <class Form, class Owner, class... Values>
 constexpr auto field(const char* name, Form form, const char* says, Values Owner::*... members)
 {
-    return Field<Form, Owner, Values...>{name, form, says, false, {members...}};
+    return Field<Form, Owner, Values...>{name, form, says, false, {{members}...}};
 }
 template <class Form, class Owner, class... Values>
 constexpr auto needed(const char* name, Form form, const char* says, Values Owner::*... members)
 {
-    return Field<Form, Owner, Values...>{name, form, says, true, {members...}};
+    return Field<Form, Owner, Values...>{name, form, says, true, {{members}...}};
 }
 /// A value that makes members which another field makes, too, or none: `check` reads it.
 template <class Form, class Owner, class... Values> struct Again : Field<Form, Owner, Values...> {
@@ -54,7 +81,7 @@ template <class Form, class Owner, class... Values> struct Again : Field<Form, O
 template <class Form, class Owner, class... Values>
 constexpr auto again(const char* name, Form form, const char* says, Values Owner::*... members)
 {
-    return Again<Form, Owner, Values...>{{name, form, says, false, {members...}}};
+    return Again<Form, Owner, Values...>{{name, form, says, false, {{members}...}}};
 }
 /// Members of a struct that its file does not hold.
 template <class Owner, class... Values> struct NotInFile {
@@ -63,19 +90,38 @@ template <class Owner, class... Values> constexpr NotInFile<Owner, Values...> no
 
 /// The description of a struct; `name`: of its kind, of a tagged alternative its "type".
 template <class Owner, class... Fields> struct Description {
+    using Struct = Owner;
     const char* name;
     const char* says;
-    std::tuple<Fields...> fields;
+    described::Row<Fields...> fields;
     const char* rules = "{}"; ///< JSON: what the schema says beside its members
     bool is_file = false; ///< it may name its schema
 };
 template <class Owner, class... Fields> constexpr auto describe(const char* name, const char* says, Fields... fields)
 {
-    return Description<Owner, Fields...>{name, says, {fields...}};
+    return Description<Owner, Fields...>{name, says, {{fields}...}};
 }
 template <class Owner, class... Fields> constexpr auto describe_file(const char* name, const char* says, Fields... fields)
 {
-    return Description<Owner, Fields...>{name, says, {fields...}, "{}", true};
+    return Description<Owner, Fields...>{name, says, {{fields}...}, "{}", true};
+}
+namespace described {
+
+template <class Field> constexpr auto in_file(const Field& field) { return std::tuple{field}; }
+template <class Owner, class... Values> constexpr std::tuple<> in_file(const NotInFile<Owner, Values...>&) { return {}; }
+
+} // namespace described
+/// The same with more fields, which hold the members that the former does not.
+template <class Owner, class... Fields, class... More>
+constexpr auto with_fields(const Description<Owner, Fields...>& description, More... more)
+{
+    return std::apply(
+        [&]<class... All>(const All&... all) {
+            return Description<Owner, All...>{
+                description.name, description.says, {{all}...}, description.rules, description.is_file};
+        },
+        description.fields.all(
+            [&](const Fields&... fields) { return std::tuple_cat(described::in_file(fields)..., std::tuple{more...}); }));
 }
 template <class Description> constexpr Description with_rules(Description description, const char* rules)
 {
@@ -103,17 +149,10 @@ namespace described {
 struct Anything {
     template <class T> operator T() const;
 };
+/// True if an aggregate has at least so many members.
 template <class T, std::size_t... i> consteval bool takes(std::index_sequence<i...>)
 {
     return requires { T{(void(i), Anything{})...}; };
-}
-/// The number of an aggregate's members.
-template <class T, std::size_t count = 1> consteval std::size_t members()
-{
-    if constexpr (takes<T>(std::make_index_sequence<count + 1>()))
-        return members<T, count + 1>();
-    else
-        return count;
 }
 template <class Form, class Owner, class... Values> consteval std::size_t covered(const Field<Form, Owner, Values...>*)
 {
@@ -135,11 +174,10 @@ template <class Owner, class... Fields> consteval std::size_t all_covered(const 
 /// Calls visit with each field of a struct.
 template <class T, class Visit> void for_each_field(Visit&& visit)
 {
-    const auto each = [&]<class One>(const One& one) {
+    description<T>.fields.each([&](const auto& one) {
         if constexpr (requires { one.form; })
             visit(one);
-    };
-    std::apply([&](const auto&... fields) { (each(fields), ...); }, description<T>.fields);
+    });
 }
 
 /// An object's members one after the other. It is no template: there are hundreds of fields.
@@ -150,7 +188,8 @@ struct Members {
     const Place* find(const char* name, bool needed);
 };
 template <class Form, class Owner, class... Values>
-void read_field(const Field<Form, Owner, Values...>& field, Members& members, Owner& owner, const Folder& folder)
+void read_field(
+    const Field<Form, Owner, Values...>& field, Members& members, std::type_identity_t<Owner>& owner, const Folder& folder)
 {
     const Place* place = members.find(field.name, field.is_needed);
     if (!place)
@@ -158,20 +197,29 @@ void read_field(const Field<Form, Owner, Values...>& field, Members& members, Ow
     if constexpr (requires { field.form.read_into(*place, owner, folder); })
         field.form.read_into(*place, owner, folder);
     else if constexpr (sizeof...(Values) == 1 && requires { field.form.read(*place, folder); })
-        owner.*std::get<0>(field.members) = field.form.read(*place, folder);
+        owner.*described::first(field.members) = field.form.read(*place, folder);
 }
 template <class Form, class Owner, class... Values> constexpr const char* name_of(const Field<Form, Owner, Values...>& field)
 {
     return field.name;
 }
 template <class Owner, class... Values> constexpr const char* name_of(const NotInFile<Owner, Values...>&) { return nullptr; }
+template <class Owner, class... Fields> constexpr auto names_of(const Description<Owner, Fields...>& description)
+{
+    return description.fields.all([](const auto&... fields) { return std::array{name_of(fields)...}; });
+}
+template <class T> inline constexpr auto names = names_of(description<T>);
 
 } // namespace described
 
 /// True if a description names as many members as the struct has: a static_assert of it stops a member that was forgotten.
-template <class T> consteval bool is_complete()
+/// As: a struct that derives from T, because another kind of file describes it in another way.
+template <class T, class As = T> consteval bool is_complete()
 {
-    return described::members<T>() == described::all_covered(static_cast<decltype(&description<T>)>(nullptr));
+    static_assert(std::is_base_of_v<T, As> && sizeof(As) == sizeof(T));
+    constexpr std::size_t named = described::all_covered(static_cast<decltype(&description<As>)>(nullptr));
+    return described::takes<T>(std::make_index_sequence<named>())
+        && !described::takes<T>(std::make_index_sequence<named + 1>());
 }
 
 /// How an object differs from its description in one place.
@@ -186,26 +234,24 @@ namespace described {
 /// True for an object that is a file of its own, which may name its schema.
 template <class T> bool names_schema(const Variation& as) { return description<T>.is_file && !as.without; }
 /// Throws for a member that is none of the known ones (null: none), and for a "$schema" that is no text.
-void reject_others(const Place& place, std::initializer_list<const char*> known, const Variation& as, bool names_schema);
+void reject_others(const Place& place, std::span<const char* const> known, const Variation& as, bool names_schema);
 
 } // namespace described
 
 /// Reads an object's members into a value that has the usual ones.
 template <Described T> void read_into(const Place& place, T& value, const Folder& folder, const Variation& as = {})
 {
-    std::apply(
-        [&](const auto&... fields) {
-            described::reject_others(place, {described::name_of(fields)...}, as, described::names_schema<T>(as));
-        },
-        description<T>.fields);
-    if constexpr (requires { check_members(place, &value); })
+    described::reject_others(place, described::names<T>, as, described::names_schema<T>(as));
+    // A base's rules are those of its own kind of file.
+    constexpr bool is_own = std::is_same_v<T, typename decltype(description<T>)::Struct>;
+    if constexpr (is_own && requires { check_members(place, &value); })
         check_members(place, &value);
     described::Members members{place, {}};
     described::for_each_field<T>([&](const auto& field) {
         if (!as.lacks(field.name))
             described::read_field(field, members, value, folder);
     });
-    if constexpr (requires { check(place, value, folder); })
+    if constexpr (is_own && requires { check(place, value, folder); })
         check(place, value, folder);
 }
 template <Described T> T read(const Place& place, const Folder& folder = {}, const Variation& as = {})
@@ -227,7 +273,7 @@ template <class T> void add_to_key(std::string& text, const T& value)
         text.append(description<T>.name).append(" ");
         for_each_field<T>([&](const auto& field) {
             if constexpr (!std::remove_cvref_t<decltype(field)>::is_again)
-                std::apply([&](const auto... members) { (add_to_key(text, value.*members), ...); }, field.members);
+                field.members.each([&](const auto member) { add_to_key(text, value.*member); });
         });
     } else if constexpr (requires { value.index(); }) {
         std::visit([&](const auto& one) { add_to_key(text, one); }, value);
@@ -261,27 +307,32 @@ template <class T> void add_turnables(std::vector<Turnable>& all, const std::str
             const std::string at = pointer + "/" + field.name;
             if constexpr (std::is_same_v<Form, Number>) {
                 if (field.form.step > 0)
-                    all.push_back({at, &(value.*std::get<0>(field.members)), field.form});
+                    all.push_back({at, &(value.*described::first(field.members)), field.form});
             } else if constexpr (requires { Form::is_whole; } && sizeof...(Values) == 1) {
-                auto& member = value.*std::get<0>(field.members);
+                auto& member = value.*described::first(field.members);
                 if constexpr (!requires { member.has_value(); })
                     add_turnables(all, at, member);
             }
         });
 }
 
-/// A field's value as the file has it; null where it has none.
-template <class Form, class Owner, class... Values>
-Json written_field(const Field<Form, Owner, Values...>& field, const Owner& owner)
+/// A value as the file has it; null where it has none.
+template <class Form, class Value> Json written_by(const Form& form, const Value& value)
 {
-    if constexpr (sizeof...(Values) > 0) {
-        const auto& value = owner.*std::get<0>(field.members);
-        if constexpr (requires { field.form.written(value); })
-            return field.form.written(value);
-        else if constexpr (requires { field.form.written(*value); })
-            return value ? field.form.written(*value) : Json();
-    }
-    return nullptr;
+    if constexpr (requires { form.written(value); })
+        return form.written(value);
+    else if constexpr (requires { form.written(*value); })
+        return value ? form.written(*value) : Json();
+    else
+        return nullptr;
+}
+template <class Form, class Owner, class... Values>
+Json written_field(const Field<Form, Owner, Values...>& field, const std::type_identity_t<Owner>& owner)
+{
+    if constexpr (sizeof...(Values) > 0)
+        return written_by(field.form, owner.*first(field.members));
+    else
+        return nullptr;
 }
 
 /// A field's part of a schema. What follows is no template: schemas of a hundred fields would take half a minute to compile.
@@ -294,7 +345,7 @@ struct Property {
 };
 /// The usual value of a field for its schema.
 template <class Form, class Owner, class... Values>
-Json usual(const Field<Form, Owner, Values...>& field, const Owner& owner)
+Json usual(const Field<Form, Owner, Values...>& field, const std::type_identity_t<Owner>& owner)
 {
     if constexpr (!requires { Form::tells_nothing_usual; })
         return written_field(field, owner);
@@ -306,6 +357,8 @@ Json schema_of(const char* name, const char* says, const char* rules, bool names
 Json whole_schema(const char* name, const Json& object, const Json& definitions);
 /// A reference to a definition, which is made if it is not there yet.
 Json reference(Json& definitions, const char* name, Json (*made)(Json& definitions));
+/// True for values of the same bits: == takes -0 for 0.
+bool are_same(const Json& a, const Json& b);
 Json list_schema(std::size_t least, std::size_t most, Json item);
 Json enum_schema(const std::vector<std::string_view>& names);
 
@@ -328,7 +381,7 @@ template <Described T> Json written_briefly(const T& value)
     const T usual{};
     described::for_each_field<T>([&](const auto& field) {
         Json one = described::written_field(field, value);
-        if (field.is_needed || one != described::written_field(field, usual))
+        if (field.is_needed || !described::are_same(one, described::written_field(field, usual)))
             object[field.name] = std::move(one);
     });
     return object;
@@ -432,6 +485,10 @@ template <class T> struct Object {
         return described::reference(definitions, description<T>.name, [](Json& all) { return object_schema<T>(all); });
     }
 };
+/// The same, written without the members that have their usual values.
+template <class T> struct Brief : Object<T> {
+    Json written(const T& value) const { return written_briefly(value); }
+};
 /// The same, in a place where it varies.
 template <class T> struct Varied {
     static constexpr bool tells_nothing_usual = true;
@@ -465,23 +522,27 @@ template <class... Kinds> struct Tagged<std::variant<Kinds...>> {
         return {{"type", "object"}, {"required", {"type"}}, {"oneOf", kinds}};
     }
 };
-/// A member of a member, which the file has beside the latter, not in it.
-template <class Form, class Owner, class Part, class Value> struct Within {
+/// A member of a member, and so on, which the file has beside the latter, not in it.
+template <class Form, class Owner, class Part, class... Inner> struct Within {
     Form form;
     Part Owner::*part;
-    Value Part::*value;
+    described::Row<Inner...> inner;
+    constexpr Within(Form its, Part Owner::*outer, Inner... further)
+        : form(its)
+        , part(outer)
+        , inner{{further}...}
+    {
+    }
     void read_into(const Place& place, Owner& owner, const Folder& folder) const
     {
-        owner.*part.*value = form.read(place, folder);
+        inner.all([&](auto... further) -> auto& { return ((owner.*part).*....*further); }) = form.read(place, folder);
     }
-    Json written(const Part& from) const requires requires { form.written(from.*value); }
+    Json written(const Part& from) const
     {
-        return form.written(from.*value);
+        return described::written_by(form, inner.all([&](auto... further) -> auto& { return (from.*....*further); }));
     }
     Json schema(Json& definitions) const { return form.schema(definitions); }
 };
-template <class Form, class Owner, class Part, class Value>
-Within(Form, Part Owner::*, Value Part::*) -> Within<Form, Owner, Part, Value>;
 template <class Form> struct List {
     static constexpr bool tells_nothing_usual = true;
     Form form;

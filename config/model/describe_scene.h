@@ -163,16 +163,13 @@ inline constexpr auto one_spectrum = at_most_one_of(emission_members);
 /// A light's description with a member for each kind of spectrum.
 template <class Owner, class... Fields> constexpr auto with_spectra(const Description<Owner, Fields...>& light)
 {
-    const auto all = [&]<class First, class... Others>(const std::variant<First, Others...>*) {
-        return std::tuple_cat(light.fields,
-            std::tuple{field(First::scene_member, EmissionForm<First>{}, EmissionForm<First>::says, &Owner::spectrum),
-                again(Others::scene_member, EmissionForm<Others>{}, EmissionForm<Others>::says, &Owner::spectrum)...});
+    return [&]<class First, class... Others>(const std::variant<First, Others...>*) {
+        return with_rules(
+            with_fields(light,
+                field(First::scene_member, EmissionForm<First>{}, EmissionForm<First>::says, &Owner::spectrum),
+                again(Others::scene_member, EmissionForm<Others>{}, EmissionForm<Others>::says, &Owner::spectrum)...),
+            one_spectrum.data());
     }(static_cast<const Emission*>(nullptr));
-    return std::apply(
-        [&](const auto&... fields) {
-            return with_rules(describe<Owner>(light.name, light.says, fields...), one_spectrum.data());
-        },
-        all);
 }
 constexpr const char* radiance_says
     = "Its strength and its tint, linear Rec. 709: the colour of a white surface that faces it.";

@@ -1,6 +1,5 @@
 #include "describe_exhibit.h"
 #include "describe_layout.h"
-#include "rules_reader.h"
 #include "shipped.h"
 #include <algorithm>
 #include <arpa/inet.h>
@@ -103,10 +102,6 @@ void check(const Place& place, const Exhibit& exhibit, const Folder&)
     if (auto quality = find_member(place, "quality"); quality && exhibit.frame_budget_ms > 0)
         fail_at(*quality, "conflicts with frame_budget_ms, which chooses the quality; one of them is right");
 }
-
-Comfort read_comfort(const Place& place) { return read<Comfort>(place); }
-Json written_comfort(const Comfort& comfort) { return written_briefly(comfort); }
-Exposing read_exposing(const Place& place) { return read<Exposing>(place); }
 
 Exhibit load_exhibit(const std::filesystem::path& file)
 {

@@ -17,14 +17,19 @@ namespace starbow {
 /// now and then, and a last line if the flight ended properly. Numbers are written so that reading restores every bit.
 constexpr int record_version = 1;
 
+// Structs of other files that a record's header has in forms of its own.
+struct RecordedShot : Shot { };
+struct RecordedFlying : Flying { };
+
 /// The header: all that a replay needs beside the entries.
 struct RecordHeader {
+    int version = record_version;
     std::string scene, layout; ///< names of shipped ones, or paths
     std::uint64_t scene_digest = 0, layout_digest = 0; ///< digests of their files
     std::string pattern = "none"; ///< the first test pattern of the outputs
     double seconds_per_time_unit = 1;
-    Shot start;
-    Flying rules;
+    RecordedShot start;
+    RecordedFlying rules;
     Exposing exposing;
 };
 

@@ -70,8 +70,8 @@ RecordHeader header_of(const fs::path& scene, const Layout& layout, const Shot& 
         .layout_digest = digest_of(files_of(layout)),
         .pattern = pattern,
         .seconds_per_time_unit = open_scene(scene).seconds_per_time_unit(),
-        .start = start,
-        .rules = rules,
+        .start = {start},
+        .rules = {rules},
         .exposing = exposing};
 }
 

@@ -135,14 +135,14 @@ RecordHeader some_header()
     RecordHeader header{.scene = "avenue", .layout = "desk", .scene_digest = 1, .layout_digest = ~0ull, .pattern = "none"};
     header.seconds_per_time_unit = 0.1;
     header.start.scene = "avenue";
-    header.start.position = {1.0 / 3, -2e10, 0.1};
+    header.start.position = {1.0 / 3, -2e8, 0.1};
     header.start.u = {0.3, 1e-17, -1};
     header.start.ship_from_cockpit = orientation({1, 0, -1}, {0, 1, 0.3});
     header.start.effects.on.set(Effect::doppler, false);
     header.start.exposure_ev = -0.7;
     header.rules.mode = FlightMode::newtonian;
     header.rules.max_gamma = 123.456;
-    header.rules.boundary = {{0.1, 0, 1.0 / 3}, 1e12};
+    header.rules.boundary = {{0.1, 0, 1.0 / 3}, 1e9};
     header.rules.comfort = {.no_roll = true, .level_horizon = true, .vignette = Vignette{-0.1, 1.0 / 3, 7, 0.7}};
     header.rules.pace = {1.0 / 7, 0.3, {{{-1, -0.1, 0}, {1, 2, 1.0 / 3}}, {{5, 5, 5}, {6, 6, 6}}}};
     header.rules.solids = {{.radius = 0.7, .span = 86400}, {.radius = 1.0 / 3, .span = 5}};
