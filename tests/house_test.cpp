@@ -2,6 +2,7 @@
 // #include must follow it.
 #include "tests/support/files.h"
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -367,6 +368,13 @@ TEST(House, PlantedFaultsAreFound)
     for (const Include& one : includes("low/b.h", "#include \"a.h\""))
         both.push_back(one);
     EXPECT_EQ(lines(cycle(both)), "low/a.h\nlow/b.h\nlow/a.h\n");
+}
+
+/// Their lists quote the code, and they run seldom.
+TEST(House, ToysAndPlantedFaultsFindTheirPlaces)
+{
+    for (const char* script : {"tests/toys.py", "tests/planted_faults.py"})
+        EXPECT_EQ(std::system((source_dir() / script).string().append(" --list >/dev/null").c_str()), 0) << script;
 }
 
 } // namespace house_test

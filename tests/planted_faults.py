@@ -256,6 +256,14 @@ def durations_of(copy, names):
     return {suite["name"] + "." + test["name"]: float(test["time"].rstrip("s")) for suite in suites for test in suite["testsuite"]}
 
 
+def times_in(root, fault):
+    path = os.path.join(root, fault[1])
+    if not os.path.exists(path):
+        return 0
+    with open(path, encoding="utf-8") as file:
+        return file.read().count(fault[2])
+
+
 def minutes(seconds):
     return "%d:%02d" % (seconds // 60, seconds % 60)
 
@@ -264,7 +272,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", type=int, nargs="+", metavar="N", help="the faults with these numbers")
     parser.add_argument("--room", help="the faults of one room")
-    parser.add_argument("--list", action="store_true", help="show the faults, and try none")
+    parser.add_argument("--list", action="store_true", help="show the faults, and whether their texts stand in the files; try none")
     parser.add_argument("--own-room", action="store_true", help="try only the tests of each fault's room; what survives them may be found elsewhere")
     parser.add_argument("--again", action="store_true", help="also those that have a result")
     parser.add_argument("--results", default="build/planted_faults.json", help="the file of results (build/planted_faults.json)")
@@ -273,14 +281,17 @@ def main():
     given = parser.parse_args()
     for end in (signal.SIGINT, signal.SIGTERM):  # both also where it runs in the background: the fault is taken back
         signal.signal(end, lambda number, frame: sys.exit("interrupted"))
+    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     chosen = [n for n, fault in enumerate(FAULTS) if (not given.only or n in given.only) and (not given.room or fault[0] == given.room)]
     if given.list:
         for n in chosen:
             print("%3d  %-9s %s: %s" % (n, FAULTS[n][0], FAULTS[n][1], " ".join(FAULTS[n][3].split()) or "(nothing)"))
-        return 0
+        stale = [(n, count) for n in chosen for count in [times_in(root, FAULTS[n])] if count != 1]
+        for n, count in stale:
+            print("%d: its text stands %d times in %s" % (n, count, FAULTS[n][1]), file=sys.stderr)
+        return 1 if stale else 0
     if not chosen:
         sys.exit("no fault is chosen; --list shows them")
-    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     results_file = os.path.join(root, given.results)
     results = {}
     if os.path.exists(results_file):

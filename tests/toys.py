@@ -3,7 +3,7 @@
 
   tests/toys.py                      all toys in one copy of the last commit; a build and some tests, about ten minutes
   tests/toys.py --copy build/toys    keeps the copy and what is built in it for the next time
-  tests/toys.py --list               each toy's files, without building
+  tests/toys.py --list               each toy's files, and whether its changes find their places, without building
 
 A toy is a list of files and changes. The copy is a git worktree of the last commit. The script adds all toys, builds the tests and
 the program, runs the tests that know a toy, and prints how many files each touches: in the program, and with words, tests and pages.
@@ -71,7 +71,7 @@ TOYS = {
         "config/words/en.json": after('"remote.false_colours": "False colours",\n', '    "remote.dusk": "Dusk",\n'),
         "config/words/de.json": after('"remote.false_colours": "Falschfarben",\n', '    "remote.dusk": "Dämmerung",\n'),
         "shaders/constants.h": after("    CONSTANT(33, bool, HEADLIGHT, headlight, false) \\\n", "    CONSTANT(75, bool, DUSK, dusk, false) \\\n"),
-        "shaders/received_light.glsl": after("    if (HEADLIGHT)\n        light *= headlight(D);\n", "    if (DUSK)\n        light *= 0.5;\n"),
+        "shaders/received_light.glsl": before("    if (BY_TABLE)\n        return shifted(coefficients,", "    if (DUSK)\n        stops -= 1.0;\n"),
         "runtime/render/view_constants.cpp": instead("&WarpVariant::headlight, nullptr}", "&WarpVariant::headlight, nullptr, &WarpVariant::dusk}"),
         "runtime/reference/eye.cpp": before("    out.light = ray.light + ray.left * out.light;\n", "    if (effects[Effect::dusk])\n        out.light *= 0.5;\n"),
         "tests/input/calm_test.cpp": instead('"menu", "full_screen", "freeze"};', '"menu", "full_screen", "freeze", "dusk"};'),
@@ -298,6 +298,19 @@ def drawn(folder, build, rays, dusk, exposure_ev):
     return b"".join(file.read_bytes() for file in sorted(out.glob("*.png")))
 
 
+def changed_texts(text_of):
+    """Puts all toys into the texts; false if a change finds no place."""
+    found = True
+    for name, (files, _) in TOYS.items():
+        for file, change in files.items():
+            try:
+                TEXTS[file] = change(TEXTS[file] if file in TEXTS else text_of(file))
+            except LookupError as error:
+                print(f"{name}: {file}: {error}; mend the list in tests/toys.py", file=sys.stderr)
+                found = False
+    return found
+
+
 def is_program(file):
     return not file.startswith(("tests/", "docs/", "config/words/"))
 
@@ -310,7 +323,7 @@ def main():
     if arguments.list:
         for name, (files, _) in TOYS.items():
             print(f"{name}: {len(files)} files\n  " + "\n  ".join(files))
-        return 0
+        return 0 if changed_texts(lambda file: (root / file).read_text() if (root / file).exists() else "") else 1
     folder = pathlib.Path(arguments.copy or tempfile.mkdtemp()).resolve()
     changed = {file for files, _ in TOYS.values() for file in files}
     head = subprocess.check_output(["git", "rev-parse", "HEAD"], cwd=root, text=True).strip()
@@ -319,20 +332,13 @@ def main():
     else:  # files that stay as they are keep their times, and need no building
         subprocess.run(["git", "reset", "--quiet", head], cwd=folder, check=True)
         subprocess.run(["git", "checkout", "--force", "--", ".", *(":!" + file for file in changed)], cwd=folder, check=True)
-    failed = False
     try:
-        texts = TEXTS
-        for name, (files, _) in TOYS.items():
-            for file, change in files.items():
-                if file not in texts:
-                    found = subprocess.run(["git", "show", f"{head}:{file}"], cwd=root, capture_output=True, text=True)
-                    texts[file] = found.stdout if found.returncode == 0 else ""
-                try:
-                    texts[file] = change(texts[file])
-                except LookupError as error:
-                    print(f"{name}: {file}: {error}; mend the list in tests/toys.py", file=sys.stderr)
-                    failed = True
-        for file, text in texts.items():
+        def committed(file):
+            said = subprocess.run(["git", "show", f"{head}:{file}"], cwd=root, capture_output=True, text=True)
+            return said.stdout if said.returncode == 0 else ""
+
+        failed = not changed_texts(committed)
+        for file, text in TEXTS.items():
             path = folder / file
             if not path.exists() or path.read_text() != text:
                 path.write_text(text)
