@@ -1,6 +1,6 @@
 #include "pass_timer.h"
 #include "debug.h"
-#include "frame_timer.h"
+#include "runtime/operation/trace.h"
 
 namespace starbow {
 
@@ -107,22 +107,46 @@ double PassTimer::metering()
     });
 }
 
-CommandCounts PassTimer::counts(const Shot& shot, const Panel* hud)
+std::int64_t PassTimer::exhibit_frame(const Shot& shot, const Panel* hud, FrameTimer* timer)
 {
     const vk::raii::CommandBuffers parts(device_.device, {*device_.pool, vk::CommandBufferLevel::ePrimary, 2});
     const vk::raii::Fence done = device_.device.createFence({});
-    name_object(device_, parts[0], "counted frame: world"), name_object(device_, parts[1], "counted frame: outputs");
-    name_object(device_, done, "counted frame");
+    name_object(device_, parts[0], "timed frame: world"), name_object(device_, parts[1], "timed frame: outputs");
+    name_object(device_, done, "timed frame");
     for (const auto& part : parts)
         part.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    const CommandCounts before = command_counts();
+    if (timer)
+        timer->begin(*parts[0]), timer->resume(*parts[1]);
+    device_.timer = timer;
     draw(*parts[0], *parts[1], shot, hud);
+    device_.timer = nullptr;
+    if (timer)
+        timer->pause(*parts[0]), timer->end(*parts[1]);
     for (const auto& part : parts)
         part.end();
+    const std::int64_t submitted = Trace::now_ns();
     submit_frame(device_, *parts[0], *parts[1], {}, {}, *done);
-    const CommandCounts counts = command_counts() - before;
-    device_.await(*done, "the end of a counted frame (fence)");
-    return counts;
+    device_.await(*done, "the end of a timed frame (fence)");
+    return submitted;
+}
+
+TimedFrame PassTimer::timed(const Shot& shot, const Panel* hud)
+{
+    FrameTimer timer(device_);
+    TimedFrame frame{.begin_ns = Trace::now_ns()};
+    frame.submit_ns = exhibit_frame(shot, hud, &timer);
+    frame.end_ns = Trace::now_ns();
+    frame.device_ms = timer.ms().value_or(0);
+    const std::span<const PassTime> passes = timer.passes();
+    frame.passes.assign(passes.begin(), passes.end());
+    return frame;
+}
+
+CommandCounts PassTimer::counts(const Shot& shot, const Panel* hud)
+{
+    const CommandCounts before = command_counts();
+    exhibit_frame(shot, hud, nullptr);
+    return command_counts() - before;
 }
 
 std::vector<DrawInvocations> PassTimer::invocations(const Shot& shot, const Panel* hud)

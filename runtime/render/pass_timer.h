@@ -1,5 +1,6 @@
 #pragma once
 #include "command_counts.h"
+#include "frame_timer.h"
 #include "invocations.h"
 #include "offscreen.h"
 #include <chrono>
@@ -16,6 +17,16 @@ template <class Work> double milliseconds(Work&& work)
 
 /// Makes a target ready to be drawn into once more; its old content is lost.
 void make_writable(vk::CommandBuffer commands, const Target& target);
+
+/// A frame that is drawn as an exhibit draws it.
+struct TimedFrame {
+    std::int64_t begin_ns = 0, submit_ns = 0, end_ns = 0; ///< Trace::now_ns(); end: the device has finished
+    double device_ms = 0; ///< by the device's clock; 0: it has none
+    std::vector<PassTime> passes; ///< by the device's clock, in the order of their beginnings; passes may nest
+
+    double whole_ms() const { return double(end_ns - begin_ns) * 1e-6; }
+    double processor_ms() const { return double(submit_ns - begin_ns) * 1e-6; } ///< planning, culling, recording
+};
 
 /// Times the passes of one offscreen renderer, each alone: from the start of its recording until the device has finished
 /// it, in milliseconds. A pass reads the results of the passes before it, as in a frame: call update() first, then cubes().
@@ -35,6 +46,8 @@ public:
     double finish(); ///< of all outputs
     double metering();
 
+    /// A whole frame with the time of each of its passes on the device.
+    TimedFrame timed(const Shot& shot, const Panel* hud = nullptr);
     /// The calls of the whole frame, submitted as an exhibit's; count_commands() comes before it.
     CommandCounts counts(const Shot& shot, const Panel* hud = nullptr);
     /// How often the whole frame's shaders run; for a device that was opened with Options::invocations.
@@ -47,6 +60,9 @@ public:
 private:
     template <class Record> double each_output(Record&& record);
     void draw(vk::CommandBuffer world, vk::CommandBuffer outputs, const Shot& shot, const Panel* hud);
+    /// Draws a frame in two parts, as an exhibit does, and waits for it. timer: measures it, or null. Returns the time of
+    /// its submission, Trace::now_ns().
+    std::int64_t exhibit_frame(const Shot& shot, const Panel* hud, FrameTimer* timer);
 
     Device& device_;
     FrameRenderer& frame_;

@@ -24,6 +24,18 @@ done
 refused '--family' bench --estimate --family geforce
 "$program" bench --estimate --layout desk --family polaris10 2>/dev/null | grep -q '^surface' && passed=$((passed + 1)) || fail "bench --estimate has no row of surfaces"
 
+refused '--display' bench --card "$folder/card" --display wall
+"$program" bench --card "$folder/card" --display window --rounds 3 >/dev/null 2>&1
+said=$(python3 -c '
+import json, sys
+card = json.load(open(sys.argv[1] + "/card.json"))
+json.load(open(sys.argv[1] + "/trace.json"))
+for one in card["displays"]:
+    passes = sum(one["passes_ms"].values())
+    assert 0 < passes <= 1.5 * one["device_ms"] and one["device_ms"] <= one["frame_ms"] <= one["slowest_ms"], one
+print(len(card["displays"]), open(sys.argv[1] + "/card.html").read().count("<svg"))' "$folder/card")
+[ "$said" = "6 1" ] && passed=$((passed + 1)) || fail "bench --card: $said"
+
 # The reference needs no GPU, and a finished picture leaves no file to continue from.
 for time in once twice; do
     VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent "$program" render --shot starbow --size 40x30 --reference \

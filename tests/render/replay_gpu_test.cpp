@@ -38,7 +38,7 @@ TEST(ReplayFrames, AreTheSameToTheByte)
     const Layout layout = one_view(Planar{}, {120, 90});
     const std::string scene = avenue().world.scene.start.scene;
     RecordHeader header{.scene = "avenue", .layout = "desk"};
-    header.start = avenue().world.scene.start;
+    header.start = {avenue().world.scene.start};
     header.seconds_per_time_unit = avenue().world.scene.seconds_per_time_unit();
     const std::filesystem::path file = starbow::testing::scratch("frames.jsonl");
     std::vector<Pictures> live;

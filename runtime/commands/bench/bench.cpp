@@ -1,4 +1,5 @@
 #include "bodies.h"
+#include "card.h"
 #include "counts.h"
 #include "cubes.h"
 #include "estimate.h"
@@ -23,7 +24,7 @@ namespace {
 struct BenchOptions {
     int rounds = 25, seconds = 60;
     bool input = false;
-    std::string json, layout, shot = "avenue-gamma4";
+    std::string card, display, json, layout, shot = "avenue-gamma4";
     bool stars = false, bodies = false, worlds = false, cubes = false, flight = false, scaling = false, governor = false;
     bool shaders = false, counts = false, estimate = false;
     std::string family = card_families.front(), pass, scene, against, ladder = "ladder";
@@ -36,7 +37,9 @@ int bench(const BenchOptions& options)
         return bench_input(options.layout, options.seconds);
     if (options.governor)
         return bench_governor(options.ladder, options.frame_budget_ms, options.seconds);
-    if (options.stars)
+    if (!options.card.empty())
+        bench_card(options.card, options.display, options.rounds);
+    else if (options.stars)
         bench_stars(options.rounds);
     else if (options.bodies)
         bench_bodies(options.rounds);
@@ -73,6 +76,11 @@ static void add_bench(Subcommand& app, std::function<int()>& chosen)
     command->add_option("--json", options->json,
         "Also time the dome, bodies, worlds and the flight, and write all figures to this file; with --shaders: each "
         "pipeline's figures");
+    command->add_option("--card", options->card,
+        "Instead: this graphics card with a window, domes, walls and a headset, at three speeds in two qualities, pass by "
+        "pass; writes card.json, a page and a trace into this folder");
+    command->add_option("--display", options->display, "With --card: this display alone")
+        ->check(one_of({card_displays.begin(), card_displays.end()}));
     command->add_option("--layout", options->layout,
         "Instead: this layout stage by stage, and displays compared with each other: kinds of projection, many viewports, "
         "stereo methods");
@@ -110,7 +118,8 @@ static void add_bench(Subcommand& app, std::function<int()>& chosen)
     command->add_option("--scene", options->scene, "With --shaders: this world alone [all that are shipped]");
     command->add_option(
         "--against", options->against, "With --shaders: a file of an earlier --json; what changed is printed");
-    command->footer("Examples:\n  starbow bench --json out/bench.json\n  starbow bench --input --seconds 60\n"
+    command->footer("Examples:\n  starbow bench --json out/bench.json\n  starbow bench --card out/card\n  starbow bench "
+                    "--input --seconds 60\n"
                     "  starbow bench --shaders --scene avenue --pass warp\n"
                     "  starbow bench --estimate --layout dome --family navi21");
     command->callback([options, &chosen] { chosen = [options] { return bench(*options); }; });
