@@ -52,7 +52,8 @@ def whole(content):
 
 def with_column(csv, name):
     """A log with one more column, which is empty."""
-    return csv.replace("\n", f",{name}\n", 1).replace("\n", ",\n").replace(f",{name},\n", f",{name}\n", 1)
+    head, *lines = csv.split("\r\n")
+    return "\r\n".join([f"{head},{name}"] + [line and line + "," for line in lines])
 
 
 TEXTS = {}  # the changed files' texts by now
@@ -323,7 +324,7 @@ def main():
     if arguments.list:
         for name, (files, _) in TOYS.items():
             print(f"{name}: {len(files)} files\n  " + "\n  ".join(files))
-        return 0 if changed_texts(lambda file: (root / file).read_text() if (root / file).exists() else "") else 1
+        return 0 if changed_texts(lambda file: (root / file).read_bytes().decode() if (root / file).exists() else "") else 1
     folder = pathlib.Path(arguments.copy or tempfile.mkdtemp()).resolve()
     changed = {file for files, _ in TOYS.values() for file in files}
     head = subprocess.check_output(["git", "rev-parse", "HEAD"], cwd=root, text=True).strip()
@@ -334,14 +335,14 @@ def main():
         subprocess.run(["git", "checkout", "--force", "--", ".", *(":!" + file for file in changed)], cwd=folder, check=True)
     try:
         def committed(file):
-            said = subprocess.run(["git", "show", f"{head}:{file}"], cwd=root, capture_output=True, text=True)
-            return said.stdout if said.returncode == 0 else ""
+            said = subprocess.run(["git", "show", f"{head}:{file}"], cwd=root, capture_output=True)
+            return said.stdout.decode() if said.returncode == 0 else ""
 
         failed = not changed_texts(committed)
         for file, text in TEXTS.items():
             path = folder / file
-            if not path.exists() or path.read_text() != text:
-                path.write_text(text)
+            if not path.exists() or path.read_bytes().decode() != text:  # the logs' lines end in CR LF
+                path.write_bytes(text.encode())
         if failed:
             return 1
         build = folder / "build/toys"
