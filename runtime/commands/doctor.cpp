@@ -13,6 +13,7 @@
 #include "runtime/exhibit/outputs.h"
 #include "runtime/hud/hud.h"
 #include "runtime/machines/interface.h"
+#include "runtime/operation/messages.h"
 #include "runtime/render/render_context.h"
 #include "runtime/world/open_scene.h"
 #include "version.h"
@@ -59,17 +60,6 @@ std::string environment(const char* name)
 {
     const char* value = std::getenv(name);
     return value ? value : "";
-}
-
-std::string size_text(double bytes)
-{
-    const char* unit = "B";
-    for (const char* next : {"KiB", "MiB", "GiB", "TiB"})
-        if (bytes >= 1024)
-            bytes /= 1024, unit = next;
-    char text[40];
-    std::snprintf(text, sizeof text, bytes < 10 && *unit != 'B' ? "%.1f %s" : "%.0f %s", bytes, unit);
-    return text;
 }
 
 /// The folder itself, or the nearest existing one above it.
@@ -140,7 +130,8 @@ void examine_gpus(Report& report, bool windows)
                 {"refusal", gpu.refusal}, {"driver_name", gpu.driver_name}, {"driver_version", gpu.driver_version},
                 {"vulkan_version", gpu.api_version}, {"max_image_dimension_2d", gpu.largest_image_px},
                 {"max_sampler_allocation_count", gpu.most_samplers}, {"max_memory_allocation_count", gpu.most_allocations},
-                {"timestamp_period_ns", gpu.timestamp_ns}, {"device_memory_bytes", gpu.memory_bytes}});
+                {"timestamp_period_ns", gpu.timestamp_ns}, {"device_memory_bytes", gpu.memory_bytes},
+                {"device_memory_budget_bytes", gpu.budget ? json(gpu.budget->most_bytes) : json()}});
         report.line("GPU", gpu.name + " (" + gpu.kind + ")" + (gpu.chosen ? ": is used" : ""));
         if (!gpu.refusal.empty())
             report.line("", "can't be used: it " + gpu.refusal);
@@ -152,7 +143,9 @@ void examine_gpus(Report& report, bool windows)
             "images up to " + std::to_string(gpu.largest_image_px) + " pixels wide, " + std::to_string(gpu.most_samplers)
                 + " samplers, "
                 + (gpu.most_allocations == UINT32_MAX ? "any number of" : std::to_string(gpu.most_allocations))
-                + " allocations, " + clock + ", " + size_text(double(gpu.memory_bytes)) + " of memory");
+                + " allocations, " + clock + ", " + size_text(double(gpu.memory_bytes)) + " of memory"
+                + (gpu.budget ? ", of which this program can have " + size_text(double(gpu.budget->most_bytes)) + " now"
+                              : ""));
     }
     const std::string maker = card_maker();
     if (gpus.empty()) {

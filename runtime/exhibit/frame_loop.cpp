@@ -252,6 +252,7 @@ Metered FrameLoop::await_device()
         if (session_.qualities.drawn(seconds(Clock::now() - session_.began),
                 std::max(prepared_ms_ + *ms, master_ ? master_->slowest_ms() : 0))) // one level for all, or seams would show
             frame_->adopt(session_.qualities.next(device_));
+    watch_memory();
     return {frame_->metered(), frame_->surface_samples(), frame_->star_samples(), frame_->samples_across()};
 }
 
@@ -335,6 +336,34 @@ void FrameLoop::gather_lacks()
              session_.devices.tracker() ? session_.devices.tracker()->lack() : "", remote_.lack()})
         if (!lack.empty())
             session_.lacks += (session_.lacks.empty() ? "" : "; ") + lack;
+}
+
+void FrameLoop::watch_memory()
+{
+    const Clock::time_point now = Clock::now();
+    if (now - memory_watched_ < std::chrono::seconds(1))
+        return;
+    memory_watched_ = now;
+    const std::optional<MemoryBudget> budget = device_.memory_budget();
+    if (!budget || !budget->exceeded) {
+        memory_reported_ = false;
+        return;
+    }
+    if (memory_reported_)
+        return;
+    const std::string used = size_text(double(budget->used_bytes))
+        + " of the GPU's memory are used, and its driver gives this " + "program " + size_text(double(budget->most_bytes))
+        + " now";
+    const std::optional<Governor>& governor = session_.qualities.governor();
+    if (governor && session_.qualities.leave(governor->level(), used)) {
+        frame_->adopt(session_.qualities.next(device_));
+        frame_->release_images();
+        return;
+    }
+    memory_reported_ = true;
+    session_.qualities.forget_refusals(); // no level is small enough, so that none shall be missed
+    write_log(LogKind::memory_exceeded,
+        used + ": pictures may come slowly. Other programs closed, a coarser quality or smaller outputs are right");
 }
 
 void FrameLoop::trace_passes()

@@ -91,6 +91,9 @@ private:
     /// Adds the counts of this frame's calls that differ from those of the frame before.
     void trace_calls(const CommandCounts& counts);
     void gather_lacks();
+    /// Once a second: leaves a level of quality, or writes a line of the log, where the device's memory is used beyond its
+    /// budget.
+    void watch_memory();
 
     Session& session_;
     RemoteControl& remote_;
@@ -113,6 +116,8 @@ private:
     std::unique_ptr<Master> master_; ///< null: this machine shows all
     std::vector<TurnedNumber> turned_; ///< the builder's changes, for the other machines
     FramePace pace_;
+    Clock::time_point memory_watched_{};
+    bool memory_reported_ = false; ///< the use of memory beyond its budget, which goes on
     vk::raii::Fence done_;
     LiveCopy live_;
     bool remotes_view_ = false, guides_view_ = false; ///< the recorded copy is for the remote, for the guide's window

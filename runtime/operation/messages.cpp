@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
 #include <map>
@@ -156,6 +157,17 @@ void guard_streams()
         if (fcntl(stream, F_GETFD) < 0)
             (void)!::open("/dev/null", O_RDWR); // takes the lowest free number, which is this one
     std::signal(SIGPIPE, SIG_IGN);
+}
+
+std::string size_text(double bytes)
+{
+    const char* unit = "B";
+    for (const char* next : {"KiB", "MiB", "GiB", "TiB"})
+        if (bytes >= 1024)
+            bytes /= 1024, unit = next;
+    char text[40];
+    std::snprintf(text, sizeof text, bytes < 10 && *unit != 'B' ? "%.1f %s" : "%.0f %s", bytes, unit);
+    return text;
 }
 
 } // namespace starbow

@@ -23,4 +23,7 @@ bool flush_messages(double longest_s);
 /// messages; and ignores SIGPIPE, so that a reader's end ends nothing. First of all in main.
 void guard_streams();
 
+/// A size for people: "3.9 GiB".
+std::string size_text(double bytes);
+
 } // namespace starbow

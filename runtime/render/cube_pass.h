@@ -20,6 +20,7 @@ public:
 
     /// Sets the quality from the next prepare() on. Samples and formats must be the same as before.
     void adopt(const Quality& quality) { quality_ = quality; }
+    void release() { target_.release(); } ///< as CubeTarget's
 
     /// The processor's part: culls, makes room and uploads. The device must have finished the frame before. Every stored
     /// radiance is multiplied by pre_exposure. eye_events: the eye events of the plan's rest frames.

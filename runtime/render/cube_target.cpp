@@ -52,6 +52,14 @@ TargetKind CubeTarget::kind(Use use) const
     return kind;
 }
 
+void CubeTarget::release()
+{
+    chains_.clear();
+    for (Image& atlas : atlases_)
+        atlas = {};
+    depth_ = {}, atlas_samples_.clear(), depth_samples_ = {};
+}
+
 void CubeTarget::fit(glm::ivec2 size, int levels)
 {
     const Image& first = atlases_[0];
@@ -69,10 +77,7 @@ void CubeTarget::fit(glm::ivec2 size, int levels)
         return;
     auto most = std::max(std::uint32_t(levels), first.levels);
     using Usage = vk::ImageUsageFlagBits;
-    chains_.clear();
-    for (Image& atlas : atlases_)
-        atlas = {};
-    depth_ = {}, atlas_samples_.clear(), depth_samples_ = {};
+    release();
     Formats formats = kind({in_several_rest_frames_}).colours;
     for (std::size_t i = 0; i < atlases_.size(); ++i) {
         atlases_[i] = make_image(device_, {formats[i], extent, Usage::eColorAttachment | Usage::eSampled, most});

@@ -15,6 +15,8 @@ public:
     /// on: an atlas gets exactly the plan's size in every frame. Coordinates in it are then rounded alike, and equal
     /// shots have equal bytes. off: the atlas only grows, which takes less time.
     void repeatable(bool on) { repeatable_ = on; }
+    /// Gives the images back; the next fit() makes those that its plan needs. The device must have finished with them.
+    void release();
     /// Makes room. Contents are lost where there was too little.
     void fit(glm::ivec2 size, int levels);
     /// Makes room in the depth alone, for a picture without an atlas.

@@ -217,6 +217,22 @@ std::optional<std::size_t> best_of(const std::vector<vk::raii::PhysicalDevice>& 
     return best;
 }
 
+/// For a device with VK_EXT_memory_budget.
+MemoryBudget budget_of(const vk::raii::PhysicalDevice& physical)
+{
+    const auto all
+        = physical.getMemoryProperties2<vk::PhysicalDeviceMemoryProperties2, vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
+    const vk::PhysicalDeviceMemoryProperties& memory = all.get<vk::PhysicalDeviceMemoryProperties2>().memoryProperties;
+    const auto& told = all.get<vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
+    MemoryBudget budget;
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+        if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal) {
+            budget.used_bytes += told.heapUsage[i], budget.most_bytes += told.heapBudget[i];
+            budget.exceeded |= told.heapUsage[i] > told.heapBudget[i];
+        }
+    return budget;
+}
+
 GpuListing describe(const vk::raii::PhysicalDevice& physical)
 {
     const vk::PhysicalDeviceProperties properties = physical.getProperties();
@@ -248,6 +264,8 @@ GpuListing describe(const vk::raii::PhysicalDevice& physical)
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
         if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
             gpu.memory_bytes += memory.memoryHeaps[i].size;
+    if (offers(physical, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME))
+        gpu.budget = budget_of(physical);
     return gpu;
 }
 
@@ -302,6 +320,7 @@ Device::Device(const Options& options)
     physical = choose(instance, options);
     properties = physical.getProperties();
     memory = physical.getMemoryProperties();
+    tells_budget = offers(physical, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
     auto families = physical.getQueueFamilyProperties();
     for (family = 0; !(families[family].queueFlags & vk::QueueFlagBits::eGraphics);)
         ++family;
@@ -363,6 +382,11 @@ Device::Device(const Options& options)
     name_object(*this, queue, "queue");
     name_object(*this, pool, "command pool");
     name_object(*this, cache, "pipeline cache");
+}
+
+std::optional<MemoryBudget> Device::memory_budget() const
+{
+    return tells_budget ? std::optional(budget_of(physical)) : std::nullopt;
 }
 
 void Device::begin_rendering(vk::CommandBuffer commands, const vk::RenderingInfo& info, std::uint32_t scenes) const

@@ -67,6 +67,13 @@ void EyeCubes::adopt(const Quality& quality)
         eye.cube.adopt(quality);
 }
 
+void EyeCubes::release()
+{
+    drawn_ = false;
+    for (EyeCube& eye : all)
+        eye.cube.release();
+}
+
 void EyeCubes::repeatable(bool on)
 {
     for (EyeCube& eye : all)

@@ -38,6 +38,8 @@ public:
     /// Forgets all eyes, because their images need other formats.
     void clear();
     void adopt(const Quality& quality);
+    /// Gives the images back that are larger than the next plans need; the device must have finished with them.
+    void release();
     void repeatable(bool on);
     /// Follows the views' heads.
     void move();

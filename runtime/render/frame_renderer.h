@@ -47,6 +47,9 @@ public:
     /// Sets another quality from the next frame on, with the same light, stereo method and maps. A change of samples or
     /// formats takes as long as a change of the layout; other changes cost nothing.
     void adopt(const Quality& quality);
+    /// Gives back the cube maps' images, which grow with the largest plan so far; the next frame makes what it needs. The
+    /// device must have finished the frame before.
+    void release_images() { eyes_.release(); }
     const Quality& quality() const { return state_.quality; }
     /// Moves every head from the layout's place and turns its eyes. Walls follow, unless they would be seen from behind.
     /// Maps of mirrors and of measured points stay as they are.

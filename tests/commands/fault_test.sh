@@ -82,6 +82,19 @@ refused=$(grep -o 'quality: level [0-9]* of 16 has no room' "$folder/log")
 grep -q 'is lost' "$folder/log" && fail "a level without room: a loss of the device is reported"
 ok
 
+# A use of memory beyond the driver's budget, which no call refuses: the governor leaves levels until one fits, and with a fixed
+# quality one line says so.
+STARBOW_BUDGET_KIB=60000 timeout 100 "$program" run --layout desk --scene warm-wall --frame-budget-ms 1000 --frames 700 >"$folder/log" 2>&1 \
+    || fail "beyond the budget: exit $?"
+grep -q 'quality: level [0-9]* of 16 has no room on the GPU (.* of the GPU.s memory are used' "$folder/log" || fail "beyond the budget: no level is left"
+grep -q 'pictures may come slowly' "$folder/log" && fail "beyond the budget: no level was small enough"
+STARBOW_BUDGET_KIB=20000 timeout 60 "$program" run --layout desk --scene warm-wall --quality balanced --frames 300 >"$folder/log" 2>&1 \
+    || fail "far beyond the budget: exit $?"
+[ "$(grep -c 'quality: .* of the GPU.s memory are used, and its driver gives this program 20 MiB now: pictures may' "$folder/log")" = 1 ] \
+    || fail "far beyond the budget: not one line"
+STARBOW_BUDGET_KIB=20000 "$program" doctor 2>/dev/null | grep -q 'of which this program can have 20 MiB now' || fail "doctor does not tell the budget"
+ok
+
 # Shadows without room are left out, and the world is shown.
 STARBOW_LARGEST_KIB=60000 timeout 100 "$program" run --layout desk --scene gamow --frame-budget-ms 1000 --frames 20 >"$folder/log" 2>&1 \
     || fail "shadows without room: exit $?"

@@ -19,6 +19,7 @@
 //           lasts there, too.
 // When a swapchain is destroyed, the layer prints on stderr how many pictures it has shown.
 // STARBOW_LARGEST_KIB=N: a piece of memory of more than N KiB has no room on the device.
+// STARBOW_BUDGET_KIB=N: the layer provides VK_EXT_memory_budget. The first heap's budget is N KiB, and all memory is in it.
 // STARBOW_COUNT_CALLS=1: at the end the layer prints on stderr how often each function of the lists was called before and
 // after the first presentation.
 // STARBOW_SHOWN_LATE_MS=MS: the layer provides VK_KHR_present_wait. Each swapchain shows its pictures MS later than the
@@ -57,8 +58,10 @@ VkInstance last_instance;
 // layer's own functions.
 PFN_vkEnumerateDeviceExtensionProperties next_enumerate;
 PFN_vkGetPhysicalDeviceFeatures2 next_features;
+PFN_vkGetPhysicalDeviceMemoryProperties2 next_memory;
 PFN_vkDestroySurfaceKHR next_destroy_surface;
 PFN_vkGetPhysicalDeviceSurfaceCapabilities2KHR next_capabilities;
+std::map<VkDeviceMemory, VkDeviceSize> allocated; // bytes
 int presented = 0, losses = 0; // pictures; devices
 std::map<std::string, std::pair<int, int>> calls; // before and after the first presentation
 std::map<VkSwapchainKHR, VkSurfaceKHR> surfaces;
@@ -84,6 +87,12 @@ double late_ms()
     return text ? std::atof(text) : -1;
 }
 
+double budget_kib()
+{
+    const char* text = std::getenv("STARBOW_BUDGET_KIB");
+    return text ? std::atof(text) : -1;
+}
+
 std::string_view barrier()
 {
     const char* text = std::getenv("STARBOW_BARRIER");
@@ -98,6 +107,8 @@ std::map<std::string_view, VkStructureType> provided()
         all[VK_KHR_PRESENT_ID_EXTENSION_NAME] = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_ID_FEATURES_KHR;
         all[VK_KHR_PRESENT_WAIT_EXTENSION_NAME] = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_WAIT_FEATURES_KHR;
     }
+    if (budget_kib() >= 0) // it has no features
+        all[VK_EXT_MEMORY_BUDGET_EXTENSION_NAME] = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT;
     if (!barrier().empty())
         all[VK_NV_PRESENT_BARRIER_EXTENSION_NAME] = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_BARRIER_FEATURES_NV;
     return all;
@@ -338,7 +349,35 @@ VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(
         const std::lock_guard lock(mutex);
         below = next<PFN_vkAllocateMemory>(device, "vkAllocateMemory");
     }
-    return below(device, info, allocator, made);
+    const VkResult result = below(device, info, allocator, made);
+    const std::lock_guard lock(mutex);
+    if (result == VK_SUCCESS)
+        allocated[*made] = info->allocationSize;
+    return result;
+}
+
+VKAPI_ATTR void VKAPI_CALL free_memory(VkDevice device, VkDeviceMemory memory, const VkAllocationCallbacks* allocator)
+{
+    PFN_vkFreeMemory below;
+    {
+        const std::lock_guard lock(mutex);
+        below = next<PFN_vkFreeMemory>(device, "vkFreeMemory");
+        allocated.erase(memory);
+    }
+    below(device, memory, allocator);
+}
+
+VKAPI_ATTR void VKAPI_CALL get_memory(VkPhysicalDevice physical, VkPhysicalDeviceMemoryProperties2* properties)
+{
+    next_memory(physical, properties);
+    for (auto* s = static_cast<VkBaseOutStructure*>(properties->pNext); s && budget_kib() >= 0; s = s->pNext)
+        if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT) {
+            auto* budget = reinterpret_cast<VkPhysicalDeviceMemoryBudgetPropertiesEXT*>(s);
+            const std::lock_guard lock(mutex);
+            budget->heapBudget[0] = VkDeviceSize(1024 * budget_kib()), budget->heapUsage[0] = 0;
+            for (const auto& [memory, bytes] : allocated)
+                budget->heapUsage[0] += bytes;
+        }
 }
 
 VKAPI_ATTR void VKAPI_CALL destroy_swapchain(
@@ -606,6 +645,8 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(
         next_enumerate = reinterpret_cast<PFN_vkEnumerateDeviceExtensionProperties>(
             calls(*made, "vkEnumerateDeviceExtensionProperties"));
         next_features = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(calls(*made, "vkGetPhysicalDeviceFeatures2"));
+        next_memory = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties2>(
+            calls(*made, "vkGetPhysicalDeviceMemoryProperties2"));
         next_capabilities = reinterpret_cast<PFN_vkGetPhysicalDeviceSurfaceCapabilities2KHR>(
             calls(*made, "vkGetPhysicalDeviceSurfaceCapabilities2KHR"));
         next_destroy_surface = reinterpret_cast<PFN_vkDestroySurfaceKHR>(calls(*made, "vkDestroySurfaceKHR"));
@@ -669,6 +710,8 @@ PFN_vkVoidFunction layer_function(std::string_view name)
         FUNCTION("vkDestroyDevice", destroy_device),
         FUNCTION("vkDestroySurfaceKHR", destroy_surface),
         FUNCTION("vkGetPhysicalDeviceFeatures2", get_features),
+        FUNCTION("vkGetPhysicalDeviceMemoryProperties2", get_memory),
+        FUNCTION("vkFreeMemory", free_memory),
         FUNCTION("vkDestroySwapchainKHR", destroy_swapchain),
         FUNCTION("vkGetPhysicalDeviceSurfaceCapabilities2KHR", surface_capabilities),
 #undef FUNCTION
