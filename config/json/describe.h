@@ -16,9 +16,8 @@ namespace starbow {
 //   several members has read_into(const Place&, Owner&, const Folder&) instead. The form of a value that `check` reads has
 //   neither.
 // - written(const Value&), the value as the file has it. A kind of file that is only read does not need it.
-// - schema(Json& definitions), the JSON schema of the value without its meaning and its default. A kind of file that only
-// the
-//   program writes does not need it.
+// - schema(Json& definitions), the JSON schema of the value without its meaning and its default. A kind of file that
+//   only the program writes does not need it.
 //
 // Rules between members are a function check(const Place&, Owner&, const Folder&), and `rules` in the schema. Rules of the
 // members' presence alone may be check_members(const Place&, const Owner*), which is called before values are read.

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,15 @@ inline std::string escaped_html(const std::string& text)
         else
             out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? '?' : c;
     return out;
+}
+
+/// A row of a table; the cells' texts may have any letters. cell: "td", or "th" for the head.
+inline std::string table_row(std::initializer_list<std::string> texts, const std::string& cell = "td")
+{
+    std::string row = "<tr>";
+    for (const std::string& text : texts)
+        row += "<" + cell + ">" + escaped_html(text) + "</" + cell + ">";
+    return row + "</tr>\n";
 }
 
 /// A PNG file's bytes as an image's source, so that a page is one file.

@@ -66,27 +66,23 @@ std::string grouped(std::uint64_t count)
     return digits;
 }
 
-std::string row(const std::string& name, const std::string& value)
-{
-    return "<tr><td>" + name + "</td><td>" + value + "</td></tr>\n";
-}
-
 std::string page_of(const UsageDay& day, int first, int last, const UsageCounts& all)
 {
     std::ostringstream out;
     const std::string mean = all.visits > 0 ? time_of(all.visits_s / double(all.visits)) : "none";
     out << page_begin("en", "Starbow, " + day.date) << "<h1>Starbow on " << day.date << "</h1>\n<table>\n"
-        << row("Visits", grouped(all.visits)) << row("Mean length of a visit", mean)
-        << row("Tours shown to their end", grouped(all.tours_finished)) << row("Pictures", grouped(all.frames()))
-        << row("Half of them came within", figure(1e3 * all.percentile_s(0.5), 1) + " ms")
-        << row("99.9 % of them came within", figure(1e3 * all.percentile_s(0.999), 1) + " ms")
-        << row("The longest took", figure(1e3 * all.longest_frame_s, 1) + " ms")
-        << row("Missed refreshes", grouped(all.missed_refreshes))
-        << row("Worst skew of the outputs", figure(1e3 * all.worst_skew_s, 2) + " ms")
-        << row("The GPU was lost", std::to_string(all.device_losses) + " times")
-        << row("A stick went away", std::to_string(all.unplugged) + " times")
-        << row("Commands of remotes, and refused ones", grouped(all.commands) + ", " + grouped(all.refused_commands))
-        << row("Greatest memory", figure(1e-6 * double(all.resident_bytes), 0) + " MB") << "</table>\n";
+        << table_row({"Visits", grouped(all.visits)}) << table_row({"Mean length of a visit", mean})
+        << table_row({"Tours shown to their end", grouped(all.tours_finished)})
+        << table_row({"Pictures", grouped(all.frames())})
+        << table_row({"Half of them came within", figure(1e3 * all.percentile_s(0.5), 1) + " ms"})
+        << table_row({"99.9 % of them came within", figure(1e3 * all.percentile_s(0.999), 1) + " ms"})
+        << table_row({"The longest took", figure(1e3 * all.longest_frame_s, 1) + " ms"})
+        << table_row({"Missed refreshes", grouped(all.missed_refreshes)})
+        << table_row({"Worst skew of the outputs", figure(1e3 * all.worst_skew_s, 2) + " ms"})
+        << table_row({"The GPU was lost", std::to_string(all.device_losses) + " times"})
+        << table_row({"A stick went away", std::to_string(all.unplugged) + " times"})
+        << table_row({"Commands of remotes, and refused ones", grouped(all.commands) + ", " + grouped(all.refused_commands)})
+        << table_row({"Greatest memory", figure(1e-6 * double(all.resident_bytes), 0) + " MB"}) << "</table>\n";
     out << "<h2>Visits by the hour</h2>\n"
         << bars(day, first, last, "#0b5fa5", 0, [](const UsageCounts& counts) { return double(counts.visits); });
     out << "<h2>Mean length of a visit, seconds</h2>\n"
@@ -98,7 +94,7 @@ std::string page_of(const UsageDay& day, int first, int last, const UsageCounts&
            });
     out << "<h2>Time of the visitors in each scene</h2>\n<table>\n";
     for (const auto& [scene, s] : all.scenes_s)
-        out << row(escaped_html(scene), time_of(s));
+        out << table_row({scene, time_of(s)});
     out << "</table>\n<p>Counts belong to whole hours; nothing here tells who came.</p>\n</body></html>\n";
     return out.str();
 }

@@ -351,9 +351,8 @@ void FrameLoop::watch_memory()
     }
     if (memory_reported_)
         return;
-    const std::string used = size_text(double(budget->used_bytes))
-        + " of the GPU's memory are used, and its driver gives this " + "program " + size_text(double(budget->most_bytes))
-        + " now";
+    const std::string used = size_text(double(budget->used_bytes)) + " of the GPU's memory are used, and its driver gives "
+        + "this program " + size_text(double(budget->most_bytes)) + " now";
     const std::optional<Governor>& governor = session_.qualities.governor();
     if (governor && session_.qualities.leave(governor->level(), used)) {
         frame_->adopt(session_.qualities.next(device_));
@@ -370,10 +369,7 @@ void FrameLoop::trace_passes()
 {
     if (!device_.trace)
         return;
-    // The device's clock has its own zero: its frame is drawn from the time of submission on.
-    for (const PassTime& pass : timer_.passes())
-        device_.trace->gpu(
-            pass.name, submitted_ns_ + std::int64_t(1e6 * pass.begin_ms), std::int64_t(1e6 * pass.duration_ms));
+    add_passes(*device_.trace, timer_.passes(), submitted_ns_);
 }
 
 void FrameLoop::trace_calls(const CommandCounts& counts)

@@ -223,12 +223,12 @@ MemoryBudget budget_of(const vk::raii::PhysicalDevice& physical)
     const auto all
         = physical.getMemoryProperties2<vk::PhysicalDeviceMemoryProperties2, vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
     const vk::PhysicalDeviceMemoryProperties& memory = all.get<vk::PhysicalDeviceMemoryProperties2>().memoryProperties;
-    const auto& told = all.get<vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
+    const auto& reported = all.get<vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
     MemoryBudget budget;
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
         if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal) {
-            budget.used_bytes += told.heapUsage[i], budget.most_bytes += told.heapBudget[i];
-            budget.exceeded |= told.heapUsage[i] > told.heapBudget[i];
+            budget.used_bytes += reported.heapUsage[i], budget.most_bytes += reported.heapBudget[i];
+            budget.exceeded |= reported.heapUsage[i] > reported.heapBudget[i];
         }
     return budget;
 }
@@ -320,7 +320,7 @@ Device::Device(const Options& options)
     physical = choose(instance, options);
     properties = physical.getProperties();
     memory = physical.getMemoryProperties();
-    tells_budget = offers(physical, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    reports_budget = offers(physical, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
     auto families = physical.getQueueFamilyProperties();
     for (family = 0; !(families[family].queueFlags & vk::QueueFlagBits::eGraphics);)
         ++family;
@@ -386,7 +386,7 @@ Device::Device(const Options& options)
 
 std::optional<MemoryBudget> Device::memory_budget() const
 {
-    return tells_budget ? std::optional(budget_of(physical)) : std::nullopt;
+    return reports_budget ? std::optional(budget_of(physical)) : std::nullopt;
 }
 
 void Device::begin_rendering(vk::CommandBuffer commands, const vk::RenderingInfo& info, std::uint32_t scenes) const

@@ -11,8 +11,8 @@ namespace starbow {
 class FrameTimer;
 class Trace;
 
-/// The memory of a device's own heaps that this process uses, and the most that it can use now without slow pictures, because
-/// other programs use the device, too.
+/// The memory of a device's own heaps that this process uses, and the most that it can use now without slow pictures,
+/// because other programs use the device, too.
 struct MemoryBudget {
     std::uint64_t used_bytes = 0, most_bytes = 0;
     bool exceeded = false; ///< in one of the heaps at least
@@ -53,7 +53,7 @@ public:
     bool compresses = false; ///< large textures are compressed; false where the processor would decode them at each look-up
     bool draws_as_gpu = false; ///< by the forms of shaders that are faster on a GPU, and slower where the processor draws
     bool statistics = false; ///< pipelines are made with the figures of their shaders
-    bool tells_budget = false; ///< VK_EXT_memory_budget; see memory_budget()
+    bool reports_budget = false; ///< VK_EXT_memory_budget; see memory_budget()
     bool debug_utils = false; ///< VK_EXT_debug_utils: objects have names, passes have labels
     Trace* trace = nullptr; ///< receives the processor's spans of each frame during a trace
     std::unique_ptr<LavapipeFenceGuard> keeper; ///< null but on lavapipe
@@ -72,7 +72,7 @@ public:
     void end_rendering(vk::CommandBuffer commands) const;
     /// Waits for a fence. what: names the wait. Where the fence does not come within LimitedWait's limit, the process ends.
     void await(vk::Fence fence, const char* what) const;
-    /// Nothing where the device does not tell.
+    /// Nothing where the device does not report it.
     std::optional<MemoryBudget> memory_budget() const;
     /// Waits until the device does nothing. Before that, or its loss, no object in use may be destroyed.
     void settle() const noexcept;

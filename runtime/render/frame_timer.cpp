@@ -1,5 +1,6 @@
 #include "frame_timer.h"
 #include "debug.h"
+#include "runtime/operation/trace.h"
 #include <algorithm>
 #include <array>
 
@@ -98,6 +99,12 @@ std::span<const PassTime> FrameTimer::passes()
         passes_.push_back({names_[i], ms_per_tick_ * double((ticks[2 * i] - zero) & mask_),
             ms_per_tick_ * double((ticks[2 * i + 1] - ticks[2 * i]) & mask_)});
     return passes_;
+}
+
+void add_passes(Trace& trace, std::span<const PassTime> passes, std::int64_t submitted_ns)
+{
+    for (const PassTime& pass : passes)
+        trace.gpu(pass.name, submitted_ns + std::int64_t(1e6 * pass.begin_ms), std::int64_t(1e6 * pass.duration_ms));
 }
 
 void submit_frame(const Device& device, vk::CommandBuffer world, vk::CommandBuffer outputs,

@@ -49,6 +49,10 @@ private:
     std::vector<PassTime> passes_;
 };
 
+/// Adds a frame's passes to a trace. The device's clock has a zero of its own: its frame is drawn from the time of its
+/// submission on, Trace::now_ns().
+void add_passes(Trace& trace, std::span<const PassTime> passes, std::int64_t submitted_ns);
+
 /// Submits a frame's two parts: `world` at once, `outputs` after it and after all of `wait`. `signal` and `done` are
 /// signalled after both.
 void submit_frame(const Device& device, vk::CommandBuffer world, vk::CommandBuffer outputs,

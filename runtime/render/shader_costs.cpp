@@ -36,8 +36,8 @@ void add_reached(Reached& all, const std::filesystem::path& scene)
 ShaderCost cost_of(
     const Device& card, const Reached::value_type& reached, vk::Pipeline pipeline, vk::ShaderStageFlagBits stage)
 {
-    ShaderCost cost{
-        .pass = table_name(reached.second) + (stage == vk::ShaderStageFlagBits::eVertex ? ", vertex" : ""), .variant = reached.first.second};
+    ShaderCost cost{.pass = table_name(reached.second) + (stage == vk::ShaderStageFlagBits::eVertex ? ", vertex" : ""),
+        .variant = reached.first.second};
     const std::map<std::string, double> figures = shader_statistics(card, pipeline, stage);
     for (std::size_t i = 0; i < shader_figures.size(); ++i)
         cost.figures[i] = figures.at(shader_figures[i].figure);

@@ -92,7 +92,7 @@ STARBOW_BUDGET_KIB=20000 timeout 60 "$program" run --layout desk --scene warm-wa
     || fail "far beyond the budget: exit $?"
 [ "$(grep -c 'quality: .* of the GPU.s memory are used, and its driver gives this program 20 MiB now: pictures may' "$folder/log")" = 1 ] \
     || fail "far beyond the budget: not one line"
-STARBOW_BUDGET_KIB=20000 "$program" doctor 2>/dev/null | grep -q 'of which this program can have 20 MiB now' || fail "doctor does not tell the budget"
+STARBOW_BUDGET_KIB=20000 "$program" doctor 2>/dev/null | grep -q 'of which this program can have 20 MiB now' || fail "doctor does not show the budget"
 ok
 
 # Shadows without room are left out, and the world is shown.

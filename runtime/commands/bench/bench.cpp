@@ -1,5 +1,6 @@
 #include "bodies.h"
 #include "card.h"
+#include "config/json/whole_file.h"
 #include "counts.h"
 #include "cubes.h"
 #include "estimate.h"
@@ -11,12 +12,14 @@
 #include "runtime/commands/commands.h"
 #include "runtime/commands/options/command_line.h"
 #include "runtime/commands/tools.h"
+#include "runtime/images/capture.h"
 #include "runtime/render/absent_card.h"
 #include "scaling.h"
 #include "shaders.h"
 #include "stars.h"
 #include "worlds.h"
 #include <memory>
+#include <nlohmann/json.hpp>
 
 namespace starbow {
 namespace {
@@ -59,8 +62,14 @@ int bench(const BenchOptions& options)
         bench_cubes(options.rounds);
     else if (!options.layout.empty())
         bench_layout(options.layout, options.shot, options.rounds);
-    else
-        bench_frame_stages(options.rounds, options.json);
+    else if (options.json.empty())
+        bench_frame_stages(options.rounds, false);
+    else {
+        check_writable(options.json);
+        const nlohmann::ordered_json figures = bench_frame_stages(options.rounds, true);
+        make_folder_of(options.json);
+        write_whole(options.json, figures.dump(2) + "\n");
+    }
     return 0;
 }
 

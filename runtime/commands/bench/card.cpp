@@ -111,8 +111,7 @@ CardCase time_case(RenderContext& context, OffscreenRenderer& renderer, const Sh
         context.device.trace = &trace;
         const TimedFrame frame = timer.timed(shot, &panel);
         context.device.trace = nullptr;
-        for (const PassTime& pass : frame.passes)
-            trace.gpu(pass.name, frame.submit_ns + std::int64_t(1e6 * pass.begin_ms), std::int64_t(1e6 * pass.duration_ms));
+        add_passes(trace, frame.passes, frame.submit_ns);
     }
     measured.whole_ms = median(whole), measured.processor_ms = median(processor), measured.device_ms = median(on_device);
     measured.slowest_ms = std::ranges::max(whole);
@@ -193,14 +192,6 @@ std::string bars(const std::vector<CardCase>& cases, const std::vector<std::stri
     return svg.drawn({left + width + 90, y + 4});
 }
 
-std::string row(std::initializer_list<std::string> cells, const char* cell = "td")
-{
-    std::string line = "<tr>";
-    for (const std::string& text : cells)
-        line += std::string("<") + cell + ">" + escaped_html(text) + "</" + cell + ">";
-    return line + "</tr>\n";
-}
-
 std::string page_of(const GpuListing& gpu, const std::vector<CardCase>& cases, const TestResults& tests, const Json& stages)
 {
     std::vector<std::string> passes;
@@ -223,18 +214,19 @@ std::string page_of(const GpuListing& gpu, const std::vector<CardCase>& cases, c
         if (own.empty())
             continue;
         page += "<h2>" + std::string(displays[display].says) + "</h2>\n" + bars(own, passes) + "<table>\n"
-            + row({"", "frame, ms", "slowest", "processor", "device", "frames measured"}, "th");
+            + table_row({"", "frame, ms", "slowest", "processor", "device", "frames measured"}, "th");
         for (const CardCase& one : own)
-            page += row({setting_of(one), shortest(one.whole_ms, 2), shortest(one.slowest_ms, 2),
+            page += table_row({setting_of(one), shortest(one.whole_ms, 2), shortest(one.slowest_ms, 2),
                 shortest(one.processor_ms, 2), shortest(one.device_ms, 2), std::to_string(one.frames)});
         page += "</table>\n";
     }
     if (!stages.is_null()) {
         page += "<h2>Ratios, a window of 800 x 600, the default quality</h2>\n<table>\n"
-            + row({"", "rest", "gamma 4", "gamma 100"}, "th");
+            + table_row({"", "rest", "gamma 4", "gamma 100"}, "th");
         for (const char* key : {"frame_over_plain", "warp_over_lookup"}) {
             const Json& of = stages.at("ratios").at(key);
-            page += row({key, shortest(of.at("rest"), 2), shortest(of.at("gamma4"), 2), shortest(of.at("gamma100"), 2)});
+            page += table_row(
+                {key, shortest(of.at("rest"), 2), shortest(of.at("gamma4"), 2), shortest(of.at("gamma100"), 2)});
         }
         page += "</table>\n";
     }
@@ -300,10 +292,7 @@ void bench_card(const std::filesystem::path& folder, const std::string& display,
     Json stages;
     if (display.empty()) {
         std::printf("\n");
-        const std::filesystem::path its = folder / "stages.json";
-        bench_frame_stages(rounds, its);
-        stages = Json::parse(read_whole(its, 100 << 20, "the stages' figures"));
-        std::filesystem::remove(its);
+        stages = bench_frame_stages(rounds, true);
         json["stages"] = stages;
     }
     json["tests"] = {{"passed", tests.passed}, {"failed", tests.failed}};

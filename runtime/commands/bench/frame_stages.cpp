@@ -1,8 +1,6 @@
 #include "frame_stages.h"
 #include "avenue.h"
 #include "bodies.h"
-#include "config/json/error.h"
-#include "config/json/whole_file.h"
 #include "config/model/shipped.h"
 #include "cubes.h"
 #include "flight.h"
@@ -152,10 +150,8 @@ nlohmann::ordered_json json_of(const std::vector<StageTimes>& results)
 
 } // namespace
 
-void bench_frame_stages(int rounds, const std::filesystem::path& file)
+nlohmann::ordered_json bench_frame_stages(int rounds, bool all)
 {
-    if (!file.empty())
-        check_writable(file);
     const glm::ivec2 size(800, 600);
     const Layout layout = window_of(size);
     Avenue avenue;
@@ -170,8 +166,8 @@ void bench_frame_stages(int rounds, const std::filesystem::path& file)
     }
     print(results, 1e-6 * size.x * size.y);
     const auto levels = bench_spectra(avenue.context, layout, rounds);
-    if (file.empty())
-        return;
+    if (!all)
+        return {};
 
     nlohmann::ordered_json json = json_of(results);
     json["device"] = avenue.context.device.name();
@@ -184,8 +180,7 @@ void bench_frame_stages(int rounds, const std::filesystem::path& file)
         json["worlds"][shot + "_ms"] = ms;
     const FlightTimes flight = bench_flight();
     json["flight"] = {{"longest_ms", flight.longest_ms}, {"p50_ms", flight.p50_ms}, {"p99_ms", flight.p99_ms}};
-    make_folder_of(file);
-    write_whole(file, json.dump(2) + "\n");
+    return json;
 }
 
 } // namespace starbow

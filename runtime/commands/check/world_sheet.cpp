@@ -186,7 +186,7 @@ int check_world(const std::string& name, const std::string& page_name, const std
     out << page_begin("en", scene.name, "img{width:100%;height:auto}td:last-child{text-align:left}") << "<h1>"
         << escaped_html(scene.name) << "</h1>\n<table>\n";
     for (const Fact& fact : facts)
-        out << "<tr><td>" << escaped_html(fact.name) << "</td><td>" << escaped_html(fact.value) << "</td></tr>\n";
+        out << table_row({fact.name, fact.value});
     out << "</table>\n";
     std::vector<std::string> notes = context.world.world.notes;
     note_lacking_shadows(context.world.scene, context.world.world, notes);
