@@ -21,10 +21,11 @@ for command in bench measure soak; do
     if "$program" $command --help | grep -q "starbow $command"; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
 
-refused '--family' bench --estimate --family geforce
+begins_with '--family: ' bench --estimate --family geforce
 "$program" bench --estimate --layout desk --family polaris10 2>/dev/null | grep -q '^surface' && passed=$((passed + 1)) || fail "bench --estimate has no row of surfaces"
 
-refused '--display' bench --card "$folder/card" --display wall
+begins_with '--display: ' bench --card "$folder/card" --display wall
+begins_with '/proc/card/card.json: ' bench --card /proc/card
 "$program" bench --card "$folder/card" --display window --rounds 3 >/dev/null 2>&1
 said=$(python3 -c '
 import json, sys

@@ -253,9 +253,9 @@ GpuListing chosen_gpu()
 void bench_card(const std::filesystem::path& folder, const std::string& display, int rounds)
 {
     const std::filesystem::path file = folder / "card.json";
-    make_folder_of(file);
-    check_writable(file);
     const GpuListing gpu = chosen_gpu();
+    make_folder_of(file);
+    write_whole(file, json_of(gpu, {}).dump(2) + "\n"); // a folder that can't be made is refused before long work
     const TestResults tests = tests_in(folder);
     std::printf("%s, %s; the avenue, all effects on; milliseconds\n\n%-32s%10s%10s%10s%10s\n", gpu.name.c_str(),
         gpu.driver.c_str(), "", "frame", "slowest", "processor", "device");
