@@ -245,9 +245,7 @@ TEST(CompiledTest, DamagedFilesAreCompiledAgain)
         damages.emplace_back("bit at " + std::to_string(at), flipped);
     }
     for (const auto& [damage, content] : damages) {
-        {
-            std::ofstream(file, std::ios::binary | std::ios::trunc) << content;
-        }
+        write_bytes(file, content);
         MapStore store(folder);
         const auto map = map_of(store, layout);
         EXPECT_TRUE(map->texels == right->texels && map->intensity == right->intensity) << damage;

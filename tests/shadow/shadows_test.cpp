@@ -432,7 +432,7 @@ TEST_F(ShadowsTest, NothingOfADamagedFileRemainsWhicheverBitIsWrong)
     std::ifstream stream(file, std::ios::binary);
     const std::string whole((std::istreambuf_iterator<char>(stream)), {});
     const auto expect_refused = [&](const std::string& bytes, std::size_t at) {
-        std::ofstream(file, std::ios::binary | std::ios::trunc).write(bytes.data(), std::streamsize(bytes.size()));
+        starbow::testing::write_bytes(file, bytes);
         Shadows damaged;
         EXPECT_FALSE(read(damaged)) << at;
         EXPECT_TRUE(damaged.texels.empty() && damaged.sky.empty() && damaged.cells == glm::ivec3(0)) << at;

@@ -1,21 +1,9 @@
 #pragma once
 #include "files.h"
-#include <fstream>
 #include <random>
 #include <string>
 
 namespace starbow::testing {
-
-/// Writes a file's bytes as they are. A file that is there is overwritten: ext4 waits for the disk after one was emptied.
-inline void write_bytes(const std::filesystem::path& file, const std::string& bytes)
-{
-    std::fstream there(file, std::ios::in | std::ios::out | std::ios::binary);
-    if (!there)
-        there.open(file, std::ios::out | std::ios::binary);
-    there.write(bytes.data(), std::streamsize(bytes.size()));
-    there.close();
-    std::filesystem::resize_file(file, bytes.size());
-}
 
 /// Calls check(damaged bytes, words for the message) with each damage of a file: every bit flipped, every shorter length and
 /// some longer ones. Of a file of more than 20 kB without STARBOW_ALL_CASES: every bit and length of its first bytes, and a

@@ -35,10 +35,20 @@ std::filesystem::path scratch(const std::string& name)
     return folder.path / name;
 }
 
+void write_bytes(const std::filesystem::path& file, std::string_view bytes)
+{
+    std::fstream there(file, std::ios::in | std::ios::out | std::ios::binary);
+    if (!there)
+        there.open(file, std::ios::out | std::ios::binary);
+    there.write(bytes.data(), std::streamsize(bytes.size()));
+    there.close();
+    std::filesystem::resize_file(file, bytes.size());
+}
+
 std::filesystem::path write_text(const std::string& name, const std::string& text)
 {
     const std::filesystem::path file = scratch(name);
-    std::ofstream(file, std::ios::binary) << text;
+    write_bytes(file, text);
     return file;
 }
 

@@ -17,6 +17,9 @@ std::filesystem::path source_dir();
 /// Returns the path of `name` in this process's own folder, which is removed when the process ends.
 std::filesystem::path scratch(const std::string& name);
 
+/// Writes a file's bytes as they are. A file that is there is overwritten: ext4 waits for the disk after one was emptied.
+void write_bytes(const std::filesystem::path& file, std::string_view bytes);
+
 /// Writes a file into that folder.
 std::filesystem::path write_text(const std::string& name, const std::string& text);
 

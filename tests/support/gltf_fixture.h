@@ -1,8 +1,8 @@
 #pragma once
+#include "files.h"
 #include "runtime/world/world.h"
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -83,10 +83,7 @@ protected:
 
     template <typename Content> std::filesystem::path write(const std::string& name, const Content& content) const
     {
-        // Overwriting in place makes some file systems wait for the disk.
-        std::filesystem::remove(folder / name);
-        std::ofstream(folder / name, std::ios::binary)
-            .write(reinterpret_cast<const char*>(content.data()), std::streamsize(content.size()));
+        testing::write_bytes(folder / name, {reinterpret_cast<const char*>(content.data()), content.size()});
         return folder / name;
     }
 

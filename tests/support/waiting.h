@@ -25,8 +25,9 @@ inline double processor_seconds()
     return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
-/// The time that a step of the calling thread takes by its own doing, s. A step that sleeps or waits for another thread takes
-/// all of its time; any other takes its time on the processor, without the time that the machine gives to others meanwhile.
+/// The time that a step of the calling thread takes by its own doing, s. A step that sleeps or waits for another thread
+/// takes all of its time; any other takes its time on the processor, without the time that the machine gives to others
+/// meanwhile.
 template <class Step> double own_seconds(Step&& step)
 {
     const auto waits = [] {

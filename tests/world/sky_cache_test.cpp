@@ -39,7 +39,7 @@ TEST_F(SkyCacheTest, AKeptSkyIsThePaintedOneAndADamagedFileIsPaintedAgain)
             damaged.resize(whole.size() - 1);
         else
             damaged[n == 1 ? random() % 40 : whole.size() / 2] ^= 4;
-        std::ofstream(file, std::ios::binary) << damaged;
+        starbow::testing::write_bytes(file, damaged);
         EXPECT_EQ(load_sky(sky, cache).rgba, painted.rgba) << n;
         EXPECT_EQ(starbow::testing::read_text(file), whole) << n;
     }
