@@ -151,10 +151,8 @@ private:
         "displays/check/floor_plan_table.cpp": before("std::string words(const Cylinder& cylinder)",
             'std::string words(const Mercator& mercator) { return "Mercator, " + degrees(mercator.width_deg) + " across"; }\n\n'),
         "tests/displays/picture_test.cpp": before('        {"part of a cylinder",', '        {"mercator", {Mercator{}, {800, 600}}, 1e-6 + step2(180, 800)},\n'),
-        "tests/config/schema_test.cpp": before("        {cylinder, projection_at, \"/definitions/cylinder\"},\n",
-            "        {around(R\"({ \"type\": \"mercator\" })\"), projection_at, \"/definitions/mercator\"},\n"),
         "docs/displays.md": after("| another program that wants a cube map | | `cube`", ", `mercator`"),
-    }, "PictureTest.*:Adjust.*:DescribeTest.*:SchemaTest.*:LayoutTest.*"),
+    }, "PictureTest.*:Adjust.*:DescribeTest.*:FileMembers.*:SchemaTest.*:LayoutTest.*"),
     "format": ({
         "displays/warp/toy.cpp": whole("""#include "parts.h"
 

@@ -15,10 +15,10 @@ inline const std::vector<std::pair<std::string_view, std::optional<StereoMethod>
 struct SampleCount {
     int read(const Place& place, const Folder&) const
     {
-        const int count = integer(place, 1, 8);
-        if (count & (count - 1))
-            fail_at(place, "is not a number of samples that devices have; 1, 2, 4 or 8 is right");
-        return count;
+        for (const int count : {1, 2, 4, 8})
+            if (*place.json == count)
+                return count;
+        fail_at(place, "is not a number of samples that devices have; 1, 2, 4 or 8 is right");
     }
     Json written(int count) const { return count; }
     Json schema(Json&) const { return {{"enum", {1, 2, 4, 8}}}; }

@@ -1,4 +1,4 @@
-// Every member of a layout: its effect, its default, its limits, and the message for a wrong value.
+// Every member of a layout: its effect, and the rules between members. Limits are in file_members_test.cpp.
 #include "config/model/layout.h"
 #include "tests/support/files.h"
 
@@ -71,33 +71,6 @@ const std::string lens = R"("type": "lens", "green": { "k": [0.1, 0.02, 0, 0] })
 
 } // namespace
 
-TEST(LayoutMembersTest, MembersHaveTheirDefaults)
-{
-    const Layout layout = load(top(""));
-    EXPECT_EQ(layout.stereo.method, StereoMethod::exact);
-    EXPECT_EQ(layout.stereo.separation_m, 0.065);
-    EXPECT_EQ(layout.stereo.hyper_stereo, 1);
-    EXPECT_FALSE(layout.stereo.turning);
-    EXPECT_FALSE(layout.blend.ramps);
-    EXPECT_EQ(layout.blend.power, 1);
-    const Output& output = layout.outputs.at(0);
-    EXPECT_EQ(output.size, glm::ivec2(800, 600));
-    EXPECT_FALSE(output.resizable || output.preview || output.whole_monitor || output.place);
-    EXPECT_TRUE(output.monitor.empty());
-    EXPECT_EQ(output.packing, Packing::mono);
-    EXPECT_EQ(output.colour.gamma, 0);
-    EXPECT_EQ(output.colour.matrix, glm::dmat3(1));
-    EXPECT_TRUE(output.colour.lut.empty());
-    const Viewport& viewport = output.viewports.at(0);
-    EXPECT_EQ(viewport.eye, Eye::middle);
-    EXPECT_TRUE(viewport.projection_given);
-    EXPECT_FALSE(viewport.warp);
-    EXPECT_TRUE(viewport.alpha_mask.empty() && viewport.black_level.empty());
-    EXPECT_EQ(viewport.mask_gamma, 1);
-    EXPECT_EQ(viewport.order, 0);
-    EXPECT_FALSE(std::get<Planar>(viewport.projection).sides);
-}
-
 TEST(LayoutMembersTest, StereoBlendAndHudAreRead)
 {
     const Layout layout = load(top(R"("$schema": "x", "stereo": { "method": "reprojected", "separation_m": 0.06,
@@ -119,31 +92,13 @@ TEST(LayoutMembersTest, StereoBlendAndHudAreRead)
         top(R"("stereo": { "full_from_zenith_deg": 0 })"), top(R"("blend": {})"), top(R"("blend": { "power": 0.1 })")});
     expect_wrong(load_layout,
         {
-            {top(R"("stereo": true)"), "/stereo", "true", "is not an object"},
-            {top(R"("stereo": { "mode": "exact" })"), "/stereo/mode", "\"exact\"", "\"method\""},
-            {top(R"("stereo": { "method": "fast" })"), "/stereo/method", "\"fast\"",
-                "\"shared\", \"exact\" or \"reprojected\""},
-            {top(R"("stereo": { "separation_m": -0.065 })"), "/stereo/separation_m", "-0.065", "is too small"},
-            {top(R"("stereo": { "separation_m": 65 })"), "/stereo/separation_m", "65",
-                "is too large; a number from 0 to 10"},
             {top(R"("stereo": { "separation_m": 0 })"), "/stereo/separation_m", "0", "puts both eyes in one place"},
             {top(R"("stereo": { "separation_m": 0, "method": "reprojected" })"), "/stereo/separation_m", "0",
                 "puts both eyes in one place; a number above 0, or the method \"shared\""},
-            {top(R"("stereo": { "hyper_stereo": 0 })"), "/stereo/hyper_stereo", "0", "is too small; a number above 0"},
-            {top(R"("stereo": { "hyper_stereo": "by-eye" })"), "/stereo/hyper_stereo", "\"by-eye\"", "\"by-light\""},
-            {top(R"("stereo": { "hyper_stereo": 2e12 })"), "/stereo/hyper_stereo", "2000000000000.0", "is too large"},
             {top(R"("stereo": { "hyper_stereo": 1e999 })"), "/stereo/hyper_stereo", "1e999", "is too large for a number"},
             {top(R"("stereo": { "hyper_stereo": 1, "hyper_stereo": 1 })"), "/stereo/hyper_stereo", "\"hyper_stereo\"",
                 "is given twice"},
-            {top(R"("stereo": { "baseline": "round" })"), "/stereo/baseline", "\"round\"", "\"fixed\" or \"turning\""},
             {top(R"("stereo": { "baseline": "turning" })"), "/stereo/baseline", "\"turning\"", "the method \"reprojected\""},
-            {top(R"("stereo": { "full_from_zenith_deg": 91 })"), "/stereo/full_from_zenith_deg", "91", "is too large"},
-            {top(R"("stereo": { "full_from_zenith_deg": -1 })"), "/stereo/full_from_zenith_deg", "-1", "is too small"},
-            {top(R"("blend": 1)"), "/blend", "1", "is not an object"},
-            {top(R"("blend": { "ramps": 1 })"), "/blend/ramps", "1", "is neither true nor false"},
-            {top(R"("blend": { "power": 0 })"), "/blend/power", "0", "is too small"},
-            {top(R"("blend": { "power": 11 })"), "/blend/power", "11", "is too large"},
-            {top(R"("blend": { "gamma": 2 })"), "/blend/gamma", "2", "\"ramps\""},
         });
 }
 
@@ -168,7 +123,6 @@ TEST(LayoutMembersTest, PackingsAreRead)
             top("", R"("packing": "mono")", R"("eye": "right")")});
     expect_wrong(load_layout,
         {
-            {output(R"("packing": "sbs")"), "/outputs/0/packing", "\"sbs\"", "\"side-by-side\""},
             {output(R"("packing": true)"), "/outputs/0/packing", "true", "is not known here"},
             {output(R"("packing": "side-by-side", "size": [801, 600])"), "/outputs/0/size", "[801,600]",
                 "no two equal halves"},
@@ -197,17 +151,8 @@ TEST(LayoutMembersTest, WindowsAndMonitorsAreRead)
     const std::string monitor = "/outputs/0/monitor";
     expect_wrong(load_layout,
         {
-            {output(R"("monitor": "HDMI-1")"), monitor, "\"HDMI-1\"", "is not an object"},
             {output(R"("monitor": {})"), monitor, "{}", "names no monitor"},
-            {output(R"("monitor": { "name": "x" })"), monitor + "/name", "\"x\"", "unknown name"},
             {output(R"("monitor": { "connector": "" })"), monitor + "/connector", "\"\"", "is empty"},
-            {output(R"("monitor": { "model": 5 })"), monitor + "/model", "5", "is not a text"},
-            {output(R"("monitor": { "serial": null })"), monitor + "/serial", "null", "is not a text"},
-            {output(R"("monitor": { "position": [0] })"), monitor + "/position", "[0]", "has length 1"},
-            {output(R"("monitor": { "position": [0, 0.5] })"), monitor + "/position/1", "0.5", "is not a whole number"},
-            {output(R"("whole_monitor": "yes")"), "/outputs/0/whole_monitor", "\"yes\"", "is neither true nor false"},
-            {output(R"("place": 5)"), "/outputs/0/place", "5", "is not a list"},
-            {output(R"("place": [0, 100001])"), "/outputs/0/place/1", "100001", "is too large"},
             {output(R"("place": [0, 0], "whole_monitor": true)"), "/outputs/0/place", "[0,0]", "not both"},
             {outputs(plain("a", hdmi + whole) + ", " + plain("b", hdmi + whole)), "/outputs/1/monitor",
                 "{\"connector\":\"HDMI-1\"}", "takes the same monitor as output 0"},
@@ -228,7 +173,6 @@ TEST(LayoutMembersTest, PreviewsAreRead)
     const std::string preview = R"(, { "name": "p", "preview": true)";
     expect_wrong(load_layout,
         {
-            {output(R"("preview": 1)"), "/outputs/0/preview", "1", "is neither true nor false"},
             {outputs(plain("a") + preview + R"(, "viewports": [] })"), "/outputs/1/viewports", "[]",
                 "stands in the preview"},
             {outputs(plain("a") + preview + R"(, "packing": "rows" })"), "/outputs/1/packing", "\"rows\"",
@@ -253,24 +197,8 @@ TEST(LayoutMembersTest, ColourIsRead)
         {output(R"("colour": {})"), output(R"("colour": { "lut": [0, 0] })"), output(R"("colour": { "gamma": 0.1 })")});
     expect_wrong(load_layout,
         {
-            {output(R"("colour": 2.2)"), at, "2.2", "is not an object"},
-            {output(R"("color": {})"), "/outputs/0/color", "{}", "\"colour\""},
-            {output(R"("colour": { "gama": 2 })"), at + "/gama", "2", "\"gamma\""},
-            {output(R"("colour": { "gamma": 0 })"), at + "/gamma", "0", "is too small"},
-            {output(R"("colour": { "gamma": 10.1 })"), at + "/gamma", "10.1", "is too large"},
             {output(R"("colour": { "gamma": 2, "lut": [0, 1] })"), at + "/gamma", "2", "stands beside \"lut\""},
-            {output(R"("colour": { "matrix": [1, 0, 0] })"), at + "/matrix/0", "1", "is not a list"},
-            {output(R"("colour": { "matrix": [[1, 0, 0], [0, 1, 0]] })"), at + "/matrix", "[[1,0,0],[0,1,0]]",
-                "has length 2"},
-            {output(R"("colour": { "matrix": [[1, 0, 0], [0, 1], [0, 0, 1]] })"), at + "/matrix/1", "[0,1]", "has length 2"},
-            {output(R"("colour": { "matrix": [[1, 0, 0], [0, 101, 0], [0, 0, 1]] })"), at + "/matrix/1/1", "101",
-                "is too large"},
             {output(R"("colour": { "lut": 5 })"), at + "/lut", "5", "is not a table"},
-            {output(R"("colour": { "lut": [1] })"), at + "/lut", "[1]", "has length 1"},
-            {output(R"("colour": { "lut": [0, 1.1] })"), at + "/lut/1", "1.1", "is too large"},
-            {output(R"("colour": { "lut": [0, [0, -1, 0]] })"), at + "/lut/1/1", "-1", "is too small"},
-            {output(R"("colour": { "lut": [0, [0, 0], 1] })"), at + "/lut/1", "[0,0]", "has length 2"},
-            {output(R"("colour": { "lut": [0, "1"] })"), at + "/lut/1", "\"1\"", "is not a number"},
             {output(R"("colour": { "lut": [0, 0.5, 0.4, 1] })"), at + "/lut/2", "0.4",
                 "is darker in red than the entry before"},
             {output(R"("colour": { "lut": [[0, 0, 0.5], [1, 1, 0.4]] })"), at + "/lut/1", "[1,1,0.4]", "is darker in blue"},
@@ -358,17 +286,10 @@ TEST(LayoutMembersTest, ViewportsEyesWarpsAndMasksAreRead)
     EXPECT_TRUE(first(viewport(R"("warp": { "file": "left.data" })")).viewports[0].projection_given);
     expect_wrong(load_layout,
         {
-            {viewport(R"("eye": "both")"), vp + "/eye", "\"both\"", "\"middle\", \"left\" or \"right\""},
-            {viewport(R"("eye_m": 0.065)"), vp + "/eye_m", "0.065", "is not a list"},
-            {viewport(R"("warp": "left.data")"), vp + "/warp", "\"left.data\"", "is not an object"},
-            {viewport(R"("warp": {})"), vp + "/warp", "{}", "lacks \"file\""},
             {viewport(R"("warp": { "file": "no.data" })"), vp + "/warp/file", "\"no.data\"", "names no file in"},
             {viewport(R"("warp": { "file": "." })"), vp + "/warp/file", "\".\"", "is a folder"},
             {viewport(R"("warp": { "file": "left.data", "frustum": "no.csv" })"), vp + "/warp/frustum", "\"no.csv\"",
                 "names no file in"},
-            {viewport(R"("warp": { "file": "left.data", "region": 1 })"), vp + "/warp/region", "1", "is not a text"},
-            {viewport(R"("warp": { "file": "left.data", "first_row": "up" })"), vp + "/warp/first_row", "\"up\"",
-                "\"top\" or \"bottom\""},
             {viewport(R"("warp": { "file": "left.data", "v": "top" })"), vp + "/warp/v", "\"top\"", "is right"},
             {viewport(R"("warp": { "file": "left.data", "samples": "corners" })"), vp + "/warp/samples", "\"corners\"",
                 "is right"},
@@ -378,15 +299,9 @@ TEST(LayoutMembersTest, ViewportsEyesWarpsAndMasksAreRead)
                 "stands beside \"values\": \"offsets\""},
             {viewport(R"("warp": { "file": "left.data", "values": "offsets", "samples": "edges" })"), vp + "/warp/samples",
                 "\"edges\"", "stands beside"},
-            {viewport(R"("warp": { "file": "left.data", "mesh": 1 })"), vp + "/warp/mesh", "1", "unknown name"},
             {viewport(R"("alpha_mask": "folder.png")"), vp + "/alpha_mask", "\"folder.png\"", "is a folder"},
-            {viewport(R"("alpha_mask": true)"), vp + "/alpha_mask", "true", "is not a text"},
             {viewport(R"("black_level": "no-such.png")"), vp + "/black_level", "\"no-such.png\"", "names no file in"},
-            {viewport(R"("mask_gamma": 0)"), vp + "/mask_gamma", "0", "is too small"},
-            {viewport(R"("mask_gamma": 11)"), vp + "/mask_gamma", "11", "is too large"},
-            {viewport(R"("order": 1001)"), vp + "/order", "1001", "is too large"},
             {viewport(R"("order": 0.5)"), vp + "/order", "0.5", "is right"},
-            {viewport(R"("warp": { "file": "left.data", "aspect": 0 })"), vp + "/warp/aspect", "0", "is too small"},
         });
 }
 
@@ -405,30 +320,14 @@ TEST(LayoutMembersTest, PlanarViewsAreRead)
     expect_wrong(load_layout,
         {
             {projection(p + R"("fov_x_deg": 90)"), at_projection + "/fov_x_deg", "90", "stands without \"fov_y_deg\""},
-            {projection(p + R"("fov_x_deg": 180, "fov_y_deg": 60)"), at_projection + "/fov_x_deg", "180", "is too large"},
             {projection(p + R"("fov_y_deg": 60, "sides_deg": )" + limits), at_projection + "/sides_deg", "{\"down\":10",
                 "stands beside \"fov_y_deg\""},
             {projection(p + R"("fov_x_deg": 60, "sides_deg": )" + limits), at_projection + "/sides_deg", "{\"down\":10",
                 "stands beside \"fov_x_deg\""},
-            {projection(p + R"("sides_deg": { "left": -10, "right": 10, "down": -10 })"), at_projection + "/sides_deg",
-                "{\"down\":-10", "lacks \"up\""},
-            {projection(p + R"("sides_deg": { "left": -10, "right": 10, "bottom": -10, "up": 5 })"),
-                at_projection + "/sides_deg/bottom", "-10", "unknown name"},
             {projection(p + R"("sides_deg": { "left": 10, "right": -10, "down": -10, "up": 10 })"),
                 at_projection + "/sides_deg/left", "10", "is not less than \"right\", -10"},
             {projection(p + R"("sides_deg": { "left": -10, "right": 10, "down": 10, "up": 10 })"),
                 at_projection + "/sides_deg/down", "10", "is not less than \"up\", 10"},
-            {projection(p + R"("sides_deg": { "left": -90, "right": 10, "down": -10, "up": 10 })"),
-                at_projection + "/sides_deg/left", "-90", "is too small; a number from -89.9 to 89.9"},
-            {projection(p + R"("sides_deg": { "left": -9, "right": 10, "down": -10, "up": 90 })"),
-                at_projection + "/sides_deg/up", "90", "is too large"},
-            {projection(p + R"("sides_deg": [1, 2, 3, 4])"), at_projection + "/sides_deg", "[1,2,3,4]", "is not an object"},
-            {projection(p + R"("turn_deg": 30)"), at_projection + "/turn_deg", "30", "is not an object"},
-            {projection(p + R"("turn_deg": { "yaw_deg": 30 })"), at_projection + "/turn_deg/yaw_deg", "30", "\"yaw\""},
-            {projection(p + R"("turn_deg": { "yaw": 361 })"), at_projection + "/turn_deg/yaw", "361", "is too large"},
-            {projection(p + R"("turn_deg": { "pitch": "up" })"), at_projection + "/turn_deg/pitch", "\"up\"",
-                "is not a number"},
-            {projection(p + R"("turn_deg": { "roll": -361 })"), at_projection + "/turn_deg/roll", "-361", "is too small"},
         });
 }
 
@@ -447,13 +346,6 @@ TEST(LayoutMembersTest, WallsAreRead)
             R"("type": "wall", "lower_left_m": [-1, -1.5, 1], "lower_right_m": [1, -1.5, 1], "upper_left_m": [-1, -1.5, -1])")});
     expect_wrong(load_layout,
         {
-            {projection(R"("type": "wall")"), at_projection, "{\"type\":\"wall\"}", "lacks \"lower_left_m\""},
-            {projection(wall + R"(, "upper_right_m": [1, 1, -2])"), at_projection + "/upper_right_m", "[1,1,-2]",
-                "\"lower_right_m\""},
-            {projection(from + R"("lower_right_m": [1, -1], "upper_left_m": [-1, 1, -2])"), at_projection + "/lower_right_m",
-                "[1,-1]", "has length 2"},
-            {projection(from + R"("lower_right_m": [1, -1, -2e4], "upper_left_m": [-1, 1, -2])"),
-                at_projection + "/lower_right_m/2", "-20000.0", "is too small"},
             {projection(from + R"("lower_right_m": [1, -1, -2], "upper_left_m": [-0.99, 1, -2])"),
                 at_projection + "/upper_left_m", "[-0.99,1,-2]", "makes no right angle with the other corners (5 mm off"},
             {projection(from + R"("lower_right_m": [-1, -1, -2], "upper_left_m": [-1, 1, -2])"),
@@ -489,16 +381,10 @@ TEST(LayoutMembersTest, FisheyesAreRead)
         projection(p + R"("mapping": "equisolid", "aperture_deg": 360)"), projection(p + R"("diameter": 0.01)")});
     expect_wrong(load_layout,
         {
-            {projection(p + R"("rotation_deg": 400)"), at_projection + "/rotation_deg", "400", "is too large"},
-            {projection(p + R"("mapping": "linear")"), at_projection + "/mapping", "\"linear\"", "\"equidistant\""},
             {projection(p + R"("mapping": "orthographic", "aperture_deg": 181)"), at_projection + "/aperture_deg", "181",
                 "more than an orthographic picture can hold"},
             {projection(p + R"("mapping": "stereographic", "aperture_deg": 351)"), at_projection + "/aperture_deg", "351",
                 "more than a stereographic picture can hold"},
-            {projection(p + R"("centre": [0.5])"), at_projection + "/centre", "[0.5]", "has length 1"},
-            {projection(p + R"("centre": [512, 512])"), at_projection + "/centre/0", "512", "is too large"},
-            {projection(p + R"("diameter": 0)"), at_projection + "/diameter", "0", "is too small; a number from 0.01"},
-            {projection(p + R"("diameter": 1024)"), at_projection + "/diameter", "1024", "is too large"},
         });
 }
 
@@ -524,18 +410,6 @@ TEST(LayoutMembersTest, CylindersPanoramasAndCubesAreRead)
         {
             {projection(R"("type": "cylinder", "sides_deg": { "left": -180, "right": 181, "down": -20, "up": 20 })"),
                 at + "/right", "181", "is more than a whole turn from \"left\""},
-            {projection(R"("type": "cylinder", "sides_deg": { "left": -90, "right": 90, "down": -90, "up": 20 })"),
-                at + "/down", "-90", "is too small; a number from -89 to 89"},
-            {projection(R"("type": "cylinder", "sides_deg": { "left": -361, "right": 90, "down": -9, "up": 20 })"),
-                at + "/left", "-361", "is too small"},
-            {projection(R"("type": "cylinder", "height_m": 2)"), at_projection + "/height_m", "2", "unknown name"},
-            {projection(R"("type": "equirectangular", "sides_deg": { "left": -90, "right": 90, "down": -91, "up": 20 })"),
-                at + "/down", "-91", "is too small; a number from -90 to 90"},
-            {projection(R"("type": "equirectangular", "fov_y_deg": 90)"), at_projection + "/fov_y_deg", "90",
-                "unknown name"},
-            {projection(R"("type": "cube", "arrangement": "column")"), at_projection + "/arrangement", "\"column\"",
-                "\"row\" or \"cross\""},
-            {projection(R"("type": "cube", "sides_deg": {})"), at_projection + "/sides_deg", "{}", "unknown name"},
         });
 }
 
@@ -558,25 +432,10 @@ TEST(LayoutMembersTest, MirrorsAreRead)
         projection(mirror, R"("eye_m": [0, 0, 2.9])")});
     expect_wrong(load_layout,
         {
-            {projection(R"("type": "mirror")"), at_projection, "{\"type\":\"mirror\"}", "lacks \"projector_m\""},
-            {projection(with(mirror, R"("dome_radius_m": 3)", R"("dome_m": [0, 0, 0])")), at_projection,
-                "{\"dome_m\":[0,0,0]", "lacks \"dome_radius_m\""},
-            {projection(with(mirror, R"("mirror_radius_m": 0.3)", R"("mirror_radius_m": 0)")),
-                at_projection + "/mirror_radius_m", "0", "is too small"},
             {projection(with(mirror, R"("mirror_radius_m": 0.3)", R"("mirror_radius_m": 0.8)")),
                 at_projection + "/projector_m", "[0,0.5,-2]", "lies inside the mirror's sphere"},
             {projection(with(mirror, R"("dome_radius_m": 3)", R"("dome_radius_m": 2.5)")), at_projection + "/mirror_m",
                 "[0,0.5,-2.8]", "lies outside the dome"},
-            {projection(with(mirror, R"("fov_y_deg": 30)", R"("type": "planar")")), at_projection + "/projector/type",
-                "\"planar\"", "unknown name"},
-            {projection(with(mirror, R"("fov_y_deg": 30)", R"("fov_y_deg": 0)")), at_projection + "/projector/fov_y_deg",
-                "0", "is too small"},
-            {projection(with(mirror, R"({ "fov_y_deg": 30 })", "30")), at_projection + "/projector", "30",
-                "is not an object"},
-            {projection(mirror + R"(, "dome_tilt_deg": 200)"), at_projection + "/dome_tilt_deg", "200", "is too large"},
-            {projection(mirror + R"(, "dome_aperture_deg": 0)"), at_projection + "/dome_aperture_deg", "0", "is too small"},
-            {projection(mirror + R"(, "dome_m": [0, 0])"), at_projection + "/dome_m", "[0,0]", "has length 2"},
-            {projection(mirror + R"(, "tilt_deg": 2)"), at_projection + "/tilt_deg", "2", "\"dome_tilt_deg\""},
             {projection(mirror, R"("eye_m": [0, 0, 3])"), at_projection, "{\"dome_radius_m\":3", "is outside; "},
         });
 }
@@ -601,22 +460,10 @@ TEST(LayoutMembersTest, LensesAreRead)
     EXPECT_EQ(alike.colours[2].k, alike.colours[1].k);
     expect_wrong(load_layout,
         {
-            {projection(R"("type": "lens")"), at_projection, "{\"type\":\"lens\"}", "lacks \"green\""},
-            {projection(lens + R"(, "form": "oculus")"), at_projection + "/form", "\"oculus\"", "\"panotools\" or \"vive\""},
-            {projection(lens + R"(, "fov_y_deg": 180)"), at_projection + "/fov_y_deg", "180", "is too large"},
-            {projection(lens + R"(, "red": {})"), at_projection + "/red", "{}", "lacks \"k\""},
-            {projection(lens + R"(, "red": { "k": [1, 2, 3] })"), at_projection + "/red/k", "[1,2,3]", "has length 3"},
-            {projection(lens + R"(, "blue": { "k": [1, 2, 3, 1e4] })"), at_projection + "/blue/k/3", "10000.0",
-                "is too large"},
-            {projection(lens + R"(, "red": { "k": [0, 0, 0, 0], "center": 1 })"), at_projection + "/red/center", "1",
-                "\"centre\""},
-            {projection(lens + R"(, "red": { "k": [0, 0, 0, 0], "centre": [0.5, 3] })"), at_projection + "/red/centre/1",
-                "3", "is too large"},
             {projection(lens + R"(, "form": "panotools", "red": { "k": [0, 0, 0, 0] })"), at_projection + "/green/k",
                 "[0.1,0.02,0,0]", "makes the lens's factor 0 at radius 0"},
             {projection(lens + R"(, "red": { "k": [-2, 0, 0, 0] })"), at_projection + "/red/k", "[-2,0,0,0]",
                 "makes the lens's factor "},
-            {projection(lens + R"(, "violet": {})"), at_projection + "/violet", "{}", "unknown name"},
         });
 }
 

@@ -77,19 +77,6 @@ TEST(SceneFileTest, EveryMemberIsRead)
     EXPECT_NEAR(scene.start.u.x, 1.7320508075688772, 1e-15);
 }
 
-TEST(SceneFileTest, MembersHaveTheirDefaults)
-{
-    const SceneFile scene = load_scene_file(write_text("bare.json", R"({ "gltf": "a.glb" })"));
-    EXPECT_EQ(scene.unit_m, 299792458);
-    EXPECT_EQ(scene.light_speed_m_s, 299792458);
-    EXPECT_EQ(scene.seconds_per_time_unit(), 1);
-    EXPECT_TRUE(scene.lights.empty());
-    EXPECT_FALSE(scene.stars);
-    EXPECT_EQ(scene.sky.temperature_K, 0);
-    EXPECT_EQ(scene.start.scene, "bare");
-    EXPECT_EQ(scene.start.u, glm::dvec3(0));
-}
-
 TEST(SceneFileTest, ShippedScenesLoad)
 {
     ASSERT_GE(shipped("config/scenes").size(), 10u);
@@ -107,69 +94,21 @@ TEST(SceneFileTest, WrongScenesAreRefused)
     nine += "]";
     expect_wrong(load_scene_file,
         {
-            {"\"a.glb\"", "", "\"a.glb\"", "is not an object"},
-            {"{}", "", "{}", "lacks \"gltf\""},
-            {R"({ "gltf": null })", "/gltf", "null", "is not a text"},
             {R"({ "gltf": "" })", "/gltf", "\"\"", "is empty"},
             {R"({ "gltf": "a\u0000b" })", "/gltf", "\"a\\u0000b\"", "holds a control character"},
-            {R"({ "glft": "a.glb" })", "/glft", "\"a.glb\"", "\"gltf\""},
-            {with(R"("unit_m": 0)"), "/unit_m", "0", "is too small"},
-            {with(R"("unit_m": -1)"), "/unit_m", "-1", "is too small"},
-            {with(R"("ground": { "middle": [0, 0, 0], "half_width": 0 })"), "/ground/half_width", "0", "is too small"},
-            {with(R"("ground": { "middle": [0, 0, 0] })"), "/ground", "{", "lacks \"half_width\""},
-            {with(R"("ground": { "middle": [0, 0, 0], "half_width": 1, "colour": [0, 2, 0] })"), "/ground/colour/1", "2",
-                "is too large"},
-            {with(R"("boundary": { "centre": [0, 0, 0], "radius": 0 })"), "/boundary/radius", "0", "is too small"},
-            {with(R"("boundary": { "centre": [0, 0], "radius": 1 })"), "/boundary/centre", "[0,0]", "has length 2"},
-            {with(R"("boundary": { "radius": 1 })"), "/boundary", "{", "lacks \"centre\""},
             {with(R"("boundary": { "centre": [0, 9, 0], "radius": 8 })"), "/boundary/radius", "8",
                 "leaves the start outside, 9 from the centre"},
-            {with(R"("unit_m": "1 m")"), "/unit_m", "\"1 m\"", "is not a number"},
-            {with(R"("unit": 1)"), "/unit", "1", "\"unit_m\""},
-            {with(R"("light_speed_m_s": 0)"), "/light_speed_m_s", "0", "is too small"},
-            {with(R"("light_speed_m_s": 1e31)"), "/light_speed_m_s", "1e+31", "is too large"},
             {with(R"("light_speed_m_s": 1e309)"), "/light_speed_m_s", "1e309", "is too large for a number"},
-            {with(R"("sky": [0, 0, 0])"), "/sky", "[0,0,0]", "is not an object"},
-            {with(R"("sky": { "top": [0, 0, 0] })"), "/sky/top", "[0,0,0]", "unknown name"},
-            {with(R"("sky": { "zenith": [0, -0.1, 0] })"), "/sky/zenith/1", "-0.1", "is too small"},
             {with(R"("sky": { "nadir": [0, 0] })"), "/sky/nadir", "[0,0]", "has length 2; "},
-            {with(R"("sky": { "horizon": "#fff" })"), "/sky/horizon", "\"#fff\"", "is not a list"},
-            {with(R"("stars": true)"), "/stars", "true", "is not an object"},
-            {with(R"("stars": {})"), "/stars", "{}", "lacks \"catalogue\""},
-            {with(R"("stars": { "catalogue": "a", "brightness": 1 })"), "/stars/brightness", "1", "unknown name"},
-            {with(R"("stars": { "catalogue": "a", "brightness_arcmin2": 0 })"), "/stars/brightness_arcmin2", "0",
-                "is too small; a number above 0"},
-            {with(R"("stars": { "catalogue": "a", "milky_way": "a.png" })"), "/stars/milky_way", "\"a.png\"",
-                "is not an object"},
-            {with(R"("stars": { "catalogue": "a", "milky_way": { "panorama": "a.png" } })"), "/stars/milky_way", "{",
-                "lacks \"peak_arcmin2\""},
-            {with(R"("stars": { "catalogue": "a", "milky_way": { "panorama": "a.png", "peak_arcmin2": 0 } })"),
-                "/stars/milky_way/peak_arcmin2", "0", "is too small"},
             {with(R"("stars": { "catalogue": "a", "in_depth": 5000 })"), "/stars/in_depth", "5000",
                 "leaves no place for the other stars"},
             {with(R"("stars": { "catalogue": "a", "ahead_deg": [84] })"), "/stars/ahead_deg", "[84]", "has length 1; "},
-            {with(R"("stars": { "catalogue": "a", "ahead_deg": [-1, 0] })"), "/stars/ahead_deg/0", "-1", "is too small"},
-            {with(R"("stars": { "catalogue": "a", "ahead_deg": [0, 91] })"), "/stars/ahead_deg/1", "91", "is too large"},
             {with(R"("ambient": 0.5)"), "/ambient", "0.5", "is not a list; a list of 3 numbers"},
-            {with(R"("ambient": [0, 0, 1000001])"), "/ambient/2", "1000001", "is too large; a number from 0 to 1000000"},
-            {with(R"("lights": {})"), "/lights", "{}", "is not a list"},
             {with(nine), "/lights", R"([{"radiance":[1,1,1],"towards":[0,1,0],"type":"directional"}...)",
                 "has length 9; a list of 0 to 8 lights"},
-            {with(R"("lights": [0])"), "/lights/0", "0", "is not an object"},
-            {light(R"("radiance": [1, 1, 1])"), "/lights/0", "{\"radiance\":[1,1,1]}", "lacks \"type\""},
             {light(R"("type": "spot")"), "/lights/0/type", "\"spot\"", "\"directional\" or \"point\" is right"},
-            {light(R"("type": "directional", "radiance": [1, 1, 1])"), "/lights/0",
-                R"({"radiance":[1,1,1],"type":"directional"})", "lacks \"towards\""},
             {light(R"("type": "directional", "towards": [0, 0, 0], "radiance": [1, 1, 1])"), "/lights/0/towards", "[0,0,0]",
                 "points nowhere"},
-            {light(R"("type": "directional", "towards": [0, 1, 0], "distance": 2, "radiance": [1, 1, 1])"),
-                "/lights/0/distance", "2", "unknown name"},
-            {light(R"("type": "directional", "towards": [0, 1, 0], "radiance": [1, 1, -1])"), "/lights/0/radiance/2", "-1",
-                "is too small"},
-            {light(R"("type": "point", "position": [0, 1, 0], "radiance": [1, 1, 1])"), "/lights/0",
-                R"({"position":[0,1,0],"radiance":[1,1,1],"type":"point"})", "lacks \"distance\""},
-            {light(R"("type": "point", "position": [0, 1, 0], "distance": 0, "radiance": [1, 1, 1])"), "/lights/0/distance",
-                "0", "is too small; a number above 0"},
             {light(
                  R"("type": "point", "position": [0, 1, 0], "distance": 1, "radiance": [1, 1, 1], "cone": { "axis": [0, 0, 0], "outer_deg": 30 })"),
                 "/lights/0/cone/axis", "[0,0,0]", "points nowhere; a direction of any length above 0 is right"},
@@ -177,17 +116,8 @@ TEST(SceneFileTest, WrongScenesAreRefused)
                  R"("type": "point", "position": [0, 1, 0], "distance": 1, "radiance": [1, 1, 1], "cone": { "axis": [0, 1, 0], "inner_deg": 30, "outer_deg": 30 })"),
                 "/lights/0/cone", R"({"axis":[0,1,0],"inner_deg":30,"outer_deg":30})",
                 "ends inside \"inner_deg\"; a larger \"outer_deg\" is right"},
-            {light(R"("type": "point", "position": [0, 2e15, 0], "distance": 1, "radiance": [1, 1, 1])"),
-                "/lights/0/position/1", "2e+15", "is too large"},
-            {with(R"("sky": { "temperature_K": -1 })"), "/sky/temperature_K", "-1", "is too small; a number from 0"},
             {with(R"("sky": { "temperature_K": 0.05 })"), "/sky/temperature_K", "0.05",
                 "is too small; 0 for none, or a number from 0.1 to 1000000"},
-            {with(R"("sky": { "temperature_K": 1e7 })"), "/sky/temperature_K", "10000000.0", "is too large"},
-            {sun(R"("temperature_K": 0)"), "/lights/0/temperature_K", "0", "is too small; a number from 0.1 to 1000000"},
-            {sun(R"("temperature_K": "warm")"), "/lights/0/temperature_K", "\"warm\"", "is not a number"},
-            {sun(R"("temperature": 3000)"), "/lights/0/temperature", "3000", "\"temperature_K\""},
-            {sun(R"("line_nm": 39)"), "/lights/0/line_nm", "39", "is too small; a number from 40 to 12000"},
-            {sun(R"("line_nm": 5.89e5)"), "/lights/0/line_nm", "589000.0", "is too large"},
             {light(
                  R"("line_nm": 500, "temperature_K": 3000, "type": "directional", "towards": [0, 1, 0], "radiance": [1, 1, 1])"),
                 "/lights/0", R"({"line_nm":500,)", "has more than one spectrum; at most one of \"temperature_K\""},
@@ -198,12 +128,7 @@ TEST(SceneFileTest, WrongScenesAreRefused)
             {sun(R"("spectrum": [[500, 1], [500, 2]])"), "/lights/0/spectrum/1/0", "500",
                 "does not rise; a wavelength above the one before, 500,"},
             {sun(R"("spectrum": [[600, 1], [500, 2]])"), "/lights/0/spectrum/1/0", "500", "does not rise"},
-            {sun(R"("spectrum": [[30, 1], [500, 2]])"), "/lights/0/spectrum/0/0", "30", "is too small"},
-            {sun(R"("spectrum": [[500, 1], [600, -1]])"), "/lights/0/spectrum/1/1", "-1", "is too small"},
-            {sun(R"("spectrum": [[500, 1], [600, 1e31]])"), "/lights/0/spectrum/1/1", "1e+31", "is too large"},
             {sun(R"("spectrum": [[500, 0], [600, 0]])"), "/lights/0/spectrum", "[[500,0],[600,0]]", "is dark everywhere"},
-            {with(R"("start": [])"), "/start", "[]", "is not an object"},
-            {with(R"("start": { "scene": "a" })"), "/start/scene", "\"a\"", "unknown name"},
             {with(R"("start": { "velocity": { "direction": [1, 0, 0], "beta": 1 } })"), "/start/velocity/beta", "1",
                 "nothing reaches the speed of light"},
             {with(R"("start": { "look": [0, 1, 0] })"), "/start/look", "[0,1,0]", "is parallel to \"up\""},
