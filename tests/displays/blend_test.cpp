@@ -60,11 +60,14 @@ Lit fisheye_light(double aperture_deg)
     };
 }
 
-/// The projectors of dome2: make.py's lenses at the rim of a dome of 4 m radius that leans forward by 15 degrees.
+/// The angle between the rim of dome2 in front and the flight's direction, radians.
+const double dome2_tilt = glm::radians(30.0);
+
+/// The projectors of dome2: make.py's lenses at the rim of a dome of 4 m radius.
 Lit dome2_light(bool left)
 {
     return [=](const dvec3& d, ivec2 size) -> std::optional<dvec2> {
-        const double tilt = glm::radians(15.0), inwards = left ? 1 : -1;
+        const double tilt = dome2_tilt, inwards = left ? 1 : -1;
         const dvec3 place
             = 4.0 * dvec3(d.x, d.y * std::cos(tilt) - d.z * std::sin(tilt), d.y * std::sin(tilt) + d.z * std::cos(tilt));
         const dvec3 ray = place - dvec3(left ? -3.9 : 3.9, -0.1, 0);
@@ -257,8 +260,7 @@ Rig dome2()
     rig.layout = load_layout(source_dir() / "config/layouts/dome2.json");
     for (const Output& output : rig.layout.outputs)
         rig.lights.push_back(dome2_light(output.name == "left"));
-    rig.screen
-        = [](const dvec3& d) { return d.y * std::cos(glm::radians(15.0)) - d.z * std::sin(glm::radians(15.0)) > 1e-3; };
+    rig.screen = [](const dvec3& d) { return d.y * std::cos(dome2_tilt) - d.z * std::sin(dome2_tilt) > 1e-3; };
     return rig;
 }
 

@@ -11,6 +11,7 @@
 #include "runtime/reference/reference.h"
 #include "settings.h"
 #include "shimmer.h"
+#include "shown.h"
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -24,7 +25,8 @@ struct MeasureOptions {
     std::vector<std::string> shots, qualities;
     long rounds = 9, samples = 64;
     double budget_ms = 0;
-    bool extremes = false, explain = false, shimmer = false;
+    bool extremes = false, explain = false, shimmer = false, shown = false;
+    bool one_scene = false; ///< --scene is given
 };
 
 constexpr std::array shipped_qualities = {"draft", "balanced", "fine"};
@@ -55,14 +57,42 @@ std::vector<std::pair<std::string, Shot>> shots_of(const MeasureOptions& options
     return shots;
 }
 
+Layout layout_of(const MeasureOptions& options)
+{
+    Layout layout = load_layout(shipped_file("layouts", options.layout));
+    if (!options.size.empty())
+        for (Output& output : layout.outputs)
+            output.size = parse_size(options.size);
+    return layout;
+}
+
+/// The named shots of any scene; without names those of the scene that is given, or of all scenes.
+std::vector<ShotInScene> shots_to_show(const MeasureOptions& options)
+{
+    std::vector<std::filesystem::path> files;
+    for (const std::string& name : options.shots)
+        files.push_back(shipped_file("shots", name));
+    if (files.empty())
+        for (const auto& entry : std::filesystem::directory_iterator(home() / "config/shots"))
+            files.push_back(entry.path());
+    std::vector<ShotInScene> shots;
+    for (const auto& file : files) {
+        const Shot shot = load_shot(file);
+        const std::filesystem::path scene = scene_of(shot, file);
+        if (!options.one_scene || std::filesystem::equivalent(scene, shipped_file("scenes", options.scene)))
+            shots.push_back({file.stem().string(), shot, scene});
+    }
+    if (shots.empty())
+        throw InputError("No such shot is in the scene " + options.scene + "; one of its shots, or another scene, is right");
+    std::ranges::sort(shots, {}, [](const ShotInScene& one) { return std::pair(one.scene, one.name); });
+    return shots;
+}
+
 Trial trial_of(const MeasureOptions& options)
 {
     Trial trial;
     trial.scene = shipped_file("scenes", options.scene);
-    trial.layout = load_layout(shipped_file("layouts", options.layout));
-    if (!options.size.empty())
-        for (Output& output : trial.layout.outputs)
-            output.size = parse_size(options.size);
+    trial.layout = layout_of(options);
     trial.shots = shots_of(options, trial.scene);
     trial.standard = load_quality(shipped_file("qualities", options.standard));
     trial.rounds = int(options.rounds), trial.samples = int(options.samples);
@@ -147,6 +177,13 @@ int measure(const MeasureOptions& options)
 {
     if (options.extremes)
         return measure_extremes(options.out);
+    if (options.shown) {
+        const Layout layout = layout_of(options);
+        const std::vector<ShotInScene> shots = shots_to_show(options);
+        if (!options.out.empty())
+            make_folder(options.out);
+        return measure_shown(options.out, layout, shots, device_options(false));
+    }
     if (options.out.empty() && !options.explain && !options.shimmer)
         throw InputError("--out is required here; the folder for the results, such as out/accuracy, is right");
     const Trial trial = trial_of(options);
@@ -178,7 +215,7 @@ static void add_measure(Subcommand& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<MeasureOptions>();
     Subcommand* command = app.add_subcommand(measure_tool.name, measure_tool.help);
-    command->add_option("--scene", options->scene, "A scene file, or the name of one in config/scenes")
+    const Option* scene = command->add_option("--scene", options->scene, "A scene file, or the name of one in config/scenes")
         ->capture_default_str();
     command->add_option("--layout", options->layout, "A layout file, or the name of one in config/layouts")
         ->capture_default_str();
@@ -187,8 +224,8 @@ static void add_measure(Subcommand& app, std::function<int()>& chosen)
         "given [all shipped ones of the scene]");
     command->add_option("--size", options->size, "Pixels of every output, WIDTHxHEIGHT, instead of the layout's");
     command->add_option("--out", options->out,
-        "The folder for accuracy.html, .csv and .svg, ladder.json; or for extremes.md or shimmer.md; made if it is not "
-        "there");
+        "The folder for accuracy.html, .csv and .svg, ladder.json; or for extremes.md, shimmer.md or shown.md; made if "
+        "it is not there");
     command->add_option("--quality", options->qualities, "A quality file of your own to try too; more than one may be given")
         ->type_name("FILE");
     command
@@ -219,11 +256,17 @@ static void add_measure(Subcommand& app, std::function<int()>& chosen)
     command->add_flag("--shimmer", options->shimmer,
         "Instead: how much the live picture flickers in slow turns and slow acceleration from the first shot, beyond the "
         "change of the ray-traced picture");
+    command->add_flag("--shown", options->shown,
+        "Instead: how much of the layout's picture each shot fills, as an eye sees it and by the range curve, in all scenes "
+        "unless --scene or --shot is given");
     command->footer("Examples:\n  starbow measure --scene avenue --layout desk --out out/accuracy\n"
                     "  starbow measure --layout dome --size 1024x1024 --shot starbow --out out/dome --budget-ms 16\n"
                     "  starbow run --quality out/dome/quality.json\n  starbow measure --scene clocks --shot clocks-passing "
-                    "--explain\n  starbow measure --extremes");
-    command->callback([options, &chosen] { chosen = [options] { return measure(*options); }; });
+                    "--explain\n  starbow measure --extremes\n  starbow measure --shown --layout dome --size 512x512");
+    command->callback([options, scene, &chosen] {
+        options->one_scene = scene->count() > 0;
+        chosen = [options] { return measure(*options); };
+    });
 }
 
 static const Registered measure_command{11, add_measure};
