@@ -129,6 +129,7 @@ inline constexpr auto description<Step> = with_rules(
             "Left out, the tour's.",
             &Step::ship_s_per_s),
         field("measure", Object<Measure>{}, "", &Step::measure),
+        field("title", TourText{}, "A few words in large letters over the picture, which are read from afar.", &Step::title),
         field("caption", TourText{}, "The caption; {measured} stands for the measured number.", &Step::caption),
         field("describe", TourText{},
             "The step's picture described for people who cannot see it; read aloud where the exhibit speaks.",

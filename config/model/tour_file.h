@@ -69,6 +69,7 @@ struct Step {
         = 1; ///< seconds of the ship's per second of the visitor's: slow and fast motion; 0: time stands still
     glm::dvec2 ease_s{0}; ///< durations in which the ship's time starts at the step's beginning and stops at its end
     std::variant<Coast, Cut, Glide, Thrust, Turning, Try> motion;
+    std::string title; ///< in large letters over the picture, or empty
     std::string caption; ///< or empty
     std::string description; ///< of the picture, for people who cannot see it; or empty
     std::optional<Measure> measure; ///< the value of {measured} in the caption

@@ -34,6 +34,8 @@ void Callouts::choose(const Session& session, const GpuWorld& world, PictureStat
         sign_.reset();
     if (sign_)
         now.sign = {lines_of(*sign_, session.words), sign_->towards};
+    if (const TourPlayer* tour = session.tour(); tour && session.flight().hud && !session.menu.open)
+        now.title = tour->title();
     if (session.choices.inset != InsetView::none)
         now.inset = inset_picture(
             session.choices.inset, now.shot, session.content.start.exposure_ev, telescope_deg_, session.words);

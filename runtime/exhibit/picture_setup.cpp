@@ -7,10 +7,24 @@
 
 namespace starbow {
 
+/// Pixels of the head-up display to a degree.
+static double degree_px_of(const ViewSet& views)
+{
+    return views.hud_width() * std::tan(degree) / (2 * views.hud_place.half.x);
+}
+
 /// Half the extent of a panel on the plane z = 1.
 static glm::dvec2 half_of(const Panel& panel, double degree_px)
 {
     return 0.5 * glm::dvec2(panel.size) * (std::tan(degree) / degree_px);
+}
+
+Callout TitlePlate::over(const ViewSet& views, const Typesetter& typesetter, const std::string& title)
+{
+    const int width = views.hud_width();
+    if (title != title_ || width != width_)
+        panel_ = draw_title(typesetter, title, width), title_ = title, width_ = width;
+    return {.letters = &panel_, .place = views.place_over_middle(half_of(panel_, degree_px_of(views)))};
 }
 
 const Panel* PictureSetup::set_up(const PictureState& now, const Words& words, FrameRenderer& frame)
@@ -45,8 +59,10 @@ const Panel* PictureSetup::panel_of(const HudText& hud, const Words& words, int 
 void PictureSetup::place(const PictureState& now, FrameRenderer& frame)
 {
     const ViewSet& views = frame.views();
-    const double degree_px = views.hud_width() * std::tan(degree) / (2 * views.hud_place.half.x);
+    const double degree_px = degree_px_of(views);
     callouts_.clear();
+    if (!now.title.empty() && now.pattern == Pattern::none)
+        callouts_.push_back(title_.over(views, typesetter, now.title));
     if (now.sign) {
         if (now.sign->lines != sign_lines_ || sign_panel_.size.x == 0) {
             sign_lines_ = now.sign->lines;

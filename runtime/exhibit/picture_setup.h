@@ -4,6 +4,18 @@
 
 namespace starbow {
 
+/// A title's plate, drawn anew only where its words or its size are others.
+class TitlePlate {
+public:
+    /// The title over the middle of the views' picture.
+    Callout over(const ViewSet& views, const Typesetter& typesetter, const std::string& title);
+
+private:
+    Panel panel_;
+    std::string title_;
+    int width_ = 0;
+};
+
 /// Sets a frame renderer up for one picture after another, and draws the panels of their texts.
 class PictureSetup {
 public:
@@ -26,6 +38,7 @@ private:
     std::int64_t drawn_ = -1; ///< HudText::number
     std::vector<std::string> sign_lines_;
     std::string name_;
+    TitlePlate title_;
     bool no_room_ = false; ///< for the inset
     std::vector<Callout> callouts_;
 };

@@ -20,8 +20,10 @@ std::string text_of_tour(const Session& session, const TourPlayer& tour)
         const bool ends = text.ends_with('.') || text.ends_with('!') || text.ends_with('?');
         all += (all.empty() ? "" : " ") + text + (ends ? "" : ".");
     };
-    if (!tour.answered())
+    if (!tour.answered()) {
+        add(tour.title()); // the moment begins with the step
         add(tour.description());
+    }
     if (const auto caption = tour.caption(session.words, session.devices.hid().capabilities())) {
         add(caption->text);
         if (caption->right < 0)

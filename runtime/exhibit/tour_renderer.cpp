@@ -30,7 +30,12 @@ std::vector<std::vector<std::uint8_t>> TourRenderer::picture(const Touring& tour
         if (const std::optional<RangeCurve>& curve = range_mode_.follower.shown)
             shown.range = Readings::Range{curve->stops(), curve->shown_stops()};
     }
-    const Panel panel = typesetter_.draw(shown, words_, renderer_.frame().views().hud_width());
+    FrameRenderer& frame = renderer_.frame();
+    callouts_.clear();
+    if (const std::string title = title_of(touring, show_); !title.empty())
+        callouts_.push_back(title_.over(frame.views(), typesetter_, title));
+    frame.place(callouts_);
+    const Panel panel = typesetter_.draw(shown, words_, frame.views().hud_width());
     return renderer_.picture(shot, shown.caption->text.empty() ? nullptr : &panel);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "picture_setup.h"
 #include "runtime/flight/tour.h"
 #include "runtime/hud/hud.h"
 #include "runtime/render/offscreen.h"
@@ -31,6 +32,8 @@ private:
     const SceneFile& scene_;
     const Words& words_;
     Typesetter typesetter_;
+    TitlePlate title_;
+    std::vector<Callout> callouts_;
     double range_frame_s_ = 0; ///< 0: the exposure alone shows it
     RangeMode range_mode_;
 };

@@ -276,6 +276,11 @@ double left_s(const Touring& now, const Show& show)
         (now.measured_answer ? double(duration_ns(now, show)) / second_ns : step.seconds) - double(now.into_ns) / second_ns);
 }
 
+std::string title_of(const Touring& now, const Show& show)
+{
+    return now.over || double(now.into_ns) > title_s * second_ns ? "" : step_of(now, show).title;
+}
+
 double length_s(const Tour& tour)
 {
     double sum = 0;

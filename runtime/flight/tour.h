@@ -57,6 +57,10 @@ bool flies(const Touring& touring, const Show& show);
 /// The seconds left of the present step.
 double left_s(const Touring& touring, const Show& show);
 
+/// The step's title in the time in which it is shown, its first seconds; otherwise "".
+std::string title_of(const Touring& touring, const Show& show);
+constexpr double title_s = 5;
+
 /// A tour's length in which nobody flies and nobody answers, seconds.
 double length_s(const Tour& tour);
 

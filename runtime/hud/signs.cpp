@@ -1,4 +1,5 @@
 #include "signs.h"
+#include "caption.h"
 #include "shaders/physics/physics.h"
 #include <algorithm>
 #include <cmath>
@@ -178,6 +179,24 @@ Panel draw_name(const Typesetter& typesetter, const std::string& name, double de
     const double edge = 0.4 * size;
     Panel panel = plate({int(typesetter.width_of(name, size) + 2 * edge) + 1, int(1.3 * size)}, edge);
     typesetter.write(panel, name, edge, size, size, 1);
+    return panel;
+}
+
+Panel draw_title(const Typesetter& typesetter, const std::string& title, int width)
+{
+    const int size = std::max(8, int(title_letters * width));
+    const double pitch = 1.2 * size, edge = 0.6 * size;
+    const auto width_of = [&](const std::string& line) { return typesetter.width_of(line, size); };
+    const std::vector<std::string> lines = wrapped(title, width - 2 * edge, width_of);
+    double widest = 0;
+    for (const std::string& line : lines)
+        widest = std::max(widest, width_of(line));
+    Panel panel = plate({int(widest + 2 * edge) + 1, int(double(lines.size()) * pitch + edge)}, edge);
+    double baseline = 0.5 * edge + 0.9 * size;
+    for (const std::string& line : lines) {
+        typesetter.write(panel, line, 0.5 * (panel.size.x - width_of(line)), baseline, size, 1);
+        baseline += pitch;
+    }
     return panel;
 }
 

@@ -34,6 +34,13 @@ Panel draw_sign(const Typesetter& typesetter, const std::vector<std::string>& li
 /// A plate with one line. degree_px: as above.
 Panel draw_name(const Typesetter& typesetter, const std::string& name, double degree_px);
 
+/// A plate with a few words in large letters, in lines as wide as the head-up display at most. width: the display's, pixels.
+Panel draw_title(const Typesetter& typesetter, const std::string& title, int width);
+
+/// The height of a title's letters as a part of the head-up display's width: on a screen of 1.5 m, whose display is 0.65 m
+/// wide, 55 mm, which is 0.6 degrees from 5 m.
+constexpr double title_letters = 0.085;
+
 /// The height of a sign's letters, degrees: capitals are 1 degree high.
 constexpr double sign_letters_deg = 1.6;
 

@@ -50,6 +50,7 @@ struct PictureState {
     double vignette_part = 0;
     Pattern pattern = Pattern::none;
     std::optional<HudText> hud; ///< none: it is off
+    std::string title; ///< in large letters over the picture, or empty
     std::optional<ShownSign> sign;
     std::optional<InsetPicture> inset;
     std::optional<Instruments> instruments;

@@ -262,9 +262,10 @@ template <class Part> void transfer(Part& part, Instruments& on)
 
 template <class Part> void transfer(Part& part, PictureState& now)
 {
-    auto& [shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, sign, inset, instruments] = now;
-    transfer_all(
-        part, shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, sign, inset, instruments);
+    auto& [shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, title, sign, inset, instruments]
+        = now;
+    transfer_all(part, shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, title, sign, inset,
+        instruments);
 }
 
 template <class Part> void transfer(Part& part, TurnedNumber& number)

@@ -127,6 +127,7 @@ void look_at(const PictureState& now, Faults& faults)
         faults.when(now.hud->number < 0, "has a text with a number below 0");
         look_at(now.hud->readings, faults);
     }
+    faults.when(now.title.size() > most_sign_letters, "has too long a title");
     if (now.sign) {
         faults.when(now.sign->lines.size() > most_sign_lines, "has a sign with too many lines");
         for (const std::string& line : now.sign->lines)

@@ -232,6 +232,12 @@ static glm::dmat3 moved(const glm::dmat3& panel_from_cockpit, const glm::dvec2& 
     return glm::transpose(rows);
 }
 
+PanelPass::Place ViewSet::place_over_middle(const glm::dvec2& half) const
+{
+    const HudPlacement there{.azimuth_deg = hud_.azimuth_deg, .elevation_deg = 3};
+    return {moved(panel_from_cockpit(there, compiled_views()), {0, half.y}), half};
+}
+
 PanelPass::Place ViewSet::place_above(const glm::dvec3& towards, const glm::dvec2& half) const
 {
     const HudPlacement there{.azimuth_deg = std::atan2(towards.x, -towards.z) / degree,

@@ -37,6 +37,7 @@ public:
     bool asks() const { return starbow::asks(touring_, show_); } ///< a question waits for an answer
     bool answered() const { return touring_.measured_answer.has_value(); } ///< the step's question
     const std::string& description() const { return tour_.steps[touring_.step()].description; } ///< of the step
+    std::string title() const { return title_of(touring_, show_); } ///< while it is shown; or empty
     std::size_t step() const { return touring_.step(); } ///< counted from 0
     const std::vector<Step>& steps() const { return tour_.steps; }
     /// Seconds left of the present step; 0 after the tour's end.

@@ -3,6 +3,7 @@
 #include "config/model/tour_file.h"
 #include "runtime/flight/tour.h"
 #include "runtime/hud/hud.h"
+#include "runtime/hud/signs.h"
 #include "tests/support/files.h"
 #include "tests/support/schema_check.h"
 #include <gtest/gtest.h>
@@ -60,7 +61,8 @@ TEST(TourFile, ShippedToursAreReadInEveryLanguage)
             EXPECT_EQ(tour.steps.size(), text["steps"].size());
             EXPECT_TRUE(std::filesystem::exists(scene_of(tour))) << tour.scene;
             for (const Step& step : tour.steps)
-                EXPECT_TRUE(step.question || !step.caption.empty()) << "a step needs a caption or a question";
+                EXPECT_TRUE(step.question || !step.caption.empty() || !step.title.empty())
+                    << "a step needs a title, a caption or a question";
         }
         ++count;
     }
@@ -93,6 +95,9 @@ TEST(TourFile, TextsFitTheDisplay)
             const Words texts = load_words(language);
             for (const Step& step : load_tour(file, texts, shipped_shot).steps) {
                 EXPECT_LE(lines(step.caption), 3u) << step.caption;
+                const Panel title = draw_title(typesetter, step.title, int(width));
+                EXPECT_LE(title.size.x, width + 1) << step.title; // beside the display's own width
+                EXPECT_LE(title.size.y, 3.7 * title_letters * width + 2) << step.title << " is longer than two lines";
                 if (step.question) {
                     EXPECT_LE(lines(step.question->ask), 2u) << step.question->ask;
                     constexpr Key prefixes[]{"touring.right", "touring.wrong", "touring.answer"};
@@ -107,7 +112,7 @@ TEST(TourFile, EveryMemberIsRead)
 {
     const std::string text = R"({ "scene": "clocks", "again_after_s": 33, "ship_s_per_s": 0.5, "steps": [
         { "seconds": 1.5, "cut": { "time": 7, "position": [1, 2, 3], "velocity": { "direction": [0, 0, 2], "gamma": 4 } },
-          "caption": { "de": "deutsch", "en": "english" }, "exposure_ev": -2 },
+          "title": { "de": "Titel", "en": "title" }, "caption": { "de": "deutsch", "en": "english" }, "exposure_ev": -2 },
         { "seconds": 2, "ship_s_per_s": 3, "glide": { "position": [4, 5, 6], "time": 9 },
           "caption": "tour.first-minute.back", "measure": { "quantity": "reading_s", "at": [1, 0, 0], "relative_to": [0, 1, 0] } },
         { "seconds": 3, "ease_s": [0.5, 1], "thrust": { "rapidity_per_s": 0.25, "towards": [0, 3, 0] }, "effects": { "doppler": false } },
@@ -130,6 +135,8 @@ TEST(TourFile, EveryMemberIsRead)
     EXPECT_EQ(tour.steps[0].ship_s_per_s, 0.5);
     EXPECT_EQ(tour.steps[0].caption, "english");
     EXPECT_EQ(german.steps[0].caption, "deutsch");
+    EXPECT_EQ(tour.steps[0].title, "title");
+    EXPECT_EQ(tour.steps[1].title, "");
     EXPECT_EQ(german.steps[4].question->ask, "?") << "English replaces a missing language";
     EXPECT_EQ(tour.steps[0].exposure_ev, -2);
     const Glide& glide = std::get<Glide>(tour.steps[1].motion);

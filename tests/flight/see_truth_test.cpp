@@ -79,6 +79,9 @@ long columns(const Frame& f)
     return std::ranges::count_if(avenue(), [&](const dvec3& one) { return f.sees(one); });
 }
 
+// The street's tower.
+const dvec3 tower(0, 9, -54), tall(0, 10, 0);
+
 // The rainbow: light of 450 nm along y = 0 of the picture.
 double nm_at(const Frame& f, double x)
 {
@@ -283,6 +286,54 @@ const std::map<std::string, Description>& descriptions()
                     {"at rest", [](const Spoken& s) { return s.always(rests); }},
                     {"from farther back", [](const Spoken& s) { return s.end().away(column) > s.first.away(column); }}}}},
         {"first-minute.see-8", {"Dein eigener Flug", {}}},
+
+        {"street.see-0",
+            {"Wir fahren langsam durch eine Straße",
+                {{"slowly",
+                     [](const Spoken& s) {
+                         return s.always([](const Frame& f) { return f.beta() > 0 && f.beta() < 0.31; });
+                     }},
+                    {"towards a tower",
+                        [=](const Spoken& s) {
+                            return s.always([=](const Frame& f) { return f.off_middle_deg(tower) < 8; });
+                        }}}}},
+        {"street.see-1",
+            {"Die Straße weicht zurück und wird vorn enger; Häuser, an denen wir vorbei sind",
+                {{"draws away",
+                     [=](const Spoken& s) { return s.end().size_deg(tower, tall) < s.begin().size_deg(tower, tall); }},
+                    {"houses that we have passed come into view",
+                        [](const Spoken& s) {
+                            return s.once([](const Frame& f) {
+                                return in_wide(f, {5, 2, f.at.z + 1});
+                            }) && !in_wide(s.begin(), {5, 2, s.begin().at.z + 1});
+                        }}}}},
+        {"street.see-2",
+            {"Der Blick dreht sich nach rechts",
+                {{"turns to the right",
+                     [](const Spoken& s) {
+                         return s.grows([](const Frame& f) { return (f.cockpit * dvec3(0, 0, -1)).x; }, 1e-6);
+                     }},
+                    {"houses beside us",
+                        [](const Spoken& s) { return s.end().off_middle_deg(s.end().at + dvec3(5, 0, 0)) < 1; }}}}},
+        {"street.see-3",
+            {"Wir sehen wieder die Straße entlang",
+                {{"along the street", [](const Spoken& s) { return (s.end().cockpit * dvec3(0, 0, -1)).z < -0.9999; }}}}},
+        {"street.see-4",
+            {"Die ganze Straße wird blau, am meisten vorn",
+                {{"whole street turns blue",
+                     [](const Spoken& s) { return s.always([](const Frame& f) { return corner_D(f, -1) > 1; }); }},
+                    {"most of all ahead",
+                        [=](const Spoken& s) {
+                            return s.always(
+                                [=](const Frame& f) { return std::abs(f.D(tower) / corner_D(f, 1) - 1) < 0.05; });
+                        }}}}},
+        {"street.see-5",
+            {"Die Straße wächst und steht wieder gerade",
+                {{"swells",
+                     [=](const Spoken& s) { return s.grows([=](const Frame& f) { return f.size_deg(tower, tall); }); }},
+                    {"stands upright", [](const Spoken& s) { return rests(s.end()); }}}}},
+        {"street.see-6", {"Die Straße in Ruhe", {{"at rest", [](const Spoken& s) { return s.always(rests); }}}}},
+        {"street.see-7", {"Ihre eigene Fahrt", {}}},
 
         {"voyage.see-0",
             {"Ein Himmel voller Sterne. Genau geradeaus leuchtet keiner; dicht daneben steht der hellste im Bild, Alpha "
@@ -778,7 +829,7 @@ std::vector<std::pair<std::string, Spoken>> spoken_of(const std::filesystem::pat
 {
     const Tour tour
         = load_tour(file, words(), [](const std::string& name) { return source_dir() / "config/shots" / (name + ".json"); });
-    const Show show{tour, {}, file.stem() == "voyage" ? light_year_s : 1, false};
+    const Show show{tour, {}, unit_s_of(file), false};
     std::vector<std::pair<std::string, Spoken>> all;
     const Frame first = frame_of(touring_at(show));
     for (Touring touring = touring_at(show); !touring.over;) {

@@ -47,6 +47,7 @@ SharedState full()
     shown.range = {20, 8}, shown.lever = 0.3, shown.prompt = "Schieben Sie den Hebel vor";
     shown.caption = Caption{"Wohin zuerst?", {"Sonne", "Mond"}, 1, 0, "noch 5 s", true, true};
     shown.notice = "kein Kopf", shown.information = Information::visitor;
+    now.title = "Was sehen Sie nahe der Lichtgeschwindigkeit?";
     now.sign = {{"hinter Ihnen", "3 s alt"}, {0, 0.6, 0.8}};
     now.inset = {InsetView::telescope, -1, 1.5, "Fernrohr 1,5°"};
     Instruments& on = now.instruments.emplace();
@@ -82,6 +83,7 @@ TEST(InstantBytesTest, EveryPartComesBack)
     EXPECT_EQ(a.hud->readings.caption->choices, b.hud->readings.caption->choices);
     EXPECT_EQ(a.hud->readings.lever, b.hud->readings.lever);
     EXPECT_EQ(a.hud->readings.mode, b.hud->readings.mode);
+    EXPECT_EQ(a.title, b.title);
     EXPECT_EQ(a.sign->lines, b.sign->lines);
     EXPECT_EQ(a.inset->name, b.inset->name);
     EXPECT_EQ(a.instruments->marks[0]->clock, b.instruments->marks[0]->clock);
@@ -186,6 +188,7 @@ TEST(InstantBytesTest, PartsThatDoNotSuitEachOtherAreRefused)
             [](auto&, PictureState& now) {
                 now.sign->towards = {0, 0, 0};
             }},
+        {"too long a title", [](auto&, PictureState& now) { now.title = std::string(300, 'W'); }},
         {"too long a line", [](auto&, PictureState& now) { now.sign->lines[0] = std::string(300, 'W'); }},
         {"too many lines", [](auto&, PictureState& now) { now.sign->lines.resize(20); }},
         {"inset of nothing", [](auto&, PictureState& now) { now.inset->kind = InsetView::none; }},
@@ -238,6 +241,9 @@ TEST(InstantBytesTest, WhatIsReadCanBeShown)
             ++shown;
             if (shared.picture.hud) {
                 EXPECT_EQ(typesetter.draw(shared.picture.hud->readings, words, 320).size.x, 320);
+            }
+            if (!shared.picture.title.empty()) {
+                EXPECT_LT(draw_title(typesetter, shared.picture.title, 320).size.x, 8192);
             }
             if (shared.picture.sign) {
                 EXPECT_LT(draw_sign(typesetter, shared.picture.sign->lines, 10).size.x, 8192);

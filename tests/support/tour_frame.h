@@ -4,6 +4,7 @@
 #include "runtime/flight/tour.h"
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <limits>
 
@@ -12,6 +13,13 @@ namespace starbow::testing {
 using glm::dvec3;
 
 inline constexpr double light_year_s = 365.25 * 86400;
+
+/// The seconds in which light flies a scene unit of a shipped tour: a light-year in the voyage, a metre at 5 m/s in the
+/// street.
+inline double unit_s_of(const std::filesystem::path& tour)
+{
+    return tour.stem() == "voyage" ? light_year_s : tour.stem() == "street" ? 0.2 : 1;
+}
 
 /// The state while a caption is shown.
 struct Frame {
