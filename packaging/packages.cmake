@@ -21,8 +21,9 @@ execute_process(COMMAND python3 ${CMAKE_CURRENT_LIST_DIR}/catalog.py ${CMAKE_BIN
 install(TARGETS starbow DESTINATION bin COMPONENT starbow)
 install(TARGETS starbow-tools DESTINATION lib/starbow COMPONENT starbow)
 install(DIRECTORY config scenes DESTINATION share/starbow COMPONENT starbow
-  PATTERN *.py EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN config/model EXCLUDE PATTERN config/json EXCLUDE
-  PATTERN config/import EXCLUDE PATTERN config/udev EXCLUDE PATTERN LICENSE* EXCLUDE PATTERN README.md EXCLUDE)
+  PATTERN *.cpp EXCLUDE PATTERN *.h EXCLUDE PATTERN *.py EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN config/model EXCLUDE
+  PATTERN config/json EXCLUDE PATTERN config/markup EXCLUDE PATTERN config/import EXCLUDE PATTERN config/udev EXCLUDE
+  PATTERN LICENSE* EXCLUDE PATTERN README.md EXCLUDE)
 install(DIRECTORY docs/ DESTINATION share/doc/starbow COMPONENT starbow
   FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN *.png PATTERN *.jpg PATTERN *.webm)
 install(FILES packaging/starbow.desktop DESTINATION share/applications COMPONENT starbow)
