@@ -114,7 +114,6 @@ const std::map<std::string, Facts>& facts()
         {"voyage.end", {}},
         {"street.title", {}},
         {"street.faster", {{{"5", always(5), 0}, {"{measured}", beta, 0.006}}, {}}},
-        {"street.right", {}},
         {"street.corner", {{}, {{"the house beside us", [](const Frame& f) { return f.at + dvec3(5, 0, 0); }, 1}}}},
         {"street.ahead", {}},
         {"street.colours", {}},

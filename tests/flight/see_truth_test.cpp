@@ -308,13 +308,11 @@ const std::map<std::string, Description>& descriptions()
                             }) && !in_wide(s.begin(), {5, 2, s.begin().at.z + 1});
                         }}}}},
         {"street.see-2",
-            {"Der Blick dreht sich nach rechts",
-                {{"turns to the right",
-                     [](const Spoken& s) {
-                         return s.grows([](const Frame& f) { return (f.cockpit * dvec3(0, 0, -1)).x; }, 1e-6);
-                     }},
-                    {"houses beside us",
-                        [](const Spoken& s) { return s.end().off_middle_deg(s.end().at + dvec3(5, 0, 0)) < 1; }}}}},
+            {"Rechts die Häuser neben uns",
+                {{"houses beside us",
+                    [](const Spoken& s) {
+                        return s.always([](const Frame& f) { return f.off_middle_deg(f.at + dvec3(5, 0, 0)) < 1; });
+                    }}}}},
         {"street.see-3",
             {"Wir sehen wieder die Straße entlang",
                 {{"along the street", [](const Spoken& s) { return (s.end().cockpit * dvec3(0, 0, -1)).z < -0.9999; }}}}},

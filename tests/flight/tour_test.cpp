@@ -96,6 +96,28 @@ constexpr const char* measured_size = R"({ "quantity": "size", "at": [0, 0, -46]
 
 } // namespace
 
+TEST(Tours, ATitleIsShownInItsStepsFirstSeconds)
+{
+    const Tour tour = tour_of(
+        R"({ "seconds": 8, "cut": "start", "title": { "en": "One" }, "caption": { "en": "a" } }, { "seconds": 3, "caption": { "en": "b" } })");
+    const Show show{tour, {}, 1, false};
+    for (const auto& [seconds, title] : {std::pair{0., "One"}, {4.9, "One"}, {5.1, ""}, {7.9, ""}, {8.5, ""}, {12., ""}})
+        EXPECT_EQ(title_of(played(show, seconds, 10), show), title) << seconds;
+}
+
+/// Each shipped tour begins with a title, and has another one after it, before the visitor flies.
+TEST(Tours, ShippedToursBeginWithATitleAndEndWithASentence)
+{
+    for (const auto& file : shipped("config/tours")) {
+        const Tour tour = shipped_tour(file.stem());
+        EXPECT_NE(tour.steps.front().title, "") << file;
+        std::size_t last = tour.steps.size();
+        while (last > 0 && tour.steps[last - 1].title.empty())
+            --last;
+        EXPECT_GT(last, tour.steps.size() / 2) << file;
+    }
+}
+
 /// docs/physics/relativity.md, (R28): from rest at the distance L with proper acceleration a, the size is smallest at e^eta
 /// = 1 + aL, where it is 2 / (2 + aL). It has its first value again at e^eta = 1 + 2aL. Here L = 12 and a = 0.25.
 TEST(Tours, TheFirstMinutesColumnFirstShrinks)
