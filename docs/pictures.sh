@@ -59,6 +59,7 @@ gamow gamow-rest
 END
 
 # Every shot on a dome, on a dome of two projectors and for two eyes, by the range curve: docs/domes.jpg.
+domes= pairs= eyes=
 for file in config/shots/*.json; do
     shot=$(basename "$file" .json)
     for layout in dome dome2 stereo; do
@@ -67,14 +68,15 @@ for file in config/shots/*.json; do
         still "$layout/$shot" --layout $layout --shot "$shot" --size $size --exposure-mode range --hud --information visitor
     done
     convert "$work/dome2/$shot/left.png" "$work/dome2/$shot/right.png" +append "$work/dome2/$shot/both.png"
+    domes="$domes -label $shot $work/dome/$shot/domemaster.png"
+    pairs="$pairs -label $shot $work/dome2/$shot/both.png"
+    eyes="$eyes -label $shot $work/stereo/$shot/stereo.png"
 done
-(cd "$work" && for shot in dome/*; do echo "${shot#dome/}"; done) >"$work/names"
-for one in dome/domemaster 11x 150x150 dome2/both 8x 208x65 stereo/stereo 11x 150x94; do echo "$one"; done \
-    | paste - - - | while read -r picture columns size; do
-    arguments=$(while read -r shot; do echo "-label $shot $work/${picture%/*}/$shot/${picture#*/}.png"; done <"$work/names")
-    montage $arguments -tile "$columns" -geometry "$size+2+2" -background '#222' -fill white -pointsize 11 "$work/${picture%/*}.png"
-done
-convert "$work/dome.png" "$work/dome2.png" "$work/stereo.png" -background '#222' -gravity center -append -quality 82 docs/domes.jpg
+montage="montage -background #222 -fill white -pointsize 11"
+$montage $domes -tile 11x -geometry 150x150+2+2 "$work/domes.png"
+$montage $pairs -tile 8x -geometry 208x65+2+2 "$work/pairs.png"
+$montage $eyes -tile 11x -geometry 150x94+2+2 "$work/eyes.png"
+convert "$work/domes.png" "$work/pairs.png" "$work/eyes.png" -background '#222' -gravity center -append -quality 82 docs/domes.jpg
 
 # A layout of each projection, as `starbow check` draws it.
 for layout in desk wall3 cave5 dome dome2 mirror headset stereo; do

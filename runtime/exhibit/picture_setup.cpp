@@ -19,12 +19,11 @@ static glm::dvec2 half_of(const Panel& panel, double degree_px)
     return 0.5 * glm::dvec2(panel.size) * (std::tan(degree) / degree_px);
 }
 
-Callout TitlePlate::over(const ViewSet& views, const Typesetter& typesetter, const std::string& title)
+Callout title_over(const ViewSet& views, const Typesetter& typesetter, const std::string& title, Plate& plate)
 {
     const int width = views.hud_width();
-    if (title != title_ || width != width_)
-        panel_ = draw_title(typesetter, title, width), title_ = title, width_ = width;
-    return {.letters = &panel_, .place = views.place_over_middle(half_of(panel_, degree_px_of(views)))};
+    const Panel& panel = plate.of({title}, width, [&] { return draw_title(typesetter, title, width); });
+    return {.letters = &panel, .place = views.place_over_middle(half_of(panel, degree_px_of(views)))};
 }
 
 const Panel* PictureSetup::set_up(const PictureState& now, const Words& words, FrameRenderer& frame)
@@ -62,14 +61,11 @@ void PictureSetup::place(const PictureState& now, FrameRenderer& frame)
     const double degree_px = degree_px_of(views);
     callouts_.clear();
     if (!now.title.empty() && now.pattern == Pattern::none)
-        callouts_.push_back(title_.over(views, typesetter, now.title));
+        callouts_.push_back(title_over(views, typesetter, now.title, title_));
     if (now.sign) {
-        if (now.sign->lines != sign_lines_ || sign_panel_.size.x == 0) {
-            sign_lines_ = now.sign->lines;
-            sign_panel_ = draw_sign(typesetter, sign_lines_, degree_px);
-        }
-        callouts_.push_back(
-            {.letters = &sign_panel_, .place = views.place_above(now.sign->towards, half_of(sign_panel_, degree_px))});
+        const std::vector<std::string>& lines = now.sign->lines;
+        const Panel& panel = sign_.of(lines, degree_px, [&] { return draw_sign(typesetter, lines, degree_px); });
+        callouts_.push_back({.letters = &panel, .place = views.place_above(now.sign->towards, half_of(panel, degree_px))});
     }
     if (!now.inset)
         no_room_ = false;
@@ -93,13 +89,10 @@ void PictureSetup::add_inset(const InsetPicture& picture, const Shot& shot, Fram
         write_log(LogKind::inset_no_room, one_line(error.what()) + "; the inset is left out");
         return;
     }
-    if (picture.name != name_ || name_panel_.size.x == 0) {
-        name_ = picture.name;
-        name_panel_ = draw_name(typesetter, name_, degree_px);
-    }
-    const glm::dvec2 name_half = half_of(name_panel_, degree_px);
+    const Panel& name = name_.of({picture.name}, degree_px, [&] { return draw_name(typesetter, picture.name, degree_px); });
+    const glm::dvec2 name_half = half_of(name, degree_px);
     callouts_.push_back({.picture = &frame.inset_picture(), .place = views.place_beside_hud(half, 0)});
-    callouts_.push_back({.letters = &name_panel_, .place = views.place_beside_hud(name_half, 2 * half.y)});
+    callouts_.push_back({.letters = &name, .place = views.place_beside_hud(name_half, 2 * half.y)});
 }
 
 } // namespace starbow

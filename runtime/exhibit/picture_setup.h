@@ -4,17 +4,25 @@
 
 namespace starbow {
 
-/// A title's plate, drawn anew only where its words or its size are others.
-class TitlePlate {
+/// A plate with some words, drawn anew only where its words or its size are others.
+class Plate {
 public:
-    /// The title over the middle of the views' picture.
-    Callout over(const ViewSet& views, const Typesetter& typesetter, const std::string& title);
+    /// draw: returns the panel of these lines in this size.
+    template <class Draw> const Panel& of(const std::vector<std::string>& lines, double size, const Draw& draw)
+    {
+        if (lines != lines_ || size != size_)
+            panel_ = draw(), lines_ = lines, size_ = size;
+        return panel_;
+    }
 
 private:
     Panel panel_;
-    std::string title_;
-    int width_ = 0;
+    std::vector<std::string> lines_;
+    double size_ = 0;
 };
+
+/// A title over the middle of the views' picture. plate: the same for one title after another.
+Callout title_over(const ViewSet& views, const Typesetter& typesetter, const std::string& title, Plate& plate);
 
 /// Sets a frame renderer up for one picture after another, and draws the panels of their texts.
 class PictureSetup {
@@ -34,11 +42,9 @@ private:
     void place(const PictureState& now, FrameRenderer& frame);
     void add_inset(const InsetPicture& picture, const Shot& shot, FrameRenderer& frame, double degree_px);
 
-    Panel panel_, sign_panel_, name_panel_;
+    Panel panel_;
     std::int64_t drawn_ = -1; ///< HudText::number
-    std::vector<std::string> sign_lines_;
-    std::string name_;
-    TitlePlate title_;
+    Plate title_, sign_, name_;
     bool no_room_ = false; ///< for the inset
     std::vector<Callout> callouts_;
 };

@@ -33,7 +33,7 @@ std::vector<std::vector<std::uint8_t>> TourRenderer::picture(const Touring& tour
     FrameRenderer& frame = renderer_.frame();
     callouts_.clear();
     if (const std::string title = title_of(touring, show_); !title.empty())
-        callouts_.push_back(title_.over(frame.views(), typesetter_, title));
+        callouts_.push_back(title_over(frame.views(), typesetter_, title, title_));
     frame.place(callouts_);
     const Panel panel = typesetter_.draw(shown, words_, frame.views().hud_width());
     return renderer_.picture(shot, shown.caption->text.empty() ? nullptr : &panel);

@@ -32,7 +32,7 @@ private:
     const SceneFile& scene_;
     const Words& words_;
     Typesetter typesetter_;
-    TitlePlate title_;
+    Plate title_;
     std::vector<Callout> callouts_;
     double range_frame_s_ = 0; ///< 0: the exposure alone shows it
     RangeMode range_mode_;

@@ -145,14 +145,30 @@ std::vector<std::string> lines_of(const Sign& sign, const Words& words)
     return lines;
 }
 
+static double widest_of(const std::vector<std::string>& lines, const Typesetter& typesetter, int size)
+{
+    double widest = 0;
+    for (const std::string& line : lines)
+        widest = std::max(widest, typesetter.width_of(line, size));
+    return widest;
+}
+
+/// Writes lines one below another, each in the panel's middle. baseline: the first one's.
+static void write_lines(Panel& panel, const std::vector<std::string>& lines, double baseline, double pitch,
+    const Typesetter& typesetter, int size)
+{
+    for (const std::string& line : lines) {
+        typesetter.write(panel, line, 0.5 * (panel.size.x - typesetter.width_of(line, size)), baseline, size, 1);
+        baseline += pitch;
+    }
+}
+
 Panel draw_sign(const Typesetter& typesetter, const std::vector<std::string>& lines, double degree_px)
 {
     const int size = std::max(8, int(sign_letters_deg * degree_px));
     const double pitch = 1.15 * size, edge = 0.45 * size, arrow = 1.2 * size;
-    double widest = 0;
-    for (const std::string& line : lines)
-        widest = std::max(widest, typesetter.width_of(line, size));
-    const int width = int(widest + 2 * edge) + 1, plate_height = int(double(lines.size()) * pitch + 0.9 * edge);
+    const int width = int(widest_of(lines, typesetter, size) + 2 * edge) + 1,
+              plate_height = int(double(lines.size()) * pitch + 0.9 * edge);
     Panel panel = plate({width, plate_height}, edge);
     panel.size.y = plate_height + int(arrow);
     panel.texels.resize(std::size_t(panel.size.x) * panel.size.y * 2, 0);
@@ -165,11 +181,7 @@ Panel draw_sign(const Typesetter& typesetter, const std::vector<std::string>& li
             texel[1] = std::uint8_t(255 * std::clamp(half - aside + 0.5, 0.0, 1.0));
         }
     }
-    double baseline = 0.45 * edge + 0.86 * size;
-    for (const std::string& line : lines) {
-        typesetter.write(panel, line, 0.5 * (width - typesetter.width_of(line, size)), baseline, size, 1);
-        baseline += pitch;
-    }
+    write_lines(panel, lines, 0.45 * edge + 0.86 * size, pitch, typesetter, size);
     return panel;
 }
 
@@ -186,17 +198,11 @@ Panel draw_title(const Typesetter& typesetter, const std::string& title, int wid
 {
     const int size = std::max(8, int(title_letters * width));
     const double pitch = 1.2 * size, edge = 0.6 * size;
-    const auto width_of = [&](const std::string& line) { return typesetter.width_of(line, size); };
-    const std::vector<std::string> lines = wrapped(title, width - 2 * edge, width_of);
-    double widest = 0;
-    for (const std::string& line : lines)
-        widest = std::max(widest, width_of(line));
-    Panel panel = plate({int(widest + 2 * edge) + 1, int(double(lines.size()) * pitch + edge)}, edge);
-    double baseline = 0.5 * edge + 0.9 * size;
-    for (const std::string& line : lines) {
-        typesetter.write(panel, line, 0.5 * (panel.size.x - width_of(line)), baseline, size, 1);
-        baseline += pitch;
-    }
+    const std::vector<std::string> lines
+        = wrapped(title, width - 2 * edge, [&](const std::string& line) { return typesetter.width_of(line, size); });
+    Panel panel
+        = plate({int(widest_of(lines, typesetter, size) + 2 * edge) + 1, int(double(lines.size()) * pitch + edge)}, edge);
+    write_lines(panel, lines, 0.5 * edge + 0.9 * size, pitch, typesetter, size);
     return panel;
 }
 

@@ -10,7 +10,9 @@ Progress::Progress()
 {
 }
 
-Progress::~Progress()
+Progress::~Progress() { clear(); }
+
+void Progress::clear()
 {
     if (shown_ && terminal_)
         send_message(STDERR_FILENO, "\r\033[K");

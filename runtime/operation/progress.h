@@ -17,6 +17,7 @@ public:
     /// part: the part of all the work that is done, 0 to 1. The first call's part is taken as done earlier, by a run that
     /// was interrupted. A call is left out that comes within a fifth of a second and less than a hundredth further.
     void show(const std::string& text, double part);
+    void clear(); ///< the line at a terminal, before other words are printed there
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -45,38 +45,22 @@ std::vector<std::pair<std::string, Shot>> shots_of(const MeasureOptions& options
     }
     if (!shots.empty())
         return shots;
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(home() / "config/shots"))
-        files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    for (const auto& file : files)
+    for (const std::string& name : shipped_names("shots")) {
+        const std::filesystem::path file = shipped_file("shots", name);
         if (const Shot shot = load_shot(file); std::filesystem::equivalent(scene_of(shot, file), scene))
-            shots.emplace_back(file.stem().string(), shot);
+            shots.emplace_back(name, shot);
+    }
     if (shots.empty())
         throw InputError("No shipped shot is in the scene " + options.scene + "; --shot with one of yours is right");
     return shots;
 }
 
-Layout layout_of(const MeasureOptions& options)
-{
-    Layout layout = load_layout(shipped_file("layouts", options.layout));
-    if (!options.size.empty())
-        for (Output& output : layout.outputs)
-            output.size = parse_size(options.size);
-    return layout;
-}
-
 /// The named shots of any scene; without names those of the scene that is given, or of all scenes.
 std::vector<ShotInScene> shots_to_show(const MeasureOptions& options)
 {
-    std::vector<std::filesystem::path> files;
-    for (const std::string& name : options.shots)
-        files.push_back(shipped_file("shots", name));
-    if (files.empty())
-        for (const auto& entry : std::filesystem::directory_iterator(home() / "config/shots"))
-            files.push_back(entry.path());
     std::vector<ShotInScene> shots;
-    for (const auto& file : files) {
+    for (const std::string& name : options.shots.empty() ? shipped_names("shots") : options.shots) {
+        const std::filesystem::path file = shipped_file("shots", name);
         const Shot shot = load_shot(file);
         const std::filesystem::path scene = scene_of(shot, file);
         if (!options.one_scene || std::filesystem::equivalent(scene, shipped_file("scenes", options.scene)))
@@ -92,7 +76,7 @@ Trial trial_of(const MeasureOptions& options)
 {
     Trial trial;
     trial.scene = shipped_file("scenes", options.scene);
-    trial.layout = layout_of(options);
+    trial.layout = layout_in_size(options.layout, options.size);
     trial.shots = shots_of(options, trial.scene);
     trial.standard = load_quality(shipped_file("qualities", options.standard));
     trial.rounds = int(options.rounds), trial.samples = int(options.samples);
@@ -178,7 +162,7 @@ int measure(const MeasureOptions& options)
     if (options.extremes)
         return measure_extremes(options.out);
     if (options.shown) {
-        const Layout layout = layout_of(options);
+        const Layout layout = layout_in_size(options.layout, options.size);
         const std::vector<ShotInScene> shots = shots_to_show(options);
         if (!options.out.empty())
             make_folder(options.out);
@@ -216,7 +200,7 @@ static void add_measure(Subcommand& app, std::function<int()>& chosen)
     auto options = std::make_shared<MeasureOptions>();
     Subcommand* command = app.add_subcommand(measure_tool.name, measure_tool.help);
     const Option* scene = command->add_option("--scene", options->scene, "A scene file, or the name of one in config/scenes")
-        ->capture_default_str();
+                              ->capture_default_str();
     command->add_option("--layout", options->layout, "A layout file, or the name of one in config/layouts")
         ->capture_default_str();
     command->add_option("--shot", options->shots,

@@ -28,18 +28,12 @@ struct ViewPixels {
     std::size_t count = 0, lit = 0;
 };
 
-/// The channel of a name.
-const std::vector<float>& channel(const Channels& channels, const std::string& name)
-{
-    return std::find_if(channels.begin(), channels.end(), [&](const auto& one) { return one.first == name; })->second;
-}
-
 ViewPixels view_pixels(OffscreenRenderer& renderer, const Shot& shot)
 {
     ViewPixels pixels;
     for (std::size_t output = 0; output < renderer.layout().outputs.size(); ++output) {
         const Channels numbers = renderer.numbers(shot, output);
-        const std::vector<float>&red = channel(numbers, "R"), &green = channel(numbers, "G"), &blue = channel(numbers, "B");
+        const std::vector<float>&red = numbers[0].second, &green = numbers[1].second, &blue = numbers[2].second;
         std::vector<std::size_t>& own = pixels.of_output.emplace_back();
         for (std::size_t at = 0; at < red.size(); ++at) {
             if (std::isnan(red[at]))
@@ -87,9 +81,10 @@ int measure_shown(const std::filesystem::path& folder, const Layout& layout, con
     std::unique_ptr<RenderContext> context;
     std::unique_ptr<OffscreenRenderer> renderer;
     std::filesystem::path loaded;
+    Progress progress;
     int failures = 0;
     for (std::size_t i = 0; i < shots.size(); ++i) {
-        Progress().show("drawing " + shots[i].name, double(i) / double(shots.size()));
+        progress.show("drawing " + shots[i].name, double(i) / double(shots.size()));
         if (shots[i].scene != loaded) {
             renderer.reset(), context.reset();
             context = std::make_unique<RenderContext>(shots[i].scene, options);
@@ -103,6 +98,7 @@ int measure_shown(const std::filesystem::path& folder, const Layout& layout, con
         std::array<char, 160> line;
         std::snprintf(line.data(), line.size(), "%-22s %6.2f %6.2f %6.2f%s", shots[i].name.c_str(), shown.lit, shown.eye,
             shown.range, fails ? " FAILS" : "");
+        progress.clear();
         std::printf("%s\n", line.data());
         std::fflush(stdout);
         std::snprintf(line.data(), line.size(), "| `%s` | %.2f | %.2f | %.2f |\n", shots[i].name.c_str(), shown.lit,

@@ -1,5 +1,7 @@
 #pragma once
 #include "config/json/error.h"
+#include "config/model/layout.h"
+#include "config/model/shipped.h"
 #include <charconv>
 #include <glm/glm.hpp>
 #include <string>
@@ -20,6 +22,22 @@ inline glm::ivec2 parse_size(const std::string& text)
     }
     throw InputError(
         "--size " + text + " is not a size; give width x height in pixels, each from 1 to 16384, such as 1280x720");
+}
+
+/// Gives every output of a layout the size of --size, unless that is empty. Throws InputError.
+inline void set_size(Layout& layout, const std::string& size)
+{
+    if (!size.empty())
+        for (Output& output : layout.outputs)
+            output.size = parse_size(size);
+}
+
+/// The layout by --layout, or the desk's, in the size of --size. Throws InputError.
+inline Layout layout_in_size(const std::string& name, const std::string& size)
+{
+    Layout layout = load_layout(shipped_file("layouts", name.empty() ? "desk" : name));
+    set_size(layout, size);
+    return layout;
 }
 
 } // namespace starbow

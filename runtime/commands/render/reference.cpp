@@ -26,10 +26,7 @@ struct ReferencePictures {
 int render_reference(const ReferencePictures& command)
 {
     const auto [shot, scene, file] = still_shot(command.shot, command.scene);
-    Layout layout = load_layout(shipped_file("layouts", command.layout.empty() ? "desk" : command.layout));
-    if (!command.size.empty())
-        for (Output& output : layout.outputs)
-            output.size = parse_size(command.size);
+    const Layout layout = layout_in_size(command.layout, command.size);
     std::vector<std::filesystem::path> pictures;
     for (const Output& output : layout.outputs)
         for (const Viewport& viewport : output.viewports)

@@ -67,10 +67,7 @@ int render(const RenderOptions& options)
         become_tools(reference_arguments(options));
     const Words words = words_in(options.language);
     Shot shot = still.shot;
-    Layout layout = load_layout(shipped_file("layouts", options.layout.empty() ? "desk" : options.layout));
-    if (!options.size.empty())
-        for (Output& output : layout.outputs)
-            output.size = parse_size(options.size);
+    const Layout layout = layout_in_size(options.layout, options.size);
     const Pattern pattern = pattern_named(options.pattern);
     std::vector<std::filesystem::path> pictures;
     for (const Output& output : layout.outputs)

@@ -162,9 +162,7 @@ int render_replay(const ReplayOptions& options)
         throw InputError("--out is empty; give the folder for the pictures, such as out/flight");
     Replay replay(options.replay);
     Flown from = find_flown(options.replay, replay.header(), options.layout, write_log);
-    if (!options.size.empty())
-        for (Output& output : from.layout.outputs)
-            output.size = parse_size(options.size);
+    set_size(from.layout, options.size);
     return options.film.movie.empty() ? draw_frames(options, replay, from) : film_replay(options, replay, from);
 }
 

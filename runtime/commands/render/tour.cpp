@@ -43,10 +43,7 @@ int render_tour(const TourOptions& options)
     const Words words = words_in(options.language);
     const Tour tour = tour_in(options.tour, words);
     const std::filesystem::path scene = scene_of(tour);
-    Layout layout = load_layout(shipped_file("layouts", options.layout.empty() ? "desk" : options.layout));
-    if (!options.size.empty())
-        for (Output& output : layout.outputs)
-            output.size = parse_size(options.size);
+    const Layout layout = layout_in_size(options.layout, options.size);
     check_film(options.film, layout);
     const Show show{tour, {}, open_scene(scene).seconds_per_time_unit(), false};
     TourFilm states(show, options.film.frames_per_s);
