@@ -111,6 +111,9 @@ void check(const Place& place, const Step& step, const Folder&)
 {
     if (const auto caption = find_member(place, "caption"))
         check_measured(*caption, step.caption, step.measure.has_value());
+    if (!placeholders(step.title).empty())
+        fail_at(member(place, "title"),
+            "has a number's place in its text, which the caption alone has; words without { } are right");
     if (const auto ease = find_member(place, "ease_s")) {
         if (step.ease_s.x + step.ease_s.y > step.seconds)
             fail_at(*ease, "is longer than the step, " + shown(step.seconds) + " s; two times that fit are right");

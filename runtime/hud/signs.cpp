@@ -196,12 +196,14 @@ Panel draw_name(const Typesetter& typesetter, const std::string& name, double de
 
 Panel draw_title(const Typesetter& typesetter, const std::string& title, int width)
 {
-    const int size = std::max(8, int(title_letters * width));
-    const double pitch = 1.2 * size, edge = 0.6 * size;
+    int size = std::max(8, int(title_letters * width));
+    const double pitch = 1.2 * size, edge = 0.6 * size, most = width - 2 * edge;
     const std::vector<std::string> lines
-        = wrapped(title, width - 2 * edge, [&](const std::string& line) { return typesetter.width_of(line, size); });
-    Panel panel
-        = plate({int(widest_of(lines, typesetter, size) + 2 * edge) + 1, int(double(lines.size()) * pitch + edge)}, edge);
+        = wrapped(title, most, [&](const std::string& line) { return typesetter.width_of(line, size); });
+    while (size > 1 && widest_of(lines, typesetter, size) > most)
+        --size; // one of its words alone is wider than a line
+    const int widest = int(widest_of(lines, typesetter, size) + 2 * edge) + 1;
+    Panel panel = plate({widest, int(double(lines.size()) * pitch + edge)}, edge);
     write_lines(panel, lines, 0.5 * edge + 0.9 * size, pitch, typesetter, size);
     return panel;
 }

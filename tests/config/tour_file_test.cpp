@@ -90,6 +90,7 @@ TEST(TourFile, TextsFitTheDisplay)
             return typesetter.width_of(line, int(smallest));
         }).size();
     };
+    EXPECT_LE(draw_title(typesetter, std::string(60, 'W'), int(width)).size.x, width + 1) << "one long word";
     for (const auto& file : shipped("config/tours"))
         for (const auto& language : shipped("config/words")) {
             const Words texts = load_words(language);
@@ -194,6 +195,8 @@ TEST(TourFile, WrongToursAreRefusedByReaderAndSchema)
                 "/steps/0/cut: \"start\" is a shot in the scene avenue"},
             {with(R"("caption": "tour.no.such")"), "is not a text in en.json"},
             {with(R"("caption": "tour.first-minute.back")"), "has {measured} in its text"},
+            {with(R"("measure": { "quantity": "gamma" }, "title": { "en": "{measured}" })"),
+                "/steps/1/title: {\"en\":\"{measured}\"} has a number's place"},
             {with(R"("ease_s": [1, 1.1])"), "/steps/1/ease_s: [1,1.1] is longer than the step"},
             {with(R"("ease_s": [1, 1], "glide": {})"), "/steps/1/ease_s: "},
             {with(R"("thrust": { "rapidity_per_s": 1, "towards": [0, 0, 0] })"), "points nowhere"},
