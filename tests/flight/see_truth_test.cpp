@@ -326,10 +326,8 @@ const std::map<std::string, Description>& descriptions()
                                 [=](const Frame& f) { return std::abs(f.D(tower) / corner_D(f, 1) - 1) < 0.05; });
                         }}}}},
         {"street.see-5",
-            {"Die Straße wächst und steht wieder gerade",
-                {{"swells",
-                     [=](const Spoken& s) { return s.grows([=](const Frame& f) { return f.size_deg(tower, tall); }); }},
-                    {"stands upright", [](const Spoken& s) { return rests(s.end()); }}}}},
+            {"Die Straße steht wieder gerade, in ihren eigenen Farben",
+                {{"upright again, in its own colours", [](const Spoken& s) { return s.always(rests); }}}}},
         {"street.see-6", {"Die Straße in Ruhe", {{"at rest", [](const Spoken& s) { return s.always(rests); }}}}},
         {"street.see-7", {"Ihre eigene Fahrt", {}}},
 
