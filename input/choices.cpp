@@ -31,6 +31,7 @@ bool apply(Choices& choices, const Command& command)
 void apply(Choices& choices, Switches pressed)
 {
     choices.range ^= pressed[Switch::range];
+    choices.sky_names ^= pressed[Switch::sky_names];
     if (pressed[Switch::information])
         choices.information = after(choices.information);
     if (pressed[Switch::inset])

@@ -13,6 +13,7 @@ struct Choices {
     std::string language; ///< name of a file, without folder and .json
     Information information = Information::laboratory; ///< the shown display
     InsetView inset = InsetView::none;
+    bool sky_names = false; ///< of constellations, stars and planets
     bool range = false; ///< everything is visible at once
     bool one_button = false; ///< the visitor flies with one
     bool left_handed = false; ///< keyboard and sticks for a left-handed visitor

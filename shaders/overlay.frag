@@ -9,12 +9,14 @@
 #include "received_light.glsl"
 #include "distance.glsl"
 #include "scale.glsl"
-// The measuring overlays of a viewport: the world's directions, the ring where D is 1, distances and retarded times in
-// false colours, the crosshair and the marks. Line widths are in the viewport's own pixels.
+#include "panorama.glsl"
+// The overlays of a viewport: the world's directions, the ring where D is 1, distances and retarded times in false colours,
+// the crosshair and the marks; or the constellations' lines alone. Line widths are in the viewport's own pixels.
 
 OVERLAY_PASS_CONSTANTS(DECLARED)
 
 layout(set = 1, binding = 0) uniform Constants { OverlayConstants overlay; };
+layout(set = 1, binding = 1) uniform samplerBuffer figures;
 layout(location = 0) out vec4 shown; // premultiplied
 
 vec4 over(vec4 above, vec4 below) { return above + below * (1.0 - above.a); }
@@ -50,6 +52,26 @@ vec4 grid(vec3 n, float footprint)
     bool ahead = abs(n.z) > abs(n.x);
     sum = over(line(ahead ? vec3(0.45, 0.85, 1.0) : vec3(0.65, 0.95, 0.55), off, 1.1, 0.9 * wide_room), sum);
     return over(line(vec3(1.0, 0.62, 0.2), latitude / footprint, 1.1, 0.9 * wide_room), sum); // the horizon
+}
+
+// The constellations' lines, which stop short of their stars. n: the world's direction; footprint: of a pixel there, radians.
+vec4 constellations(vec3 n, float footprint)
+{
+    vec2 at = place_in_panorama(n);
+    int row = clamp(int(at.y * float(FIGURE_ROWS)), 0, FIGURE_ROWS - 1),
+        column = clamp(int(fract(at.x + 0.5) * float(FIGURE_COLUMNS)), 0, FIGURE_COLUMNS - 1);
+    vec4 cell = texelFetch(figures, row * FIGURE_COLUMNS + column);
+    float nearest = 9.0, gap = max(radians(0.7), 3.0 * footprint);
+    for (int i = 0; i < int(cell.y); ++i) {
+        vec3 a = texelFetch(figures, int(cell.x) + 2 * i).xyz, b = texelFetch(figures, int(cell.x) + 2 * i + 1).xyz;
+        vec3 axis = normalize(cross(a, b)), from_a = n - a, from_b = n - b;
+        bool between = dot(cross(axis, a), n) > 0.0 && dot(cross(b, axis), n) > 0.0;
+        if (between && min(dot(from_a, from_a), dot(from_b, from_b)) > gap * gap)
+            nearest = min(nearest, abs(dot(axis, n)));
+    }
+    // A line that is wider than the cells' reach fades, so that none ends at a cell's edge.
+    float room = clamp(2.0 - 4.0 * footprint / FIGURE_REACH, 0.0, 1.0);
+    return line(vec3(0.5, 0.7, 1.0), nearest / footprint, 0.4, 0.75 * room);
 }
 
 // The ring where D = 1. n: the ship's direction, motion axes.
@@ -154,11 +176,12 @@ void main()
     if (MAP && pixel_angle == 0.0)
         discard;
     vec4 sum = vec4(0.0);
-    if (OVERLAY == OVERLAY_GRID) {
+    if (OVERLAY == OVERLAY_GRID || OVERLAY == OVERLAY_FIGURES) {
         AberratedRay sight = from_camera(n, view.boost.xy);
         vec3 world = ABERRATION ? sight.n : n;
         world = vec3(dot(overlay.world0.xyz, world), dot(overlay.world1.xyz, world), dot(overlay.world2.xyz, world));
-        sum = grid(world, world_angle(sight, n, pixel_angle));
+        float footprint = world_angle(sight, n, pixel_angle);
+        sum = OVERLAY == OVERLAY_GRID ? grid(world, footprint) : constellations(world, footprint);
     }
     if (OVERLAY == OVERLAY_RING)
         sum = ring(n, pixel_angle);
@@ -168,5 +191,7 @@ void main()
         bool unknown = GALILEAN && seen.frame > 0.0;
         sum = false_colour(unknown ? SKY_DISTANCE : exact_distance(seen, pixel_angle), n);
     }
-    shown = over(signs(n, pixel_angle), sum);
+    if (OVERLAY == OVERLAY_FIGURES && sum.a > 0.0 && !is_sky(shown_along(n, pixel_angle).distance))
+        discard;
+    shown = OVERLAY == OVERLAY_FIGURES ? sum : over(signs(n, pixel_angle), sum);
 }

@@ -294,6 +294,13 @@ struct OverlayConstants {
 #define OVERLAY_RING 2
 #define OVERLAY_DISTANCE 3
 #define OVERLAY_EMISSION 4
+#define OVERLAY_FIGURES 5
+
+// The table of the constellations' lines, as figure_table() of runtime/world/sky_names.h has it: cells, and the distance in
+// radians up to which a cell has lines.
+#define FIGURE_ROWS 64
+#define FIGURE_COLUMNS 128
+#define FIGURE_REACH 0.05
 
 // Push constants of the finish pass: from light to the screen's input. The vectors are rows of matrices.
 struct FinishPush {

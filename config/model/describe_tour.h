@@ -63,6 +63,25 @@ inline constexpr auto description<Question> = with_rules(
 static_assert(is_complete<Question>());
 void check(const Place& place, const Question& question, const Folder&);
 
+template <>
+inline constexpr auto description<Highlight> = with_rules(
+    describe<Highlight>("highlight", "A thing that a step speaks of: the picture has a ring with a name around it.",
+        needed("name", TourText{}, "Its name, above the ring.", &Highlight::name),
+        field("at", Numbers<3>{{-farthest, farthest}},
+            "The thing's middle, [x, y, z] in scene units: in the world, or from a body's origin among its axes.",
+            &Highlight::at),
+        field("across", Number{{0, farthest}}, "The thing's diameter where it rests, scene units.", &Highlight::across),
+        field("body", Text{}, "The scene's body that carries the thing; left out, the thing rests in the world.",
+            &Highlight::body),
+        field("globe", Text{}, "A globe of the scene's sky, by its name, in place of the other members.", &Highlight::globe),
+        field("enlarged", Flag{},
+            "While the thing looks smaller than 6 degrees, an inset shows it enlarged, with a line to its place.",
+            &Highlight::enlarged)),
+    R"({ "oneOf": [{ "required": ["at", "across"], "not": { "required": ["globe"] } },
+        { "required": ["globe"], "not": { "anyOf": [{ "required": ["at"] }, { "required": ["across"] }, { "required": ["body"] }] } }] })");
+static_assert(is_complete<Highlight>());
+void check(const Place& place, const Highlight& highlight, const Folder&);
+
 /// A shot's file, the name of a shipped one, or the shot itself.
 struct CutForm {
     Cut read(const Place& place, const Folder& source) const;
@@ -129,6 +148,8 @@ inline constexpr auto description<Step> = with_rules(
             "Left out, the tour's.",
             &Step::ship_s_per_s),
         field("measure", Object<Measure>{}, "", &Step::measure),
+        field("highlights", List{Object<Highlight>{}, 1, 2, "highlights"}, "The things that the step speaks of.",
+            &Step::highlights),
         field("title", TourText{}, "A few words in large letters over the picture, which are read from afar.", &Step::title),
         field("caption", TourText{}, "The caption; {measured} stands for the measured number.", &Step::caption),
         field("describe", TourText{},

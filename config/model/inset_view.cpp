@@ -24,10 +24,21 @@ glm::dquat towards_flight(const Shot& shot)
     return glm::normalize(glm::rotation(looks, ahead) * shot.ship_from_cockpit);
 }
 
+Shot looking(Shot shot, const glm::dvec3& towards)
+{
+    const glm::dvec3 up(0, std::abs(towards.y) < 0.999, std::abs(towards.y) >= 0.999);
+    shot.ship_from_cockpit = glm::normalize(shot.ship_from_cockpit * glm::quatLookAt(towards, up));
+    return shot;
+}
+
 double telescope_fov_deg(double u, double before)
 {
     // Directions at right angles to the flight are seen at cos(angle) = beta, or tan(angle) = 1 / u.
-    const double wanted = std::min(2 * std::atan2(1, u) / degree, inset_fov_deg);
+    return stepped_fov_deg(std::min(2 * std::atan2(1, u) / degree, inset_fov_deg), before);
+}
+
+double stepped_fov_deg(double wanted, double before)
+{
     if (before > 0 && before > 0.7 * wanted && before < 1.7 * wanted)
         return before;
     double least = inset_fov_deg;

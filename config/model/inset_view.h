@@ -24,6 +24,11 @@ constexpr double inset_fov_deg = 60;
 /// of few steps, so that it can be read: 60, 40, 30, 20, 15, 10, 8, 6, 4, ... degrees. before: the field of the frame
 /// before, which stays as long as it suits; 0: none.
 double telescope_fov_deg(double u, double before);
+/// The field of few steps that is at least the wanted one, degrees. before: as above.
+double stepped_fov_deg(double wanted, double before);
+
+/// The shot turned so that it looks towards a unit direction of its cockpit, as upright as it was.
+Shot looking(Shot shot, const glm::dvec3& towards);
 
 /// The shot of the inset. start_ev: the exposure of the inset, EV; headlight alone and the telescope have the shot's own, as
 /// their light is as bright.

@@ -35,6 +35,7 @@ enum class Switch : std::uint8_t {
     hud,
     information, ///< the next display of information
     inset, ///< the next inset view
+    sky_names, ///< names of stars, constellations and planets
     full_screen,
     quit,
     pattern, ///< the next test pattern
@@ -139,6 +140,8 @@ inline constexpr std::array all_switches{
         "the next head-up display: for visitors, guides, the laboratory", {'I'}},
     SwitchEntry{Switch::inset, "beside", Leap::press, Presser::reader,
         "beside the picture: the same instant at rest, or with one effect alone, or none", {'N'}},
+    SwitchEntry{Switch::sky_names, "sky_names", Leap::toggle, Presser::reader,
+        "the sky's names: constellations, stars and planets, on and off", {'B'}},
     SwitchEntry{Switch::full_screen, "full_screen", Leap::toggle, Presser::builder, "full screen", {keys::f11}},
     SwitchEntry{Switch::quit, "quit", Leap::none, Presser::builder, "leave", {keys::escape}},
     SwitchEntry{

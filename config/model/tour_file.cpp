@@ -62,6 +62,20 @@ void check(const Place& place, const Question& question, const Folder&)
         fail_at(place, "needs one way to answer; exactly one of \"choices\", \"number\" and \"reach\" is right");
 }
 
+void check(const Place& place, const Highlight& highlight, const Folder&)
+{
+    check_measured(member(place, "name"), highlight.name, false);
+    const bool is_globe = find_member(place, "globe").has_value();
+    for (const char* name : {"at", "across"})
+        if (find_member(place, name).has_value() == is_globe)
+            fail_at(place,
+                is_globe ? "has a globe, whose place and size are known, and \"" + std::string(name)
+                        + "\"; one of them alone is right"
+                         : "is nowhere; \"at\" with \"across\", or a \"globe\", is right");
+    if (is_globe && find_member(place, "body"))
+        fail_at(member(place, "body"), "conflicts with \"globe\"; one of them alone is right");
+}
+
 Cut CutForm::read(const Place& place, const Folder& source) const
 {
     if (!place.json->is_string())

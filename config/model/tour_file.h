@@ -34,6 +34,16 @@ struct Question {
     double explanation_s = 8; ///< the time for which the explanation is shown
 };
 
+/// A thing that a step speaks of: the picture has a ring with a name around it.
+struct Highlight {
+    std::string name; ///< above the ring
+    std::string body; ///< a body of the scene, or empty: the world
+    std::string globe; ///< a globe of the scene's sky instead, or empty
+    glm::dvec3 at{0}; ///< its middle, scene units: in the world, or from a body's origin, among its axes, where it rests
+    double across = 0; ///< its diameter at rest, scene units; of a globe the globe's own
+    bool enlarged = false; ///< while it looks small, an inset shows it enlarged, with a line to its place
+};
+
 /// A jump to a shot.
 struct Cut {
     Shot shot;
@@ -73,6 +83,7 @@ struct Step {
     std::string caption; ///< or empty
     std::string description; ///< of the picture, for people who cannot see it; or empty
     std::optional<Measure> measure; ///< the value of {measured} in the caption
+    std::vector<Highlight> highlights; ///< two at most
     std::optional<Effects> effects; ///< nullopt: as before
     std::optional<double> exposure_ev; ///< reached at once with a cut, else by the step's end; nullopt: as before
     std::optional<Question> question;

@@ -11,6 +11,7 @@
 #include "runtime/commands/options/command_line.h"
 #include "runtime/exhibit/desktop.h"
 #include "runtime/exhibit/outputs.h"
+#include "runtime/hud/highlights.h"
 #include "runtime/hud/hud.h"
 #include "runtime/machines/interface.h"
 #include "runtime/operation/messages.h"
@@ -358,7 +359,8 @@ void examine_files(Report& report)
     kind("tours", [words = std::optional<Words>()](const fs::path& file) mutable {
         if (!words)
             words = words_in("en");
-        tour_in(file.string(), *words);
+        const Tour tour = tour_in(file.string(), *words);
+        check_highlights(tour, open_scene(scene_of(tour)));
     });
     kind("words", [](const fs::path& file) { load_words(file); });
     kind("qualities", [](const fs::path& file) {

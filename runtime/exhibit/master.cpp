@@ -132,6 +132,7 @@ void Master::send(const SharedState& shared, bool leapt)
             write_limited(LogKind::state_unread, too_long_ + "; the other machines show no text meanwhile");
         SharedState shorter = shared;
         shorter.picture.hud.reset(), shorter.picture.sign.reset(), shorter.picture.inset.reset();
+        shorter.picture.highlights.clear(), shorter.picture.sky_labels.clear();
         state.bytes = bytes_of(shorter);
     }
     digest_ = digest_of_state(state.bytes);

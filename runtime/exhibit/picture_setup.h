@@ -1,6 +1,7 @@
 #pragma once
 #include "runtime/machines/picture_state.h"
 #include "runtime/render/frame_renderer.h"
+#include <map>
 
 namespace starbow {
 
@@ -39,13 +40,24 @@ public:
     Typesetter typesetter;
 
 private:
+    struct WantedInset;
+
     void place(const PictureState& now, FrameRenderer& frame);
-    void add_inset(const InsetPicture& picture, const Shot& shot, FrameRenderer& frame, double degree_px);
+    void place_sky_labels(const std::vector<SkyLabel>& labels, const ViewSet& views, double degree_px);
+    void place_highlights(const std::vector<ShownHighlight>& highlights, const ViewSet& views, double degree_px);
+    std::vector<WantedInset> wanted_insets(const PictureState& now);
+    void place_insets(const PictureState& now, FrameRenderer& frame, double degree_px);
+    void place_inset(const WantedInset& inset, std::size_t which, double aside, double half_x, const FrameRenderer& frame,
+        double degree_px);
 
     Panel panel_;
     std::int64_t drawn_ = -1; ///< HudText::number
-    Plate title_, sign_, name_;
-    bool no_room_ = false; ///< for the inset
+    Plate title_, sign_;
+    std::map<std::string, Plate> sky_names_;
+    std::array<Plate, 2> rings_, names_; ///< of highlights, and of insets
+    static constexpr double line_degree_px = 16;
+    Panel line_ = draw_line(line_degree_px); ///< stretched to its length
+    bool no_room_ = false; ///< for an inset
     std::vector<Callout> callouts_;
 };
 

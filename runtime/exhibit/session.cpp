@@ -122,12 +122,12 @@ SessionContent attraction_of(const ExhibitOptions& options, const Words& words, 
 
 std::uint64_t digest(const Session& session)
 {
-    const auto& [language, information, inset, range, one_button, left_handed] = session.choices;
+    const auto& [language, information, inset, sky_names, range, one_button, left_handed] = session.choices;
     std::string text = session.content.scene.string() + '\n' + session.content.tour_name + '\n' + language + '\n'
         + session.words("hud.speed") + '\n';
     for (const int number : {int(session.alignment.pattern()), session.tutorial.lesson, int(session.light.locked()),
-             int(session.lab.shows_anything()), int(session.menu.open), int(information), int(inset), int(range),
-             int(one_button), int(left_handed), int(session.goals.current)})
+             int(session.lab.shows_anything()), int(session.menu.open), int(information), int(inset), int(sky_names),
+             int(range), int(one_button), int(left_handed), int(session.goals.current)})
         text += std::to_string(number) + ' ';
     return digest(text, digest(session.flight()));
 }

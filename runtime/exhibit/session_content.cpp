@@ -1,6 +1,7 @@
 #include "session_content.h"
 #include "config/model/scene_file.h"
 #include "config/model/shipped.h"
+#include "runtime/hud/highlights.h"
 #include "runtime/operation/record_files.h"
 #include "runtime/visit/shown_record.h"
 #include "runtime/world/open_scene.h"
@@ -34,6 +35,7 @@ SessionContent content_of_tour(const std::string& name, const Words& words)
 {
     Tour tour = tour_in(name, words);
     const std::filesystem::path scene = scene_of(tour);
+    check_highlights(tour, open_scene(scene));
     const Shot start = std::get<Cut>(tour.steps[0].motion).shot;
     return {.scene = scene, .start = start, .tour_name = name, .tour = std::move(tour)};
 }

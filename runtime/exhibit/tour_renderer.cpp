@@ -13,30 +13,31 @@ void TourRenderer::follow_range(Shot& shot)
         goal = range_goal(frame.surface_samples(), frame.star_samples(), shot.exposure_ev);
     }
     range_mode_ = advance(std::move(range_mode_), goal, range_frame_s_, false);
-    frame.meter(true);
-    frame.range(range_mode_.follower.shown);
     if (range_mode_.follower.shown)
         shot.exposure_ev = 0;
 }
 
 std::vector<std::vector<std::uint8_t>> TourRenderer::picture(const Touring& touring)
 {
-    Readings shown = readings(touring.flight.ship, scene_, touring.flight.effects);
+    Readings shown = readings(touring.flight.ship, world_.scene, touring.flight.effects);
     shown.exposure_ev = touring.flight.exposure_ev;
     shown.caption = caption_of(touring, show_, words_, {});
-    Shot shot = shot_of(touring.flight, show_.tour.scene);
+    PictureState now{.shot = shot_of(touring.flight, show_.tour.scene), .bloom = bloom_};
     if (range_frame_s_ > 0) {
-        follow_range(shot);
-        if (const std::optional<RangeCurve>& curve = range_mode_.follower.shown)
-            shown.range = Readings::Range{curve->stops(), curve->shown_stops()};
+        follow_range(now.shot);
+        now.meters = true;
+        now.range = range_mode_.follower.shown;
+        if (now.range)
+            shown.range = Readings::Range{now.range->stops(), now.range->shown_stops()};
     }
+    now.title = title_of(touring, show_);
+    if (!touring.over)
+        now.highlights = shown_highlights(
+            show_.tour.steps[touring.step()].highlights, now.shot, world_.world, world_.scene, enlarged_deg_);
     FrameRenderer& frame = renderer_.frame();
-    callouts_.clear();
-    if (const std::string title = title_of(touring, show_); !title.empty())
-        callouts_.push_back(title_over(frame.views(), typesetter_, title, title_));
-    frame.place(callouts_);
-    const Panel panel = typesetter_.draw(shown, words_, frame.views().hud_width());
-    return renderer_.picture(shot, shown.caption->text.empty() ? nullptr : &panel);
+    pictures_.set_up(now, words_, frame);
+    const Panel panel = pictures_.typesetter.draw(shown, words_, frame.views().hud_width());
+    return renderer_.picture(now.shot, shown.caption->text.empty() ? nullptr : &panel);
 }
 
 } // namespace starbow

@@ -281,6 +281,12 @@ HudPlacement instruments_place(const HudPlacement& hud, double aspect, std::span
     return best;
 }
 
+bool is_seen_whole(
+    const glm::dmat3& panel_from_cockpit, const glm::dvec2& half, std::span<const std::vector<CompiledView>> views)
+{
+    return corners_shown(panel_from_cockpit, half, views) == 4;
+}
+
 PixelBox panel_box(const ConeHierarchy& cones, const glm::dmat3& panel_from_cockpit, const glm::dvec2& half)
 {
     // The panel's edges as planes through the eye, in the panel's axes, and the plane that excludes the directions behind.

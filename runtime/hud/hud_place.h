@@ -26,6 +26,10 @@ std::string hud_warning(const Layout& layout, const HudPlacement& hud, std::span
 /// aspect: height over width. views: of each output; empty: as if all directions were seen.
 HudPlacement instruments_place(const HudPlacement& hud, double aspect, std::span<const std::vector<CompiledView>> views);
 
+/// True if each corner of a panel is seen in some view. half: its extent on its plane z = 1.
+bool is_seen_whole(
+    const glm::dmat3& panel_from_cockpit, const glm::dvec2& half, std::span<const std::vector<CompiledView>> views);
+
 /// A box around all pixels that may show a panel of half the extent `half` on its plane z = 1.
 PixelBox panel_box(const ConeHierarchy& cones, const glm::dmat3& panel_from_cockpit, const glm::dvec2& half);
 

@@ -2,9 +2,11 @@
 #include "config/model/inset_view.h"
 #include "config/model/pattern.h"
 #include "input/controls.h"
+#include "runtime/hud/highlights.h"
 #include "runtime/hud/hud.h"
 #include "runtime/hud/instruments.h"
 #include "runtime/hud/overlay.h"
+#include "runtime/hud/sky_labels.h"
 #include "runtime/light/range_curve.h"
 
 namespace starbow {
@@ -52,6 +54,9 @@ struct PictureState {
     std::optional<HudText> hud; ///< none: it is off
     std::string title; ///< in large letters over the picture, or empty
     std::optional<ShownSign> sign;
+    std::vector<ShownHighlight> highlights; ///< two at most; those that are enlarged have insets in place of `inset`
+    bool figures = false; ///< the constellations' lines
+    std::vector<SkyLabel> sky_labels;
     std::optional<InsetPicture> inset;
     std::optional<Instruments> instruments;
 };

@@ -236,6 +236,18 @@ template <class Part> void transfer(Part& part, ShownSign& sign)
     transfer_all(part, lines, towards);
 }
 
+template <class Part> void transfer(Part& part, ShownHighlight& highlight)
+{
+    auto& [name, towards, radius, enlarged_deg] = highlight;
+    transfer_all(part, name, towards, radius, enlarged_deg);
+}
+
+template <class Part> void transfer(Part& part, SkyLabel& label)
+{
+    auto& [name, towards] = label;
+    transfer_all(part, name, towards);
+}
+
 template <class Part> void transfer(Part& part, InsetPicture& picture)
 {
     auto& [kind, start_ev, fov_deg, name] = picture;
@@ -262,10 +274,11 @@ template <class Part> void transfer(Part& part, Instruments& on)
 
 template <class Part> void transfer(Part& part, PictureState& now)
 {
-    auto& [shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, title, sign, inset, instruments]
+    auto& [shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, title, sign, highlights, figures,
+        sky_labels, inset, instruments]
         = now;
-    transfer_all(part, shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, title, sign, inset,
-        instruments);
+    transfer_all(part, shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, title, sign,
+        highlights, figures, sky_labels, inset, instruments);
 }
 
 template <class Part> void transfer(Part& part, TurnedNumber& number)

@@ -14,7 +14,7 @@ constexpr std::size_t most_name = 64, most_file_name = 300, most_digest = 64;
 constexpr double longest_frame_ms = 1e6, whole_sphere_sr = 12.57;
 /// No panel is wider: a texture that every GPU can hold.
 constexpr std::int32_t most_page_side = 8192;
-constexpr std::size_t most_sign_lines = 8, most_sign_letters = 200, most_choices = 256;
+constexpr std::size_t most_sign_lines = 8, most_sign_letters = 200, most_choices = 256, most_highlights = 2;
 
 /// Collects the first fault.
 struct Faults {
@@ -133,6 +133,18 @@ void look_at(const PictureState& now, Faults& faults)
         for (const std::string& line : now.sign->lines)
             faults.when(line.size() > most_sign_letters, "has a sign with too long a line");
         faults.no_unit("a sign in a direction whose square is", glm::dot(now.sign->towards, now.sign->towards));
+    }
+    faults.when(now.highlights.size() > most_highlights, "has more than two highlights");
+    for (const ShownHighlight& highlight : now.highlights) {
+        faults.when(highlight.name.size() > most_sign_letters, "has a highlight with too long a name");
+        faults.no_unit("a highlight in a direction whose square is", glm::dot(highlight.towards, highlight.towards));
+        faults.outside("a highlight's radius", highlight.radius, 0, 1.6);
+        faults.outside("a highlight's field", highlight.enlarged_deg, 0, inset_fov_deg);
+    }
+    faults.when(now.sky_labels.size() > most_sky_labels, "has too many names of the sky");
+    for (const SkyLabel& label : now.sky_labels) {
+        faults.when(label.name.size() > most_sign_letters, "has too long a name of the sky");
+        faults.no_unit("a name in a direction whose square is", glm::dot(label.towards, label.towards));
     }
     if (now.inset) {
         faults.when(now.inset->kind == InsetView::none, "has an inset of nothing");

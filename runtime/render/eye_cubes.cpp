@@ -36,7 +36,7 @@ EyeCubes::EyeCubes(
 
 void EyeCubes::assign(std::vector<ViewState>& views)
 {
-    forget_inset(); // it comes after the eyes of all views
+    forget_insets(); // they come after the eyes of all views
     for (ViewState& view : views) {
         view.eye = eye_for(view);
         view.observer = all[view.eye].observer;
@@ -48,7 +48,7 @@ void EyeCubes::assign(std::vector<ViewState>& views)
 void EyeCubes::clear()
 {
     all.clear(), observers.clear();
-    inset_observed_ = inset_eye_ = false;
+    inset_observers_ = inset_eyes_ = 0;
 }
 
 double EyeCubes::pixel_of(std::size_t eye) const
@@ -89,7 +89,7 @@ void EyeCubes::move()
 double EyeCubes::observe()
 {
     double most_E = 1;
-    for (Observer& one : std::span(observers).first(observers.size() - inset_observed_)) {
+    for (Observer& one : std::span(observers).first(observers.size() - inset_observers_)) {
         if (state_.repeatable)
             one.rest_frames.clear();
         one = starbow::observer_of(world_.world, state_.shot, one.observer, std::move(one.rest_frames));
@@ -98,36 +98,52 @@ double EyeCubes::observe()
     return most_E;
 }
 
-void EyeCubes::observe_inset(Inset& inset)
+void EyeCubes::observe_insets(const std::vector<std::unique_ptr<Inset>>& insets)
 {
-    const ViewState& first = views_.probed_view();
-    if (!std::exchange(inset_observed_, true))
-        observers.emplace_back();
-    ViewState& view = inset.view;
-    view.observer = observers.size() - 1;
-    Observer& own = observers[view.observer];
+    const std::size_t before = observers.size() - inset_observers_;
+    inset_observers_ = insets.size();
+    observers.resize(before + insets.size());
+    std::size_t own_eyes = 0;
+    for (std::size_t i = 0; i < insets.size(); ++i) {
+        insets[i]->view.observer = before + i;
+        if (shares_first_eye(*insets[i]))
+            insets[i]->view.eye = views_.probed_view().eye;
+        else
+            give_eye(insets[i]->view, own_eyes++);
+    }
+    keep_inset_eyes(own_eyes);
+}
+
+/// Makes an inset's observer. True if the inset is warped from the cube map of the frame's first view.
+bool EyeCubes::shares_first_eye(const Inset& inset)
+{
+    const Observer& first = observers[views_.probed_view().observer];
+    Observer& own = observers[inset.view.observer];
     if (looks_closer(inset)) {
-        own = observers[first.observer];
+        own = first;
         turn_cockpit(own, glm::inverse(state_.shot.ship_from_cockpit) * inset.shot.ship_from_cockpit);
-    } else {
-        if (state_.repeatable)
-            own.rest_frames.clear();
-        own = starbow::observer_of(world_.world, inset.shot, {}, std::move(own.rest_frames));
+        return true;
     }
-    if (looks_closer(inset) || shares_cube(own, observers[first.observer])) {
-        forget_inset_eye();
-        view.eye = first.eye;
-        return;
-    }
-    const glm::dvec3 place = all[first.eye].now_m;
-    if (!std::exchange(inset_eye_, true)) {
+    if (state_.repeatable)
+        own.rest_frames.clear();
+    own = starbow::observer_of(world_.world, inset.shot, {}, std::move(own.rest_frames));
+    return shares_cube(own, first);
+}
+
+/// Gives an inset's view one of the cube maps of insets. which: from 0.
+void EyeCubes::give_eye(ViewState& view, std::size_t which)
+{
+    const glm::dvec3 place = all[views_.probed_view().eye].now_m;
+    if (which == inset_eyes_) {
         all.push_back(
             {place, view.observer, CubePass(device_, pipelines_, world_, state_.quality, state_.keeps_depth), place});
         all.back().cube.repeatable(state_.repeatable);
         plans.emplace_back();
+        ++inset_eyes_;
     }
-    view.eye = all.size() - 1;
-    all.back().now_m = place;
+    view.eye = all.size() - inset_eyes_ + which;
+    all[view.eye].observer = view.observer;
+    all[view.eye].now_m = place;
 }
 
 /// True if the inset is a telescope that looks into the first view's own light, only finer, from the same cube map.
@@ -157,23 +173,22 @@ StoredLight EyeCubes::inset_light(const Observer& inset) const
     return world_.stored_light(on);
 }
 
-void EyeCubes::forget_inset_eye()
+void EyeCubes::keep_inset_eyes(std::size_t count)
 {
-    if (std::exchange(inset_eye_, false))
+    for (; inset_eyes_ > count; --inset_eyes_)
         all.pop_back(), plans.pop_back();
 }
 
-void EyeCubes::forget_inset()
+void EyeCubes::forget_insets()
 {
-    forget_inset_eye();
-    if (std::exchange(inset_observed_, false))
-        observers.pop_back();
+    keep_inset_eyes(0);
+    observers.resize(observers.size() - std::exchange(inset_observers_, 0));
 }
 
 StoredLight EyeCubes::light_of(std::size_t eye) const
 {
     const Observer& observer = observers[all[eye].observer];
-    return inset_eye_ && eye + 1 == all.size() ? inset_light(observer) : world_.stored_light(observer.shot.effects);
+    return eye + inset_eyes_ >= all.size() ? inset_light(observer) : world_.stored_light(observer.shot.effects);
 }
 
 int EyeCubes::rays_of(const ViewState& view) const
@@ -224,32 +239,32 @@ void EyeCubes::request_views(std::size_t i, double pre_exposure, const Probe* pr
         request.E = rest_frame.E;
         request.cube_from_motion = rest_frame.cube_from_motion;
         request.galilean = observers[eye.observer].shot.effects.comparison == Comparison::galilean;
-        const auto add = [&](const ViewState& view) {
+        const auto add = [&](const ViewState& view, bool closer) {
             if (view.eye == i)
                 request.views.push_back({view.compiled.cones.get(), observer_of(view).rest_frames[at].motion_from_cockpit,
                     state_.reprojects()
                         ? std::min(MOST_PARALLAX, glm::length(views_.eye_offset(view, rest_frame)) / eye.nearest[at])
                         : 0,
                     dark_D(view, pre_exposure), rays_of(view) / state_.quality.pixel_rays,
-                    view.observer != eye.observer && !looks_closer(*views_.inset)});
+                    view.observer != eye.observer && !closer});
         };
         for (const ViewState& view : views_.all) {
-            add(view);
+            add(view, false);
             if (!all_here && view.eye == i)
                 here.push_back(state_.is_here(state_.layout.outputs[view.output]));
         }
         // A request within the first view's would change nothing but the rounding of the plan.
-        if (views_.inset
-            && (inset_eye_ || looks_closer(*views_.inset)
-                || !ViewSet::shows_all_of(views_.probed_view(), views_.inset->view)))
-            add(views_.inset->view);
+        for (const std::unique_ptr<Inset>& inset : views_.insets)
+            if (const bool closer = looks_closer(*inset);
+                closer || inset_eyes_ > 0 || !ViewSet::shows_all_of(views_.probed_view(), inset->view))
+                add(inset->view, closer);
         for (std::size_t ray = 0; probe && ray < probe->count(); ++ray)
             if (views_.probed_view(probe->ray(ray).view).eye == i)
                 request.views.push_back({&probe->view(ray), rest_frame.motion_from_cockpit});
         if (at > 0)
             request.bounds = bounding_spheres(world_.world, eye_event);
         if (!all_here) {
-            // Views of other machines leave; the inset and the probes stay, as each machine may show them.
+            // Views of other machines leave; insets and probes stay, as each machine may show them.
             RestFrameRequest& own = eye.own_requests[at];
             own = request;
             std::size_t number = 0;

@@ -46,9 +46,9 @@ public:
 
     /// Computes the observers for the instant that is drawn; returns the greatest e^rapidity of any.
     double observe();
-    /// The same for the inset's observer, after observe(), and chooses the cube map that it is warped from.
-    void observe_inset(Inset& inset);
-    void forget_inset(); ///< there is no inset any more
+    /// The same for the observers of the insets, after observe(), and chooses the cube maps that they are warped from.
+    void observe_insets(const std::vector<std::unique_ptr<Inset>>& insets);
+    void forget_insets(); ///< there are none any more
     /// The processor's part: plans the cube maps, culls and uploads. pre_exposure applies to cube maps that are drawn
     /// anew. probe: further rays that the probed view's eye must see, or null.
     void plan(double pre_exposure, const Probe* probe);
@@ -71,11 +71,13 @@ public:
 
     std::vector<EyeCube> all;
     std::vector<CubeMapPlan> plans; ///< one for each eye
-    std::vector<Observer> observers; ///< the views', then the inset's
+    std::vector<Observer> observers; ///< the views', then the insets'
 
 private:
     std::size_t eye_for(const ViewState& view);
-    void forget_inset_eye();
+    bool shares_first_eye(const Inset& inset);
+    void give_eye(ViewState& view, std::size_t which);
+    void keep_inset_eyes(std::size_t count);
     bool looks_closer(const Inset& inset) const;
     bool shares_cube(const Observer& inset, const Observer& first) const;
     StoredLight inset_light(const Observer& inset) const;
@@ -92,8 +94,8 @@ private:
     FrameState& state_;
     const ViewSet& views_;
     SeenStars& stars_;
-    bool inset_observed_ = false; ///< the last observer is the inset's
-    bool inset_eye_ = false; ///< the last eye is the inset's, because it can share no other cube map
+    std::size_t inset_observers_ = 0; ///< the last of `observers`
+    std::size_t inset_eyes_ = 0; ///< the last of `all`, of insets that can share no other cube map
     bool drawn_ = false; ///< the cube maps may be shown once more
     int shown_ = 0; ///< number of frames that have shown them
     PlanScratch scratch_;

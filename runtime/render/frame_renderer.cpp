@@ -19,7 +19,8 @@ void FrameRenderer::draw(
         draw_cubes(world);
         meter_.record(world);
         measurement_.draw_probes(world);
-        passes_.draw_inset(world);
+        for (const std::unique_ptr<Inset>& inset : views_.insets)
+            passes_.draw_inset(world, *inset);
     }
     for (std::size_t output = 0; output < targets.size(); ++output) {
         if (!targets[output].view)
@@ -42,8 +43,7 @@ void FrameRenderer::update(const Shot& shot, const Panel* hud)
     state_.all_light = counts_all_light_ || measurement_.overlay_on() || state_.range; // an overlay's lines follow surfaces
                                                                                        // in the dark too
     const double most_E = eyes_.observe();
-    if (views_.inset)
-        eyes_.observe_inset(*views_.inset);
+    eyes_.observe_insets(views_.insets);
     if (state_.pattern == Pattern::none)
         eyes_.plan(pre_exposure(most_E), measurement_.probe());
     const Trace::Span span(device_.trace, "upload");
@@ -130,8 +130,8 @@ template <class Undo> void FrameRenderer::apply_layout_or(bool rejects_empty, co
 double FrameRenderer::pre_exposure(double most_E) const
 {
     double least = pre_exposure(state_.shot, most_E, eyes_.light_of(views_.probed_view().eye));
-    if (views_.inset) {
-        const ViewState& view = views_.inset->view;
+    for (const std::unique_ptr<Inset>& inset : views_.insets) {
+        const ViewState& view = inset->view;
         const Observer& observer = eyes_.observer_of(view);
         least = std::min(least, pre_exposure(observer.shot, observer.most_E(), eyes_.light_of(view.eye)));
     }
@@ -197,19 +197,22 @@ void FrameRenderer::move_head(const Head& head)
     eyes_.move();
 }
 
-void FrameRenderer::show_inset(const Shot& shot, int width, double fov_deg)
+void FrameRenderer::show_inset(const Shot& shot, int width, double fov_deg, std::size_t which)
 {
-    if (!views_.inset || int(views_.inset->picture.extent.width) != width || views_.inset->fov_deg != fov_deg) {
-        drop_inset();
-        views_.inset = in_room([&] { return std::make_unique<Inset>(device_, pipelines_, width, fov_deg); });
-    }
-    views_.inset->shot = shot;
+    std::vector<std::unique_ptr<Inset>>& all = views_.insets;
+    if (which < all.size() && (int(all[which]->picture.extent.width) != width || all[which]->fov_deg != fov_deg))
+        drop_insets(which);
+    if (which == all.size())
+        all.push_back(in_room([&] { return std::make_unique<Inset>(device_, pipelines_, width, fov_deg); }));
+    all[which]->shot = shot;
 }
 
-void FrameRenderer::drop_inset()
+void FrameRenderer::drop_insets(std::size_t from)
 {
-    views_.inset.reset();
-    eyes_.forget_inset();
+    if (from < views_.insets.size())
+        views_.insets.resize(from);
+    if (from == 0)
+        eyes_.forget_insets();
 }
 
 void FrameRenderer::repeatable(bool on)

@@ -75,10 +75,12 @@ public:
     /// Lays callouts over all views, beside the head-up display, from the next frame on. They must last until it is drawn.
     void place(std::span<const Callout> callouts) { passes_.place(callouts); }
     /// Draws an inset of another shot of the same event as well, from the next frame on; not while a test pattern is
-    /// shown. width: pixels. The device must have finished the frame before. Throws NoRoom; then there is none.
-    void show_inset(const Shot& shot, int width, double fov_deg = inset_fov_deg);
-    void drop_inset(); ///< the device must have finished the frame before
-    const Image& inset_picture() const { return views_.inset->picture; } ///< of the last frame; only while there is one
+    /// shown. width: pixels. which: 0, or 1 for a second one. The device must have finished the frame before. Throws NoRoom;
+    /// then there is none.
+    void show_inset(const Shot& shot, int width, double fov_deg = inset_fov_deg, std::size_t which = 0);
+    void drop_insets(std::size_t from = 0); ///< all but the first `from`; the device must have finished the frame before
+    /// Of the last frame; only while there is one.
+    const Image& inset_picture(std::size_t which = 0) const { return views_.insets[which]->picture; }
     /// Sets the overlay of all views and the probes from the next frame on; none: at no cost. In a world whose depth is
     /// not kept, the first call takes as long as a change of the layout.
     void measure(const std::optional<Measuring>& what);

@@ -13,13 +13,22 @@ static_assert(sizeof(shared::OverlayConstants) <= stride);
 
 } // namespace
 
-OverlayPass::OverlayPass(const Device& device, Pipelines& pipelines, std::size_t views)
+OverlayPass::OverlayPass(
+    const Device& device, Pipelines& pipelines, std::size_t views, const std::vector<glm::vec4>& figures)
     : pipelines_(pipelines)
     , constants_(make_mapped_buffer(device, views * stride, vk::BufferUsageFlagBits::eUniformBuffer))
+    , has_figures_(!figures.empty())
 {
+    const std::vector<glm::vec4> nothing(1); // its descriptor is there all the same
+    const auto table = std::as_bytes(std::span(has_figures_ ? figures : nothing));
+    figures_ = make_mapped_buffer(device, table.size(), vk::BufferUsageFlagBits::eUniformTexelBuffer);
+    name_object(device, figures_, "overlay pass: figures");
+    copy_to(figures_, table);
+    figures_view_ = device.device.createBufferView({{}, *figures_.buffer, exact_format, 0, VK_WHOLE_SIZE});
     const std::uint32_t count = std::uint32_t(views);
-    const vk::DescriptorPoolSize size(vk::DescriptorType::eUniformBuffer, count);
-    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, size});
+    const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, count),
+        vk::DescriptorPoolSize(vk::DescriptorType::eUniformTexelBuffer, count)};
+    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, sizes});
     name_object(device, pool_, "overlay pass: descriptor pool");
     for (std::size_t i = 0; i < views; ++i) {
         name_object(device,
@@ -28,7 +37,10 @@ OverlayPass::OverlayPass(const Device& device, Pipelines& pipelines, std::size_t
             "overlay pass: descriptor set");
         const vk::DescriptorBufferInfo part(*constants_.buffer, i * stride, sizeof(shared::OverlayConstants));
         device.device.updateDescriptorSets(
-            vk::WriteDescriptorSet(*sets_.back(), 0, 0, vk::DescriptorType::eUniformBuffer, {}, part), {});
+            {vk::WriteDescriptorSet(*sets_.back(), 0, 0, vk::DescriptorType::eUniformBuffer, {}, part),
+                vk::WriteDescriptorSet(
+                    *sets_.back(), 1, 0, vk::DescriptorType::eUniformTexelBuffer, {}, {}, *figures_view_)},
+            {});
     }
 }
 
@@ -59,7 +71,7 @@ void OverlayPass::prepare(std::size_t view, const Content& content, const Measur
     copy_to(constants_, std::as_bytes(std::span(&c, 1)), view * stride);
 }
 
-void OverlayPass::draw(vk::CommandBuffer commands, std::size_t view, const WarpVariant& variant, Overlay overlay,
+void OverlayPass::draw(vk::CommandBuffer commands, std::size_t view, const WarpVariant& variant, const Content& content,
     vk::DescriptorSet warp_set, const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size, vk::Format target)
 {
     constexpr int kinds[] = {OVERLAY_NONE, OVERLAY_NONE, OVERLAY_GRID, OVERLAY_RING, OVERLAY_DISTANCE, OVERLAY_EMISSION};
@@ -69,12 +81,18 @@ void OverlayPass::draw(vk::CommandBuffer commands, std::size_t view, const WarpV
     own.doppler = own.headlight = own.stars = own.by_table = false;
     own.coefficients = {};
     set_area(commands, corner, size);
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.overlay(own, kinds[std::size_t(overlay)], target));
     commands.bindDescriptorSets(
         vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.overlay_layout, 0, {warp_set, *sets_[view]}, {});
     commands.pushConstants<shared::ViewPush>(
         *pipelines_.layouts.overlay_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
-    commands.draw(3, 1, 0, 0);
+    const auto lay = [&](int kind) {
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.overlay(own, kind, target));
+        commands.draw(3, 1, 0, 0);
+    };
+    if (content.figures && has_figures_)
+        lay(OVERLAY_FIGURES);
+    if (content.overlay != Overlay::off)
+        lay(kinds[std::size_t(content.overlay)]);
 }
 
 } // namespace starbow

@@ -46,7 +46,7 @@ PipelineLayouts::PipelineLayouts(const Device& device)
     star_set = make_set_layout(device, "star descriptor set layout", vk::ShaderStageFlagBits::eVertex,
         {Type::eUniformBufferDynamic, Type::eStorageBuffer, constants});
     picture_set = make_set_layout(device, "picture descriptor set layout", fragment, {picture, picture});
-    overlay_set = make_set_layout(device, "overlay descriptor set layout", fragment, {constants});
+    overlay_set = make_set_layout(device, "overlay descriptor set layout", fragment, {constants, Type::eUniformTexelBuffer});
     finish_set
         = make_set_layout(device, "finish descriptor set layout", fragment, {picture, picture, picture, picture, picture});
     surface_layout = make_layout(device, "surface pipeline layout", {*eye_set, *material_set},

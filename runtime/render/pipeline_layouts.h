@@ -18,7 +18,7 @@ struct PipelineLayouts {
     vk::raii::DescriptorSetLayout star_set = nullptr; ///< 0 constants, 1 stars, 2 black bodies
     vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel, label or cube
     vk::raii::DescriptorSetLayout finish_set = nullptr; ///< 0 left, 1 right picture, 2 weights, 3 black level, 4 table
-    vk::raii::DescriptorSetLayout overlay_set = nullptr; ///< 0 constants
+    vk::raii::DescriptorSetLayout overlay_set = nullptr; ///< 0 constants, 1 constellations
     vk::raii::PipelineLayout surface_layout = nullptr, warp_layout = nullptr, picture_layout = nullptr,
                              finish_layout = nullptr, star_layout = nullptr, ///< star_layout: warp_set, star_set
         overlay_layout = nullptr; ///< warp_set, overlay_set

@@ -38,8 +38,9 @@ void ViewDescriptors::write()
         write_range();
     for (ViewState& view : views_.all)
         write(view);
-    if (views_.inset && state_.pattern == Pattern::none)
-        write(views_.inset->view);
+    for (const std::unique_ptr<Inset>& inset : views_.insets)
+        if (state_.pattern == Pattern::none)
+            write(inset->view);
 }
 
 void ViewDescriptors::write(ViewState& view)

@@ -1,6 +1,8 @@
 #include "view_measurement.h"
 #include "debug.h"
 #include "runtime/hud/hud_place.h"
+#include "runtime/world/sky_names.h"
+#include "runtime/world/stars.h"
 #include <algorithm>
 #include <cmath>
 
@@ -49,13 +51,8 @@ void ViewMeasurement::prepare()
             measuring_observer_at(probed, of_one_eye ? eye_m - (probed.geometry().picture.eye_m - head_m) : eye_m),
             glm::transpose(rest_frame.motion_from_frame), glm::transpose(rest_frame.cube_from_frame)});
     }
-    if (what_.over.overlay != Overlay::off) {
-        if (!overlay_)
-            overlay_ = std::make_unique<OverlayPass>(device_, pipelines_, views_.all.size());
-        for (std::size_t i = 0; i < views_.all.size(); ++i)
-            overlay_->prepare(i, what_.over,
-                measuring_observer_at(views_.all[i], eyes_.all[views_.all[i].eye].now_m + views_.all[i].beside_m), world_);
-    }
+    if (what_.over.any())
+        prepare_overlay();
     const Panel* panel = what_.panel;
     if (!panel)
         return;
@@ -69,6 +66,28 @@ void ViewMeasurement::prepare()
         const PixelBox box = panel_box(*views_.all[i].compiled.cones, place.panel_from_cockpit, place.half);
         boxes_.push_back(rect_of(views_.all[i].geometry().corner + box.low, box.high - box.low));
     }
+}
+
+void ViewMeasurement::prepare_overlay()
+{
+    const bool figures_on = what_.over.figures && !figures().empty();
+    if (!overlay_ || (figures_on && !overlay_->has_figures()))
+        overlay_ = std::make_unique<OverlayPass>(
+            device_, pipelines_, views_.all.size(), figures_on ? figures() : std::vector<glm::vec4>());
+    for (std::size_t i = 0; i < views_.all.size(); ++i)
+        overlay_->prepare(i, what_.over,
+            measuring_observer_at(views_.all[i], eyes_.all[views_.all[i].eye].now_m + views_.all[i].beside_m), world_);
+}
+
+/// The table of the constellations' lines, which takes a few hundredths of a second once; empty where no file has them.
+const std::vector<glm::vec4>& ViewMeasurement::figures()
+{
+    if (!figures_) {
+        figures_.emplace();
+        if (const std::filesystem::path file = sky_names_of(world_.scene); !file.empty())
+            figures_ = figure_table(load_sky_names(file), world_from_equatorial(world_.scene.stars->ahead_deg));
+    }
+    return *figures_;
 }
 
 void ViewMeasurement::draw_probes(vk::CommandBuffer commands)
@@ -104,7 +123,7 @@ std::vector<Probed> ViewMeasurement::probed() const
 
 void ViewMeasurement::draw(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last)
 {
-    if (!on_ || state_.pattern != Pattern::none || (!what_.panel && what_.over.overlay == Overlay::off))
+    if (!on_ || state_.pattern != Pattern::none || (!what_.panel && !what_.over.any()))
         return;
     const Label label(device_, commands, "overlay");
     if (what_.panel)
@@ -113,9 +132,9 @@ void ViewMeasurement::draw(vk::CommandBuffer commands, std::size_t output, std::
         const ViewState& view = views_.all[i];
         const glm::ivec2 corner = view.geometry().corner, size = view.geometry().size;
         shared::ViewPush constants = constants_.exposed_push(view, 1);
-        if (what_.over.overlay != Overlay::off)
+        if (what_.over.any())
             overlay_->draw(
-                commands, i, constants_.variant(view), what_.over.overlay, *view.warp_set, constants, corner, size, target);
+                commands, i, constants_.variant(view), what_.over, *view.warp_set, constants, corner, size, target);
         if (what_.panel)
             panel_->draw(commands, i, view.compiled.map != nullptr,
                 constants_.push(view, panel_->place().panel_from_cockpit), corner, size, boxes_[i], what_.scale, target);

@@ -32,7 +32,7 @@ public:
     }
 
     void set(const std::optional<Measuring>& what);
-    bool overlay_on() const { return on_ && what_.over.overlay != Overlay::off; }
+    bool overlay_on() const { return on_ && what_.over.any(); }
     void reset(); ///< call it when the views have changed
     /// The probes of this frame, for the plan; null without any.
     const Probe* probe();
@@ -69,7 +69,11 @@ private:
     };
     std::vector<ProbeObserver> observers_{1}; ///< by probe; one without probes
     std::unique_ptr<Probe> probe_;
+    void prepare_overlay();
+    const std::vector<glm::vec4>& figures();
+
     std::unique_ptr<OverlayPass> overlay_;
+    std::optional<std::vector<glm::vec4>> figures_; ///< of the world's sky; none before their first use
     std::unique_ptr<PanelPass> panel_;
     std::vector<vk::Rect2D> boxes_; ///< the panel's box in each view
 };

@@ -49,8 +49,9 @@ void ViewPasses::prepare(const Panel* hud)
             view.shown_part = shown_part(view.compiled);
         }
     }
-    if (views_.inset && !pattern)
-        find_lit(views_.inset->view);
+    for (const std::unique_ptr<Inset>& inset : views_.insets)
+        if (!pattern)
+            find_lit(inset->view);
     prepare_callouts();
     hud_on_ = hud;
     if (!hud)
@@ -96,8 +97,8 @@ void ViewPasses::prepare_stars()
     glm::ivec2 size(1);
     for (const OutputState& output : views_.outputs)
         size = glm::max(size, output.size);
-    if (views_.inset)
-        size = glm::max(size, views_.inset->view.geometry().size);
+    for (const std::unique_ptr<Inset>& inset : views_.insets)
+        size = glm::max(size, inset->view.geometry().size);
     stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)}, state_.range.has_value());
     star_observers_.clear();
     for (const Observer& one : eyes_.observers)
@@ -175,13 +176,11 @@ void ViewPasses::draw_stars_of(vk::CommandBuffer commands, const ViewState& view
         eyes_.all[view.eye].stars);
 }
 
-void ViewPasses::draw_inset(vk::CommandBuffer commands)
+void ViewPasses::draw_inset(vk::CommandBuffer commands, const Inset& inset)
 {
-    if (!views_.inset)
-        return;
     const Label label(device_, commands, "inset");
-    const ViewState& view = views_.inset->view;
-    const Image& picture = views_.inset->picture;
+    const ViewState& view = inset.view;
+    const Image& picture = inset.picture;
     if (stars_.on()) {
         stars_.begin(commands, picture.extent);
         draw_stars_of(commands, view, state_.exposure_of(eyes_.observer_of(view).shot));

@@ -33,8 +33,8 @@ public:
     void fade_output(vk::CommandBuffer commands, const Target& target);
     /// The measured channels of one layer of an output's first canvas.
     void record_measured(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const MeasureTarget& target);
-    /// The inset, if there is one: stars and cube map, without glow.
-    void draw_inset(vk::CommandBuffer commands);
+    /// An inset: stars and cube map, without glow.
+    void draw_inset(vk::CommandBuffer commands, const Inset& inset);
     /// The stars alone, the first part of warp_layer. exposure: factor of their light.
     void draw_stars(
         vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas, std::optional<double> exposure);

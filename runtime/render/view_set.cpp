@@ -238,18 +238,42 @@ PanelPass::Place ViewSet::place_over_middle(const glm::dvec2& half) const
     return {moved(panel_from_cockpit(there, compiled_views()), {0, half.y}), half};
 }
 
-PanelPass::Place ViewSet::place_above(const glm::dvec3& towards, const glm::dvec2& half) const
+PanelPass::Place ViewSet::place_above(const glm::dvec3& towards, const glm::dvec2& half, double below) const
 {
     const HudPlacement there{.azimuth_deg = std::atan2(towards.x, -towards.z) / degree,
         .elevation_deg = std::asin(std::clamp(towards.y, -1.0, 1.0)) / degree};
-    return {moved(panel_from_cockpit(there, compiled_views()), {0, half.y}), half};
+    return {moved(panel_from_cockpit(there, compiled_views()), {0, half.y - below}), half};
 }
 
-PanelPass::Place ViewSet::place_beside_hud(const glm::dvec2& half, double off) const
+bool ViewSet::shows_whole(const PanelPass::Place& place) const
+{
+    return is_seen_whole(place.panel_from_cockpit, place.half, compiled_views());
+}
+
+PanelPass::Place ViewSet::place_beside_hud(const glm::dvec2& half, double off, double aside) const
 {
     const double gap = 0.02, up = hud_place.half.y + gap + half.y + off;
     const bool low = hud_.elevation_deg < 0;
-    return {moved(hud_place.panel_from_cockpit, {hud_place.half.x - half.x, low ? up : -up}), half};
+    return {moved(hud_place.panel_from_cockpit, {hud_place.half.x - half.x - aside, low ? up : -up}), half};
+}
+
+std::optional<PanelPass::Place> ViewSet::place_line(
+    const PanelPass::Place& from, const glm::dvec3& towards, double end_rad, double half_width)
+{
+    const glm::dvec3 end = from.panel_from_cockpit * towards;
+    if (end.z <= 0.01)
+        return {}; // more than a right angle away
+    const glm::dvec2 to = glm::dvec2(end) / end.z;
+    const glm::dvec2 parts = glm::abs(to) / from.half;
+    const double leaves = std::max(parts.x, parts.y); // of the panel at 1 / leaves of the way
+    if (leaves <= 1)
+        return {};
+    const glm::dvec2 begin = to / leaves, way = to - begin, along = glm::normalize(way);
+    const double length = glm::length(way) - std::tan(end_rad) * std::sqrt(1 + glm::dot(to, to));
+    if (length <= 0)
+        return {};
+    const glm::dmat3 turn(along.y, along.x, 0, -along.x, along.y, 0, 0, 0, 1); // x' across, y' along
+    return PanelPass::Place{turn * moved(from.panel_from_cockpit, begin + 0.5 * length * along), {half_width, 0.5 * length}};
 }
 
 PanelPass::Place ViewSet::lab_place(double aspect) const
@@ -323,7 +347,9 @@ vk::DeviceSize ViewSet::memory() const
         bytes += view.bloom ? view.bloom->memory() : 0;
     for (const OutputState& output : outputs)
         bytes += output.finish ? output.finish->memory() : 0;
-    return bytes + (inset ? inset->picture.bytes : 0);
+    for (const std::unique_ptr<Inset>& inset : insets)
+        bytes += inset->picture.bytes;
+    return bytes;
 }
 
 } // namespace starbow

@@ -79,14 +79,20 @@ public:
     /// The place of the instruments' panel, and the width in pixels that makes it sharp. aspect: height over width.
     PanelPass::Place lab_place(double aspect) const;
     int lab_panel_width(double aspect) const;
-    /// The place of a panel above a direction of the cockpit: the middle of its lower edge is there. half: its extent.
     /// Right above the middle of the picture, straight above the head-up display: where it is seen whole, so is a panel
     /// there that is no wider.
     PanelPass::Place place_over_middle(const glm::dvec2& half) const;
-    PanelPass::Place place_above(const glm::dvec3& towards, const glm::dvec2& half) const;
-    /// The place of a panel at the head-up display's right end, across from the picture's nearer edge. off: from the
-    /// display, on the panel's plane.
-    PanelPass::Place place_beside_hud(const glm::dvec2& half, double off) const;
+    /// The place of a panel at a direction of the cockpit, which is in the middle of its width and `below` above its lower
+    /// edge, on its plane. half: its extent.
+    PanelPass::Place place_above(const glm::dvec3& towards, const glm::dvec2& half, double below = 0) const;
+    bool shows_whole(const PanelPass::Place& place) const; ///< is_seen_whole()
+    /// The place of a panel at the head-up display's right end, across from the picture's nearer edge. off, aside: from
+    /// the display, and to the left from its end, on the panel's plane.
+    PanelPass::Place place_beside_hud(const glm::dvec2& half, double off, double aside = 0) const;
+    /// The place of a straight line from a panel's edge towards a direction of the cockpit, short of it by end_rad; nothing
+    /// where the panel covers the direction, or it is a right angle away. half_width: on the panel's plane.
+    static std::optional<PanelPass::Place> place_line(
+        const PanelPass::Place& from, const glm::dvec3& towards, double end_rad, double half_width);
     vk::DeviceSize memory() const;
 
     std::vector<ViewState> all;
@@ -94,7 +100,7 @@ public:
     std::vector<MapImage> maps;
     PanelPass::Place hud_place;
     MapStore store;
-    std::unique_ptr<Inset> inset; ///< null: no inset
+    std::vector<std::unique_ptr<Inset>> insets; ///< two at most
 
 private:
     std::optional<glm::dvec3> direction(const ViewState& view, std::size_t output, const glm::dvec2& pixel) const;

@@ -43,6 +43,8 @@ std::vector<WarmUp::State> states_of(bool combined)
             state.overlay = overlay;
             states.push_back(state);
         }
+        state.overlay = Overlay::off, state.figures = true;
+        states.push_back(state);
     };
     // Once an image has coarser levels, llvmpipe compiles anew what reads it: states without any come first.
     with_effects(fast);
@@ -157,7 +159,9 @@ bool WarmUp::step(const Panel* hud)
         frame_.range(state.range ? std::optional(RangeCurve()) : std::nullopt);
         frame_.vignette({}, state.fade);
         frame_.measure({}); // the device has finished the overlay before
-        if (state.overlay != Overlay::off)
+        if (state.figures)
+            frame_.measure(Measuring{.over = {.figures = true}});
+        else if (state.overlay != Overlay::off)
             frame_.measure(Measuring{.probes = {{glm::dvec3(0, 0, -1)}},
                 .over = {.overlay = state.overlay},
                 .panel = hud,

@@ -31,6 +31,7 @@ public:
         glm::dvec3 u{0}; ///< proper velocity, cockpit's axes
         Effects effects{};
         Overlay overlay = Overlay::off;
+        bool figures = false; ///< of the constellations
         Pattern pattern = Pattern::none;
         double fade = 0;
         bool range = false; ///< a curve shows everything at once

@@ -285,7 +285,7 @@ const std::map<std::string, Description>& descriptions()
                      [](const Spoken& s) { return s.always([](const Frame& f) { return columns(f) > 6; }); }},
                     {"at rest", [](const Spoken& s) { return s.always(rests); }},
                     {"from farther back", [](const Spoken& s) { return s.end().away(column) > s.first.away(column); }}}}},
-        {"first-minute.see-8", {"Dein eigener Flug", {}}},
+        {"first-minute.see-8", {"Ihr eigener Flug", {}}},
 
         {"street.see-0",
             {"Wir fahren langsam durch eine Straße",
@@ -425,7 +425,7 @@ const std::map<std::string, Description>& descriptions()
         {"voyage.see-12",
             {"Ein einziger Lichtpunkt im Dunkel",
                 {{"A single point of light", [](const Spoken& s) { return sky_deg(s.begin(), 0.95) < 1. / 12; }}}}},
-        {"voyage.see-13", {"Dein eigener Flug", {}}},
+        {"voyage.see-13", {"Ihr eigener Flug", {}}},
 
         {"solar-system.see-0",
             {"Die ganze Erde, größtenteils im Tageslicht",
@@ -511,7 +511,7 @@ const std::map<std::string, Description>& descriptions()
             {"Die Sonne, klein und gleißend, am schwarzen Himmel",
                 {{"The Sun, small",
                     [](const Spoken& s) { return s.end().sees(sun()) && s.end().ball_deg(sun(), sun_s) < 0.1; }}}}},
-        {"solar-system.see-8", {"Dein eigener Flug", {}}},
+        {"solar-system.see-8", {"Ihr eigener Flug", {}}},
 
         {"rainbow.see-0",
             {"Ein Balken aus blauem Licht zieht sich von ganz links nach ganz rechts",
@@ -599,7 +599,7 @@ const std::map<std::string, Description>& descriptions()
                     [](const Spoken& s) {
                         return colours(s.begin()).size() >= 3 && colours(s.end()) == std::vector<std::string>{"blue"};
                     }}}}},
-        {"rainbow.see-10", {"Dein eigener Flug", {}}},
+        {"rainbow.see-10", {"Ihr eigener Flug", {}}},
 
         {"simultaneity.see-0",
             {"Fünf große Uhren stehen in einer Reihe",
@@ -690,7 +690,7 @@ const std::map<std::string, Description>& descriptions()
                                     return false;
                             return true;
                         }}}}},
-        {"simultaneity.see-7", {"Dein eigener Flug", {}}},
+        {"simultaneity.see-7", {"Ihr eigener Flug", {}}},
 
         {"twins.see-0",
             {"Zwei kleine Schiffe nebeneinander, jedes mit einer Uhr. Vorn hängen Ringe in einer Reihe, der letzte golden; "
@@ -815,7 +815,7 @@ const std::map<std::string, Description>& descriptions()
                     [](const Spoken& s) { return s.always([](const Frame& f) {
                                               return f.left({1.3, 0, 0}) < 0;
                                           }); }}}}},
-        {"twins.see-14", {"Dein eigener Flug", {}}},
+        {"twins.see-14", {"Ihr eigener Flug", {}}},
     };
     return all;
 }

@@ -48,7 +48,9 @@ TEST(ChoicesTest, SwitchesLeadThroughAllValuesAndBack)
     EXPECT_LT(pictures, 100);
     apply(choices, Switches{Switch::range});
     EXPECT_TRUE(choices.range);
-    apply(choices, Switches{Switch::range, Switch::doppler});
+    apply(choices, Switches{Switch::sky_names});
+    EXPECT_TRUE(choices.sky_names);
+    apply(choices, Switches{Switch::range, Switch::doppler, Switch::sky_names});
     EXPECT_EQ(choices, Choices());
 }
 

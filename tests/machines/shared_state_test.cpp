@@ -48,6 +48,8 @@ SharedState full()
     shown.caption = Caption{"Wohin zuerst?", {"Sonne", "Mond"}, 1, 0, "noch 5 s", true, true};
     shown.notice = "kein Kopf", shown.information = Information::visitor;
     now.title = "Was sehen Sie nahe der Lichtgeschwindigkeit?";
+    now.highlights = {{"Uhr zu Hause", {0, 0.6, -0.8}, 0.1, 8}, {"Erde", {0, 0, -1}, 0, 0}};
+    now.figures = true, now.sky_labels = {{"Großer Bär", {0, 0.6, -0.8}}};
     now.sign = {{"hinter Ihnen", "3 s alt"}, {0, 0.6, 0.8}};
     now.inset = {InsetView::telescope, -1, 1.5, "Fernrohr 1,5°"};
     Instruments& on = now.instruments.emplace();
@@ -84,6 +86,14 @@ TEST(InstantBytesTest, EveryPartComesBack)
     EXPECT_EQ(a.hud->readings.lever, b.hud->readings.lever);
     EXPECT_EQ(a.hud->readings.mode, b.hud->readings.mode);
     EXPECT_EQ(a.title, b.title);
+    ASSERT_EQ(a.highlights.size(), b.highlights.size());
+    EXPECT_EQ(a.highlights[0].name, b.highlights[0].name);
+    EXPECT_EQ(a.highlights[0].towards, b.highlights[0].towards);
+    EXPECT_EQ(a.highlights[0].enlarged_deg, b.highlights[0].enlarged_deg);
+    EXPECT_TRUE(b.figures);
+    ASSERT_EQ(b.sky_labels.size(), 1u);
+    EXPECT_EQ(a.sky_labels[0].name, b.sky_labels[0].name);
+    EXPECT_EQ(a.sky_labels[0].towards, b.sky_labels[0].towards);
     EXPECT_EQ(a.sign->lines, b.sign->lines);
     EXPECT_EQ(a.inset->name, b.inset->name);
     EXPECT_EQ(a.instruments->marks[0]->clock, b.instruments->marks[0]->clock);
@@ -189,6 +199,20 @@ TEST(InstantBytesTest, PartsThatDoNotSuitEachOtherAreRefused)
                 now.sign->towards = {0, 0, 0};
             }},
         {"too long a title", [](auto&, PictureState& now) { now.title = std::string(300, 'W'); }},
+        {"two highlights", [](auto&, PictureState& now) { now.highlights.resize(3); }},
+        {"highlight in a direction",
+            [](auto&, PictureState& now) {
+                now.highlights[0].towards = {0, 0, 2};
+            }},
+        {"highlight's radius", [](auto&, PictureState& now) { now.highlights[0].radius = 3; }},
+        {"highlight's field", [](auto&, PictureState& now) { now.highlights[0].enlarged_deg = -1; }},
+        {"highlight with too long a name", [](auto&, PictureState& now) { now.highlights[1].name = std::string(300, 'W'); }},
+        {"too many names of the sky", [](auto&, PictureState& now) { now.sky_labels.resize(29); }},
+        {"too long a name of the sky", [](auto&, PictureState& now) { now.sky_labels[0].name = std::string(300, 'W'); }},
+        {"name in a direction",
+            [](auto&, PictureState& now) {
+                now.sky_labels[0].towards = {0, 0, 2};
+            }},
         {"too long a line", [](auto&, PictureState& now) { now.sign->lines[0] = std::string(300, 'W'); }},
         {"too many lines", [](auto&, PictureState& now) { now.sign->lines.resize(20); }},
         {"inset of nothing", [](auto&, PictureState& now) { now.inset->kind = InsetView::none; }},

@@ -1,6 +1,7 @@
 // Callouts over the views: an inset shows its own shot pixel for pixel, a sign's arrow ends at the thing, and
 // nothing else changes.
 #include "config/model/inset_view.h"
+#include "runtime/hud/highlights.h"
 #include "runtime/hud/signs.h"
 #include "tests/support/gpu_environment.h"
 
@@ -53,7 +54,7 @@ TEST(Callouts, TheSmallPictureIsShownAsItIs)
     EXPECT_LT(mean, 1); // texels lie elsewhere
     EXPECT_GT(changed(bare, shown, size).size(), size.x * size.y / 20u);
     whole.frame().place({});
-    whole.frame().drop_inset();
+    whole.frame().drop_insets();
     whole.frame().repeatable(true);
     const Bytes alone = whole.picture(moving)[0];
     OffscreenRenderer fresh = renderer(avenue().world, one_view(Planar{inset_fov_deg}, size), false);
@@ -121,6 +122,62 @@ TEST(Callouts, TheArrowEndsAtItsDirection)
         }
         EXPECT_TRUE(changed(bare, whole.picture(in_flight())[0], of).empty());
     }
+}
+
+TEST(Callouts, TheRingIsAroundItsDirection)
+{
+    const Typesetter typesetter;
+    const double degree_px = 8, ring_deg = 4;
+    for (const auto& [projection, of] :
+        {std::pair<Projection, ivec2>{Planar{60}, {640, 480}}, {Fisheye{180, 30}, {512, 512}}}) {
+        OffscreenRenderer whole = renderer(avenue().world, one_view(projection, of), false);
+        const Bytes bare = whole.picture(in_flight())[0];
+        const Panel panel = draw_ring(typesetter, "Wega", ring_deg * degree_px, degree_px);
+        for (const dvec3& towards : {dvec3(0, 0, -1), dvec3(0.3, 0.05, -1), dvec3(-0.25, -0.1, -1)}) {
+            const double scale = std::tan(glm::radians(1.0)) / degree_px;
+            const Callout callout{.letters = &panel,
+                .place = whole.frame().views().place_above(glm::normalize(towards), 0.5 * dvec2(panel.size) * scale,
+                    ring_middle_px(ring_deg * degree_px, degree_px) * scale)};
+            whole.frame().place({&callout, 1});
+            dvec3 sum(0);
+            for (const ivec2& pixel : changed(bare, whole.picture(in_flight())[0], of)) {
+                const auto direction = whole.frame().views().direction(0, dvec2(pixel) + 0.5);
+                ASSERT_TRUE(direction);
+                const double off = glm::degrees(between(*direction, towards));
+                EXPECT_GT(off, 3.3) << "the thing stays free";
+                if (off < 4.6) // the name begins higher
+                    sum += *direction;
+            }
+            EXPECT_LT(glm::degrees(between(sum, towards)), 0.3); // on a flat screen the ring lies in its plane
+            whole.frame().place({});
+        }
+    }
+}
+
+TEST(Callouts, TheLineEndsAtTheRing)
+{
+    const PanelPass::Place from{glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, -1), {0.1, 0.075}}; // before the eye, facing it
+    const Panel line = draw_line(16);
+    OffscreenRenderer whole = renderer(avenue().world, one_view(Planar{60}, {640, 480}), false);
+    const Bytes bare = whole.picture(in_flight())[0];
+    for (const dvec3& towards : {dvec3(0.4, 0.2, -1), dvec3(-0.3, 0.3, -1), dvec3(0.02, -0.4, -1)}) {
+        const double end = glm::radians(3.0);
+        const auto place = ViewSet::place_line(from, glm::normalize(towards), end, 0.004);
+        ASSERT_TRUE(place);
+        const Callout callout{.letters = &line, .place = *place};
+        whole.frame().place({&callout, 1});
+        double nearest = 1e9;
+        for (const ivec2& pixel : changed(bare, whole.picture(in_flight())[0], {640, 480})) {
+            const dvec3 seen = *whole.frame().views().direction(0, dvec2(pixel) + 0.5);
+            const dvec2 at = dvec2(seen) / -seen.z, to = dvec2(towards) / -towards.z;
+            EXPECT_LT(std::abs(at.x * to.y - at.y * to.x) / glm::length(to), 0.007) << "on the straight line";
+            EXPECT_TRUE(std::abs(at.x) > 0.095 || std::abs(at.y) > 0.07) << "it begins at the panel's edge";
+            nearest = std::min(nearest, glm::degrees(between(seen, towards)));
+        }
+        EXPECT_NEAR(nearest, 3, 0.4);
+    }
+    EXPECT_FALSE(ViewSet::place_line(from, glm::normalize(dvec3(0.05, 0.02, -1)), 0.01, 0.004)) << "behind the panel";
+    EXPECT_FALSE(ViewSet::place_line(from, {0, 0, 1}, 0.01, 0.004)) << "behind the eye";
 }
 
 } // namespace starbow::gpu_test::callouts_gpu_test

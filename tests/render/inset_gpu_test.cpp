@@ -15,9 +15,9 @@ constexpr std::array kinds = {InsetView::at_rest, InsetView::aberration, InsetVi
 constexpr int width = 160;
 constexpr ivec2 size(width, int(width* Inset::aspect));
 
-Bytes inset_of(OffscreenRenderer& whole)
+Bytes inset_of(OffscreenRenderer& whole, std::size_t which = 0)
 {
-    const Image& picture = whole.frame().inset_picture();
+    const Image& picture = whole.frame().inset_picture(which);
     using Stage = vk::PipelineStageFlagBits2;
     using Access = vk::AccessFlagBits2;
     device().now([&](vk::CommandBuffer commands) {
@@ -98,7 +98,7 @@ void compare(const GpuWorld& world, const Layout& layout, const Shot& ship, cons
         // Under a limit of texels, the few beyond the large picture's edge move all others by a part of a texel.
         for (std::size_t output = 0; output < bare.size(); ++output)
             EXPECT_LT(steps(bare[output], with[output]).mean, shared && layout.file.stem() != "desk" ? 1 : 1e-9);
-        whole.frame().drop_inset();
+        whole.frame().drop_insets();
         EXPECT_EQ(whole.picture(ship), bare);
     }
 }
@@ -232,6 +232,35 @@ TEST(InsetGpuTest, TheTelescopeIsSharpAndTheLargePictureStays)
             EXPECT_LT(off.mean, (gamma > 50 ? 2.5 : 1.5) * apart.mean);
             EXPECT_LT(steps(bare, with).mean, 1);
         }
+}
+
+// Two that are compared: each is the picture that it would be alone, and the first may stay when the second goes.
+TEST(InsetGpuTest, TwoInsetsAreTheSameAsEachAlone)
+{
+    const Layout layout = small_shipped_layout("desk", 400);
+    const Shot ship = flying(2, true, 0);
+    const Shot left = looking(ship, glm::normalize(dvec3(-0.3, 0.02, -1))),
+               right = looking(ship, glm::normalize(dvec3(0.2, 0, -1)));
+    OffscreenRenderer whole(device(), pipelines(), avenue().world, layout, test_quality(), false);
+    whole.frame().repeatable(true);
+    const auto alone = [&](const Shot& shot, double fov_deg) {
+        whole.frame().drop_insets();
+        whole.frame().show_inset(shot, width, fov_deg);
+        whole.picture(ship);
+        return inset_of(whole, 0);
+    };
+    const Bytes first = alone(left, 10), second = alone(right, 15);
+    whole.frame().drop_insets();
+    whole.frame().show_inset(left, width, 10, 0);
+    whole.frame().show_inset(right, width, 15, 1);
+    whole.picture(ship);
+    // The plan of the common cube map serves both, so that a texel may lie elsewhere.
+    EXPECT_LT(steps(inset_of(whole, 0), first).mean, 1.5);
+    EXPECT_LT(steps(inset_of(whole, 1), second).mean, 1.5);
+    EXPECT_GT(steps(first, second).mean, 4) << "they are two pictures";
+    whole.frame().drop_insets(1);
+    whole.picture(ship);
+    EXPECT_LT(steps(inset_of(whole, 0), first).mean, 1.5);
 }
 
 } // namespace starbow::gpu_test::inset_gpu_test

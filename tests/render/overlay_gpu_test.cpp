@@ -4,6 +4,8 @@
 #include "runtime/exhibit/still_measurement.h"
 #include "runtime/hud/lab_panel.h"
 #include "runtime/world/detail.h"
+#include "runtime/world/sky_names.h"
+#include "runtime/world/stars.h"
 #include "tests/support/layouts.h"
 #include "tests/support/quad.h"
 #include "tests/support/small_world.h"
@@ -453,6 +455,76 @@ TEST(Overlay, AnOverlayThatIsOffDrawsNothing)
     EXPECT_EQ(picture(offscreen, shot, Overlay::off).rgba, plain);
     EXPECT_NE(picture(offscreen, shot, Overlay::aim).rgba, plain);
     EXPECT_EQ(offscreen.picture(shot)[0], plain);
+}
+
+/// A sky with so few and so faint stars that none is seen, and a square that hides a part of it.
+GpuWorld constellations_world()
+{
+    Doc doc;
+    quad(doc, {2, 1, -8}, {3, 0, 0}, {0, 3, 0}, unlit(doc, {0.2, 0.2, 0.2}));
+    const auto folder = testing::source_dir() / "scenes/stars";
+    return open_world("constellations", doc,
+        {{"stars",
+            {{"catalogue", absolute(folder / "stars.txt").string()}, {"brightness_arcmin2", 1e-6},
+                {"ahead_deg", {84, -5}}}}});
+}
+
+// By all lines tried one by one, in the world's directions that the picture itself writes.
+TEST(Overlay, ConstellationsAreLinesFromStarToStarBehindEverything)
+{
+    const GpuWorld world = constellations_world();
+    const glm::dmat3 turn = world_from_equatorial({84, -5});
+    std::vector<std::pair<dvec3, dvec3>> lines;
+    for (const Constellation& one : load_sky_names(sky_names_of(world.scene)).constellations)
+        for (const auto& line : one.lines)
+            for (std::size_t i = 0; i + 1 < line.size(); ++i)
+                lines.emplace_back(turn * line[i], turn * line[i + 1]);
+    const auto from_lines = [&](const dvec3& n, double& from_end) {
+        double least = 9;
+        for (const auto& [a, b] : lines) {
+            const dvec3 axis = glm::normalize(glm::cross(a, b));
+            if (glm::dot(glm::cross(axis, a), n) < 0 || glm::dot(glm::cross(b, axis), n) < 0)
+                continue;
+            const double off = std::asin(std::abs(glm::dot(axis, n)));
+            if (off < least)
+                least = off, from_end = std::min(between(n, a), between(n, b));
+        }
+        return least;
+    };
+    for (const Layout& layout : {window({400, 300}), dome({400, 400})})
+        for (const double u : {0.0, 1.5}) {
+            OffscreenRenderer offscreen = renderer(world, layout);
+            const Shot shot = shot_at({0, 0, 0}, {0, 0, -u});
+            const Numbers numbers(offscreen, shot);
+            const std::vector<std::uint8_t> bare = offscreen.picture(shot)[0];
+            offscreen.frame().measure(Measuring{.over = {.figures = true}});
+            const std::vector<std::uint8_t> with = offscreen.picture(shot)[0];
+            int on = 0, drawn_on = 0, drawn = 0, drawn_off = 0, hidden = 0;
+            for (int i = 0; i < numbers.count(); ++i) {
+                const int x = i % numbers.size.x;
+                if (!numbers.shown(i) || x + 1 == numbers.size.x || !numbers.shown(i + 1))
+                    continue;
+                const int step = int(with[4 * i + 2]) - int(bare[4 * i + 2]);
+                const double footprint = between(numbers.camera(i), numbers.camera(i + 1)) * numbers.D(i);
+                double from_end = 0;
+                const double off = from_lines(numbers.world(i), from_end) / footprint;
+                const bool sky = !std::isfinite(numbers.depth(i)) || numbers.depth(i) > 1e6;
+                drawn += step > 20, drawn_off += step > 20 && off > 2.5;
+                hidden += !sky && off < 0.3;
+                EXPECT_FALSE(!sky && step != 0) << "before what hides the sky";
+                if (sky && off < 0.3 && from_end > std::max(1.2 * degree, 5 * footprint))
+                    ++on, drawn_on += step > 60;
+            }
+            EXPECT_GT(on, 100);
+            EXPECT_GT(drawn_on, 0.97 * on) << u;
+            EXPECT_GT(drawn, 300);
+            EXPECT_EQ(drawn_off, 0) << u;
+            if (u == 0) {
+                EXPECT_GT(hidden, 5) << "the square hides some";
+            }
+            offscreen.frame().measure({});
+            EXPECT_EQ(offscreen.picture(shot)[0], bare);
+        }
 }
 
 } // namespace

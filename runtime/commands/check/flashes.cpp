@@ -150,7 +150,7 @@ struct Film {
 
 /// Draws all frames and hands them on. Returns false where it was interrupted.
 using Draw
-    = std::function<bool(OffscreenRenderer&, const SceneFile&, const std::function<void(std::int64_t, const Pictures&)>&)>;
+    = std::function<bool(OffscreenRenderer&, const GpuWorld&, const std::function<void(std::int64_t, const Pictures&)>&)>;
 
 int measure(const FlashOptions& options, const Film& film, const Draw& draw)
 {
@@ -164,7 +164,7 @@ int measure(const FlashOptions& options, const Film& film, const Draw& draw)
     RenderContext context(film.scene, device_options(false));
     OffscreenRenderer renderer(context.device, context.pipelines, context.world, film.layout,
         mean_of_pixels(default_quality(context.device, true)), false);
-    const bool whole = draw(renderer, context.world.scene, [&](std::int64_t time_ns, const Pictures& pictures) {
+    const bool whole = draw(renderer, context.world, [&](std::int64_t time_ns, const Pictures& pictures) {
         for (Watcher& watcher : watchers)
             watcher.take(time_ns, pictures);
     });
@@ -205,10 +205,12 @@ int measure_tour(const FlashOptions& options)
     const Film film{tour.file.stem().string(), scene_of(tour),
         seen_layout(
             load_layout(shipped_file("layouts", options.layout.empty() ? "desk" : options.layout)), pixel_deg * degree)};
-    const Show show{tour, {}, open_scene(film.scene).seconds_per_time_unit(), false};
-    return measure(options, film, [&](OffscreenRenderer& renderer, const SceneFile& scene, const auto& take) {
+    const SceneFile scene = open_scene(film.scene);
+    check_highlights(tour, scene);
+    const Show show{tour, {}, scene.seconds_per_time_unit(), false};
+    return measure(options, film, [&](OffscreenRenderer& renderer, const GpuWorld& world, const auto& take) {
         TourFilm frames(show, frames_per_s);
-        TourRenderer pictures(renderer, show, scene, words);
+        TourRenderer pictures(renderer, show, world, words);
         if (options.mode == "range")
             pictures.range(1.0 / double(frames_per_s));
         Progress progress;
@@ -229,7 +231,7 @@ int measure_record(const FlashOptions& options)
     const Film film{
         std::filesystem::path(options.film).stem().string(), from.scene, seen_layout(from.layout, pixel_deg * degree)};
     const Words words = words_in("en");
-    return measure(options, film, [&](OffscreenRenderer& renderer, const SceneFile& scene, const auto& take) {
+    return measure(options, film, [&](OffscreenRenderer& renderer, const GpuWorld& world, const auto& take) {
         ReplayRenderer pictures(
             renderer, pattern_named(header.pattern), header.exposing, header.start.exposure_ev, words, header.rules.comfort);
         const Typesetter typesetter;
@@ -242,7 +244,7 @@ int measure_record(const FlashOptions& options)
             progress.show("frame " + std::to_string(frame++), replay.part_read());
             std::optional<Panel> panel;
             if (flight.hud)
-                panel = typesetter.draw(readings(flight, scene), words, renderer.frame().views().hud_width());
+                panel = typesetter.draw(readings(flight, world.scene), words, renderer.frame().views().hud_width());
             take(entry.controls.time_ns, pictures.picture(flight, header.start.scene, panel ? &*panel : nullptr));
             return !interrupted();
         });

@@ -11,6 +11,8 @@
 #include "runtime/commands/options/spectra.h"
 #include "runtime/commands/options/still_shot.h"
 #include "runtime/commands/tools.h"
+#include "runtime/exhibit/callouts.h"
+#include "runtime/exhibit/picture_setup.h"
 #include "runtime/exhibit/still_measurement.h"
 #include "runtime/render/offscreen.h"
 #include "runtime/render/render_context.h"
@@ -30,7 +32,7 @@ struct RenderOptions {
     long frames_per_s = 30;
     long every = 1, samples = 16;
     double bloom = 0;
-    bool exr = false, hud = false, reference = false, join = false;
+    bool exr = false, hud = false, sky_names = false, reference = false, join = false;
 };
 
 std::vector<std::string> reference_arguments(const RenderOptions& options)
@@ -114,6 +116,13 @@ int render(const RenderOptions& options)
         show_on(information_named(options.information), shown.world_s, shown); // the shot is the start
         panel = Typesetter().draw(shown, words, renderer.frame().views().hud_width());
     }
+    PictureSetup names;
+    if (options.sky_names) {
+        PictureState now{.shot = shot, .range = curve, .bloom = options.bloom};
+        if (const std::filesystem::path file = sky_names_of(context.world.scene); !file.empty())
+            name_sky(load_sky_names(file), context.world, options.language, now);
+        names.set_up(now, words, renderer.frame());
+    }
     render_still(options.out, renderer, shot, options.exr, panel ? &*panel : nullptr);
     std::printf("%s\n", describe_light(context).c_str());
     for (const std::string& line : measurement.lines)
@@ -163,6 +172,8 @@ static void add_render(Subcommand& app, std::function<int()>& chosen)
     Option* spectra = add_spectra(*command, options->spectra);
     Option* quality = command->add_option("--quality", options->quality, quality_help + std::string(" [fine]"));
     Option* points = command->add_option("--measure", options->points, measure_help);
+    Option* names = command->add_flag("--sky-names", options->sky_names,
+        "With the names of constellations, bright stars and planets, and the constellations' lines");
     Option* overlay = command
                           ->add_option("--overlay", options->overlay,
                               "With instruments over the picture, and their readings: off, "
@@ -175,6 +186,8 @@ static void add_render(Subcommand& app, std::function<int()>& chosen)
                           "dilation or length")
                       ->check(one_of(std::vector<std::string>(why_names.begin(), why_names.end())))
                       ->capture_default_str();
+    for (Option* other : {pattern, points, overlay, why})
+        names->excludes(other);
     Option* hud = command->add_flag("--hud", options->hud, "With the head-up display");
     const std::vector<std::string_view> displays = names_of(informations);
     command->add_option("--information", options->information, "The head-up display for a visitor, guide or laboratory")
@@ -184,7 +197,7 @@ static void add_render(Subcommand& app, std::function<int()>& chosen)
     add_language(*command, options->language);
     Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
-    for (Option* other : {shot, scene, exr, pattern, points, overlay, why, mode}) // a record has its own mode
+    for (Option* other : {shot, scene, exr, pattern, points, names, overlay, why, mode}) // a record has its own mode
         replay->excludes(other);
     Option* frames
         = command->add_option("--frames", options->frames, "With --replay: the frames from A to B, counted from 0, as A:B")
@@ -216,11 +229,11 @@ static void add_render(Subcommand& app, std::function<int()>& chosen)
     command->add_option("--others", options->others, "With --join: folders of frames from other machines' disks")
         ->needs(join);
     tour->needs(movie);
-    for (Option* other : {shot, scene, out, exr, pattern, replay, points, overlay, why, mode})
+    for (Option* other : {shot, scene, out, exr, pattern, replay, points, names, overlay, why, mode})
         tour->excludes(other);
     Option* reference = command->add_flag("--reference", options->reference,
         "Trace rays in double precision and with whole spectra, without a GPU: slow, the reference for the other pictures");
-    for (Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, overlay, why, mode})
+    for (Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, names, overlay, why, mode})
         reference->excludes(other);
     command->add_option("--samples", options->samples, "With --reference: rays of each pixel")
         ->check(whole_number(1, 4096))
@@ -236,6 +249,7 @@ static void add_render(Subcommand& app, std::function<int()>& chosen)
         "  starbow render --tour first-minute --movie out/first-minute.mp4 --fps 30 --size 1280x720 --language de\n"
         "  starbow render --tour voyage --movie out/voyage.mp4 --part 3/8\n"
         "  starbow render --tour voyage --movie out/voyage.mp4 --join\n"
+        "  starbow render --shot orion --out out/orion --sky-names --language de\n"
         "  starbow render --shot clocks-passing --out out/clocks --measure \"400,300; 12deg,0deg\" --overlay ring");
     command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
 }

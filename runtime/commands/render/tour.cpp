@@ -20,6 +20,16 @@ std::string text_of(const Caption& caption)
     return all;
 }
 
+/// A highlight, as text.
+std::string text_of(const Highlight& highlight)
+{
+    std::string all
+        = highlight.name + '\n' + highlight.body + '\n' + highlight.globe + (highlight.enlarged ? "\nenlarged" : "\n");
+    for (const double number : {highlight.at.x, highlight.at.y, highlight.at.z, highlight.across})
+        all += ' ' + std::to_string(number);
+    return all;
+}
+
 /// A digest of the states and texts of all frames: where it is equal, so are they.
 std::uint64_t digest_of_frames(const Show& show, long frames_per_s, const Words& words)
 {
@@ -30,6 +40,9 @@ std::uint64_t digest_of_frames(const Show& show, long frames_per_s, const Words&
         const std::uint64_t flight = digest(touring.flight);
         shown = digest({reinterpret_cast<const char*>(&flight), sizeof flight}, shown);
         shown = digest(text_of(caption_of(touring, show, words, {})), shown);
+        shown = digest(title_of(touring, show), shown);
+        for (const Highlight& highlight : show.tour.steps[touring.step()].highlights)
+            shown = digest(text_of(highlight), shown);
     }
     return shown;
 }
@@ -43,9 +56,11 @@ int render_tour(const TourOptions& options)
     const Words words = words_in(options.language);
     const Tour tour = tour_in(options.tour, words);
     const std::filesystem::path scene = scene_of(tour);
+    const SceneFile opened = open_scene(scene);
+    check_highlights(tour, opened);
     const Layout layout = layout_in_size(options.layout, options.size);
     check_film(options.film, layout);
-    const Show show{tour, {}, open_scene(scene).seconds_per_time_unit(), false};
+    const Show show{tour, {}, opened.seconds_per_time_unit(), false};
     TourFilm states(show, options.film.frames_per_s);
     const auto film_on = [&](const std::string& device) {
         return Filming(options.film, layout, scene, words, states.frames(), device,
@@ -60,8 +75,8 @@ int render_tour(const TourOptions& options)
 
     OffscreenRenderer renderer(
         context.device, context.pipelines, context.world, layout, default_quality(context.device, true), false);
-    renderer.frame().bloom(options.bloom);
-    TourRenderer tour_renderer(renderer, show, context.world.scene, words);
+    TourRenderer tour_renderer(renderer, show, context.world, words);
+    tour_renderer.bloom(options.bloom);
     for (long i = 0; i < states.frames(); ++i)
         if (!film.take([&] { return tour_renderer.picture(states.at(i)); }))
             break;
