@@ -1,6 +1,7 @@
 // Globes: the Sun, planets and moons, spheroids whose light each output pixel finds by itself along its own ray. They lie before
 // the cube map's sky. Needs received_light.glsl's constants; docs/physics/solar-system.md has the formulas and their sources.
 #include "panorama.glsl"
+#include "physics/detail.glsl"
 #include "physics/eclipse.glsl"
 
 #include "constants.h"
@@ -70,7 +71,11 @@ GlobeRay globe_ray(GlobeEntry g, vec3 n, float angle)
     ray.pixel = max(angle * ray.ahead, 1e-12);
     return ray;
 }
-float covered(GlobeRay ray) { return ray.ahead > 0.0 ? clamp(0.5 + (1.0 - sqrt(ray.square)) / ray.pixel, 0.0, 1.0) : 0.0; }
+// radius: where its edge is taken to be, radii.
+float covered(GlobeRay ray, float radius)
+{
+    return ray.ahead > 0.0 ? clamp(0.5 + (radius - sqrt(ray.square)) / ray.pixel, 0.0, 1.0) : 0.0;
+}
 
 // The part of a globe's light that is shown as a star's. radius: its radius in the picture, pixels.
 float point_part(float radius) { return 1.0 - smoothstep(0.8, 1.6, radius); }
@@ -130,14 +135,39 @@ float left_by_other(GlobeEntry g, vec3 at)
     return left_of_sun(g.shade.w / (distance * g.ring.w), length(to / distance - sun) / g.ring.w);
 }
 
+// The ground of a globe with air, and what is above it.
+struct Ground {
+    vec3 kinds; // the parts of land
+    float water, cloud, lamps, wind; // wind: m/s
+    float land_sun, cloud_sun; // the part of sunlight that slopes catch
+};
+// The maps' parts at a normal, and where they are coarser than a pixel their detail. octaves: of detail that a pixel shows; with
+// none, all is as the maps have it.
+Ground detailed(GlobeEntry g, vec3 normal, vec4 map, vec2 sky, float octaves)
+{
+    float cells = g.map.y / 3.14159265, cosine = dot(normal, g.light.xyz);
+    Detail detail = detail_at(normal * cells, g.light.xyz - normal * cosine, octaves);
+    Ground here;
+    here.cloud = detail_cover(sky.r, detail.value.x, detail.variance);
+    here.water = detail_cover(map.a, detail.value.y, detail.variance);
+    float light = max(1.0 + GLOBE_LAND_CONTRAST * detail.value.y, 0.2);
+    here.kinds = map.rgb * ((1.0 - here.water) / max(1.0 - map.a, 1e-3) * light);
+    here.wind = 7.0 * clamp(1.0 + GLOBE_WIND_CONTRAST * detail.value.y, 0.2, 1.8);
+    here.lamps = sky.g * sky.g * detail_spots(detail.value.y, detail.variance, GLOBE_LAMP_CONTRAST);
+    here.land_sun = max(cosine - detail_slope(detail.slope.y, GLOBE_LAND_RELIEF * cells), 0.0);
+    here.cloud_sun = max(cosine - detail_slope(detail.slope.x, GLOBE_CLOUD_RELIEF * cells), 0.0);
+    return here;
+}
+
 // Light, before the headlight effect. light: behind the globe on entry, with it on return. n: unit direction in
 // the world, the cube map's axes; angle: of a ray there. disc: the part of its light that is no star's.
 void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column, inout vec3 light)
 {
     GlobeRay ray = globe_ray(g, n, angle);
-    // Edges as soft as a pixel make a small disc too large, by a twelfth of a square pixel.
+    // Edges as soft as a pixel make a small disc too large, by a twelfth of a square pixel. Within them it must cover all: behind it may
+    // be the Sun.
     float pixels = g.shape.z / angle;
-    float cover = covered(ray) * disc / (1.0 + 1.0 / max(12.0 * pixels * pixels, 1.0));
+    float cover = covered(ray, sqrt(1.0 - 1.0 / max(12.0 * pixels * pixels, 1.5))) * disc;
     vec3 own = vec3(1.0, 1.0, g.shape.y); // from the scaled axes to those of one unit
     vec3 sun_scaled = normalize(g.light.xyz / own);
     float half_chord = sqrt(max(1.0 - ray.square, 0.0)), t = ray.ahead - half_chord;
@@ -224,28 +254,29 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
         } else if (g.air.x > 0.0) {
             vec4 ground = textureLod(fine_globe_maps, vec3(place, 0.0), level);
             vec2 sky = textureLod(fine_globe_maps, vec3(place, 1.0), level).rg;
+            ground.rgb *= g.shape.x;
+            Ground here = detailed(g, normal, ground, sky, -level);
             float way_down = mu_sun > 0.0 ? air_above(1.0, 1.0 / g.air.x, mu_sun) : 0.0;
-            float clear = 1.0 - sky.r, mass = air + way_down;
+            float clear = 1.0 - here.cloud, mass = air + way_down;
             // Half of the light that air takes from a wide field comes back to it; half of the air lies below the clouds.
             float through = air_level(0.5 * mass), through_clouds = air_level(0.25 * mass), straight = air_level(mass);
-            float water = ground.a;
-            ground.rgb *= g.shape.x;
-            shown = globe_colour(column, g.kinds.x, through) * (ground.r * clear) + globe_colour(column, g.kinds.y, through) * (ground.g * clear)
-                + globe_colour(column, g.kinds.z, through) * (ground.b * clear) + globe_colour(column, g.kinds.w, through) * (water * clear)
-                + globe_colour(column, g.air.w, through_clouds) * sky.r;
             lit *= smoothstep(-g.ring.w, g.ring.w, dot(normal, g.light.xyz)); // the Sun rises
-            shown *= mu_sun * lit;
-            // The Sun's glint on waves whose slopes are spread by a wind of 7 m/s (Cox and Munk 1954).
+            vec3 land = globe_colour(column, g.kinds.x, through) * here.kinds.r + globe_colour(column, g.kinds.y, through) * here.kinds.g
+                + globe_colour(column, g.kinds.z, through) * here.kinds.b;
+            shown = (land * here.land_sun + globe_colour(column, g.kinds.w, through) * (here.water * mu_sun)) * clear
+                + globe_colour(column, g.air.w, through_clouds) * (here.cloud * here.cloud_sun);
+            shown *= lit;
+            // The Sun's glint on waves whose slopes are spread by the wind (Cox and Munk 1954).
             vec3 between = normalize(g.light.xyz - way);
-            float upright = max(dot(between, normal), 1e-3), square = upright * upright, spread = 0.003 + 0.00512 * 7.0;
+            float upright = max(dot(between, normal), 1e-3), square = upright * upright, spread = 0.003 + 0.00512 * here.wind;
             float slopes = exp((1.0 - 1.0 / square) / spread) / (3.14159265 * spread);
             float bounce = 1.0 - max(dot(between, g.light.xyz), 0.0), fresnel = 0.0204 + 0.9796 * bounce * bounce * bounce * bounce * bounce;
             // Waves hide each other from low eyes and a low Sun (Smith 1967).
             float seen = 2.0 / (mu + sqrt(mu * mu + spread * (1.0 - mu * mu))), reached = 2.0 * mu_sun / (mu_sun + sqrt(mu_sun * mu_sun + spread * (1.0 - mu_sun * mu_sun)));
             float glint = 0.25 * 3.14159265 * slopes * fresnel * seen * reached / (square * square);
-            shown += globe_colour(column, g.map.z, straight) * (glint * water * clear * lit);
+            shown += globe_colour(column, g.map.z, straight) * (glint * here.water * clear * lit);
             // The lamps of cities are seen through the air above them alone.
-            shown += globe_colour(column, g.lamps.x, 0.0) * (g.lamps.y * sky.g * sky.g * clear * exp(-GLOBE_AIR_DEPTH * air));
+            shown += globe_colour(column, g.lamps.x, 0.0) * (g.lamps.y * here.lamps * clear * exp(-GLOBE_AIR_DEPTH * air));
         } else {
             vec3 ground = g.map.x < 0.0 ? vec3(0.0) : textureLod(globe_maps, vec3(place, g.map.x), level).rgb * g.shape.x;
             shown = vec3(0.0);
@@ -301,7 +332,7 @@ void add_globes(vec3 n, float angle, float D, inout vec3 light, inout float dist
             sum += light;
         }
         GlobeRay middle = globe_ray(g, n, angle);
-        if (covered(middle) > 0.5)
+        if (covered(middle, 1.0) > 0.5)
             distance = (middle.ahead - sqrt(max(1.0 - middle.square, 0.0)))
                 / length(vec3(dot(g.row0.xyz, n), dot(g.row1.xyz, n), dot(g.row2.xyz, n)));
         light = sum / float(rays);
@@ -319,7 +350,7 @@ float left_by_globes(vec3 n, int own)
         if (dot(off, off) >= g.near.w * g.near.w)
             continue;
         GlobeRay ray = globe_ray(g, n, 0.0);
-        left *= 1.0 - covered(ray);
+        left *= 1.0 - covered(ray, 1.0);
         if (g.ring.y > 0.0) {
             float t, radius, width, mu = abs(normalize(ray.way * vec3(1.0, 1.0, g.shape.y)).z);
             if (ring_hit(g, ray, t, radius, width))

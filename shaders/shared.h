@@ -47,9 +47,11 @@
 #define STAR_BEYOND_POLE 0.18 // pixels: a spot reaches over a pole by STAR_RADIUS / sqrt(12), and a whole sphere's rim in a
                               // circle narrows by a pi-th of that
 #define STAR_REACH 96.0 // greatest radius of a star's glare, pixels: a device draws points of twice the size
+#define STAR_DISC_POINTS 16 // of the Sun's disc, each hidden or not
 #define GLARE_LEAST 0.1 // degrees; nearer, light is the star's own spot, as is all light within a pixel
 #define GLARE_MOST 3.0 // degrees; farther, glare is left out
-#define SUN_GLARE_MOST 60.0 // degrees; farther, the Sun's glare is left out
+#define DISC_GLARE_MOST 6.0 // the same for a star with a disc, the Sun
+#define SUN_GLARE_MOST 15.0 // degrees; up to there the Sun's glare fades out
 #define GLARE_SHOWN 5e-4 // of white: dimmer glare does not show
 #define RANGE_KNOTS 192 // of the curve that shows everything at once, one for each stop of luminance; see range_curve.h
 #define RANGE_FIRST (-128.0) // log2 of the luminance at its first knot: of the least normal float, about
@@ -65,6 +67,11 @@
 #define GLOBE_PER_OCTAVE 64.0
 #define GLOBE_AIR_STEPS 12
 #define GLOBE_AIR_DEPTH 0.0973 // optical depth of the Earth's air at 550 nm, from the ground upwards (Bucholtz 1995)
+#define GLOBE_CLOUD_RELIEF 8e-5 // standard deviation of the heights of clouds and of land, radii: 500 m and 300 m of the Earth
+#define GLOBE_LAND_RELIEF 5e-5
+#define GLOBE_LAND_CONTRAST 0.3 // of land's detail: standard deviation of its factor of light
+#define GLOBE_WIND_CONTRAST 0.5 // of the wind on water, of its mean
+#define GLOBE_LAMP_CONTRAST 1.2 // of the logarithm of lamplight
 #define GLOBE_DEEPEST_RING 8.0 // optical depth, of the ring profile's white
 #define GLOBE_CLOUDY 0.0 // scatters light as a matt surface
 #define GLOBE_DUSTY 1.0 // as grains that shade each other (Lommel and Seeliger)
@@ -268,7 +275,8 @@ struct RangeConstants {
 struct StarEntry {
     vec4 direction; // unit, towards it; w: temperature, K; below 0: it is a globe, of number -1 - w
     vec4 light; // illuminance at rest, in the scene's white times steradians: x: over the luminance of its temperature
-                // (black_body_xyz), y: the illuminance itself. Of a globe: x: times its mean's light; y: its radius as an angle
+                // (black_body_xyz), y: the illuminance itself, z: its radius as an angle, of the Sun alone; w: its distance, scene
+                // units. Of a globe: x: times its mean's light; y: its radius as an angle
 };
 
 // The stars' pass, one per frame.

@@ -87,15 +87,15 @@ bool holds_together(vec2 point, int channel, float radius, float pixel)
 }
 
 // A bright star's glare; returns its radius, pixels. The same angle on every display, and as wide as it shows.
-// disc: its radius where it is a globe, as seen.
-float find_glare(vec2 point, int channel, float pixel_angle, float disc)
+// disc: its radius where it is the Sun or a globe, as seen; most: the angle at which its glare ends, degrees.
+float find_glare(vec2 point, int channel, float pixel_angle, float disc, float most)
 {
     float shown = view.row2.w, pixel = degrees(pixel_angle);
     float whole = max(light.r, max(light.g, light.b)) * pixel_angle * pixel_angle; // over all directions
     if (shown == 0.0 || !(whole > 0.0))
         return STAR_RADIUS;
     float least = max(max(GLARE_LEAST, pixel), degrees(disc));
-    float radius = min(min(glare_end(shown / whole), GLARE_MOST), STAR_REACH * pixel);
+    float radius = min(min(glare_end(shown / whole), most), STAR_REACH * pixel);
     while (radius > max(STAR_RADIUS * pixel, least) && !holds_together(point, channel, radius, pixel))
         radius *= 0.7; // the picture has a seam there
     if (radius <= max(STAR_RADIUS * pixel, least))
@@ -118,12 +118,38 @@ bool find(vec3 n, int channel, bool second, out vec2 point, out vec2 angles)
     return way.z > 0.0;
 }
 
-// True if something hides the sky. A star outside the viewport, whose spot reaches in, may lie beyond the image's edge.
-bool hidden(Place place)
+// True if something stands before a distance. A star outside the viewport, whose spot reaches in, may lie beyond the image's edge.
+bool hidden(Place place, float distance)
 {
     vec4 image = texelFetch(tiles, place.entry + 1);
     vec2 texel = clamp(place.texel, image.xy, image.zw);
-    return image.z > 0.0 && texelFetch(depth_atlas, ivec2(texel), 0).r > 0.0;
+    float depth = image.z > 0.0 ? texelFetch(depth_atlas, ivec2(texel), 0).r : 0.0;
+    return depth * distance > view.boost.w * sqrt(1.0 + dot(place.face, place.face));
+}
+
+// A point of a disc around a direction, of evenly spread ones. radius: as an angle, or 0.
+vec3 on_disc(vec3 n, float radius, int i)
+{
+    vec3 side = normalize(cross(n, abs(n.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0))), up = cross(side, n);
+    float turn = float(i) * 2.39996323, off = radius * sqrt((float(i) + 0.5) / float(STAR_DISC_POINTS)); // the golden angle
+    return normalize(n + off * (cos(turn) * side + sin(turn) * up));
+}
+
+// The part of a star that no still thing hides. from_eye: its direction, the cube map's axes.
+float part_left(StarEntry star, vec3 from_eye, AberratedRay sight, float pixel_angle)
+{
+    bool is_disc = star.direction.w > 0.0 && star.light.z > 0.0;
+    // The Sun's own ball, where a world has one, hides nothing of it.
+    float distance = star.direction.w > 0.0 ? 0.98 * star.light.w : SKY_DISTANCE, left = 0.0;
+    int points = is_disc ? STAR_DISC_POINTS : 1;
+    for (int i = 0; i < points; ++i) {
+        vec3 way = is_disc ? on_disc(from_eye, star.light.z, i) : from_eye; // of the cube map's place
+        if (REPROJECT)
+            way = reprojected(way, eye_offset(sight.n, world_rest_frame()), world_angle(sight, sight.n, pixel_angle),
+                world_rest_frame());
+        left += hidden(place_of(way, world_rest_frame()), distance) ? 0.0 : 1.0;
+    }
+    return left / float(points);
 }
 
 void main()
@@ -150,18 +176,18 @@ void main()
         || any(greaterThan(point, size + reach)))
         return;
     float pixel_angle = angles.x;
-    vec3 from_eye = in_cube_axes(n, world_rest_frame()), from_place = from_eye; // of the cube map
-    if (REPROJECT)
-        from_place = reprojected(from_place, eye_offset(sight.n, world_rest_frame()), world_angle(sight, sight.n, pixel_angle), world_rest_frame());
-    if (hidden(place_of(from_place, world_rest_frame())))
+    vec3 from_eye = in_cube_axes(n, world_rest_frame());
+    float left = part_left(star, from_eye, sight, pixel_angle);
+    if (left == 0.0)
         return;
     // A moving body hides the star where the body is drawn.
     if (SEVERAL_REST_FRAMES && covered_by_bodies(sight.n, pixel_angle) > 0.5)
         return;
-    float disc = 0.0;
+    float disc = star.direction.w > 0.0 ? star.light.z / world_angle(sight, sight.n, 1.0) : 0.0;
+    float most = disc > 0.0 ? DISC_GLARE_MOST : GLARE_MOST;
     bool is_sun = false; // whose glare the warp pass adds
     glare.w = 1.0;
-    light = starlight(star, sight) * (view.boost.z / (angles.y * angles.y));
+    light = starlight(star, sight) * (left * view.boost.z / (angles.y * angles.y));
 #ifdef WITH_GLOBES
     int own = star.direction.w < 0.0 ? int(-1.0 - star.direction.w) : -1;
     light *= left_by_globes(from_eye, own);
@@ -179,7 +205,7 @@ void main()
             centre.x *= sqrt(part_of(ivec2(clamp(point, vec2(0.0), size - 1.0) + view.origin.xy)));
         return;
     }
-    float radius = is_sun ? STAR_RADIUS : find_glare(point, channel, pixel_angle, disc);
+    float radius = is_sun ? STAR_RADIUS : find_glare(point, channel, pixel_angle, disc, most);
     if (light == vec3(0.0))
         return;
     gl_PointSize = 2.0 * radius;

@@ -84,6 +84,10 @@ inline constexpr auto description<StarSky> = describe<StarSky>("stars", "The sta
         "Right ascension and declination of the Sun, degrees, one astronomical unit from the origin; left out: there is "
         "none.",
         &StarSky::sun_deg),
+    field("sun_light", Number{{0, 1e9, true}},
+        "The light of a white surface that faces the Sun at the origin, over the scene's white. Left out: the Sun is as much "
+        "brighter than the stars as it truly is.",
+        &StarSky::sun_light),
     field("milky_way", Object<MilkyWay>{}, "", &StarSky::milky_way));
 static_assert(is_complete<StarSky>());
 void check(const Place& place, const StarSky& stars, const Folder&);

@@ -51,6 +51,8 @@ void check(const Place& place, const StarSky& stars, const Folder&)
         fail_at(*in_depth,
             "leaves no place for the other stars, which are painted onto the Milky Way; beside a \"milky_way\" it is "
             "right");
+    if (const auto light = find_member(place, "sun_light"); light && !stars.sun_deg)
+        fail_at(*light, "has no Sun that could shine; beside a \"sun_deg\" it is right");
 }
 
 double DateForm::read(const Place& place, const Folder&) const

@@ -68,6 +68,9 @@ struct StarSky {
     std::optional<MilkyWay> milky_way{};
     std::optional<glm::dvec2>
         sun_deg{}; ///< right ascension and declination of the Sun, one astronomical unit from the origin
+    /// The light of a white surface that faces the Sun at the origin, over the scene's white; nullopt: as much brighter than
+    /// the stars as it is.
+    std::optional<double> sun_light{};
     /// So many of the brightest are drawn one by one, each at its place in depth. The others are painted onto the Milky
     /// Way's panorama, as they are seen from the Sun.
     std::size_t in_depth = std::numeric_limits<std::size_t>::max();

@@ -157,7 +157,9 @@ GlobeSight::Ray TracingEye::among_globes(const physics::AberratedRay& world, con
         place *= farthest_among_globes_ / away;
     if (place != glm::dvec3(0))
         from_m = physics::eye_place(rest_frame.shot.u, rest_frame.shot.ship_from_cockpit * place) * scene_.unit_m;
-    return globes_->ray(from_m, glm::transpose(rest_frame.motion_from_frame) * (stretched / length), parts, only);
+    // A body that is one spot has no detail.
+    const double pixel_rad = only >= 0 ? INFINITY : pixel_rad_ * (observer_.shot.effects[Effect::aberration] ? world.D : 1);
+    return globes_->ray(from_m, glm::transpose(rest_frame.motion_from_frame) * (stretched / length), pixel_rad, parts, only);
 }
 
 LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside, std::span<const double> parts) const
@@ -207,11 +209,12 @@ LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside, std::
     return out;
 }
 
-double TracingEye::sky_part(const glm::dvec3& way, const glm::dvec3& beside, std::span<const double> parts) const
+double TracingEye::part_left(
+    const glm::dvec3& way, double distance, const glm::dvec3& beside, std::span<const double> parts) const
 {
     const physics::AberratedRay world = world_ray(way);
     const BlendedPath ray = along(way, beside, world, false);
-    if (ray.solid.view)
+    if (ray.solid.view && ray.solid.met.distance < distance)
         return 0;
     return ray.left * (globes_ ? among_globes(world, beside, parts, -1).through : 1);
 }

@@ -29,9 +29,10 @@ public:
     /// the part of it that is drawn as a disc; empty: all.
     LookedAt look(const glm::dvec3& way, const glm::dvec3& beside = glm::dvec3(0), std::span<const double> parts = {}) const;
 
-    /// The part of the sky's light that arrives there: 0 where something stands before the sky.
-    double sky_part(
-        const glm::dvec3& way, const glm::dvec3& beside = glm::dvec3(0), std::span<const double> parts = {}) const;
+    /// The part of the light from a distance (scene units, in the world) that arrives there: 0 where something stands
+    /// before.
+    double part_left(const glm::dvec3& way, double distance, const glm::dvec3& beside = glm::dvec3(0),
+        std::span<const double> parts = {}) const;
 
     /// The globes before the eye, or null.
     const GlobeSight* globes() const { return globes_.get(); }

@@ -9,7 +9,6 @@ namespace starbow {
 namespace {
 
 constexpr double largest_spot = 0.8, smallest_disc = 1.6; // radii in pixels
-constexpr double farthest_sun_deg = 60;
 constexpr int sun_parts = 96;
 
 /// Directions at an angle around an axis.
@@ -66,7 +65,7 @@ glm::dvec3 sum(const std::vector<std::pair<glm::dvec3, glm::dvec3>>& all)
 } // namespace
 
 GlobeView::GlobeView(const TracingEye& eye, const ViewRays& rays, const glm::ivec2& size,
-    const std::function<glm::dvec3(const glm::dvec3& way)>& beside, double exposure)
+    const std::function<glm::dvec3(const glm::dvec3& way)>& beside)
 {
     if (!eye.globes())
         return;
@@ -115,12 +114,12 @@ GlobeView::GlobeView(const TracingEye& eye, const ViewRays& rays, const glm::ive
             continue;
         std::optional<double> glared;
         if (sun) {
-            sun_ = SunGlare{lights(eye, i, outline, beside, sun_parts), glare_radius(light, exposure, farthest_sun_deg),
+            sun_ = SunGlare{lights(eye, i, outline, beside, sun_parts),
                 2 * std::sin(0.5 * outline.most) * std::sqrt(pi / sun_parts) / degree};
             const glm::dvec3 part_of_light = light / glm::max(sum(sun_->lights), glm::dvec3(1e-300));
             for (auto& one : sun_->lights)
                 one.second *= part_of_light;
-            glared = light_of_glare(sun_->end_deg, nearest_glare_deg);
+            glared = light_of_sun_glare(nearest_glare_deg);
         }
         if (part < 1)
             spots_.push_back({near.outline.way, light * (1 - part), glared});
@@ -129,7 +128,7 @@ GlobeView::GlobeView(const TracingEye& eye, const ViewRays& rays, const glm::ive
 
 glm::dvec3 GlobeView::glare(const ViewRays& rays, const glm::ivec2& pixel, int channel, const glm::dvec3& sun) const
 {
-    if (!sun_ || sun_->end_deg <= nearest_glare_deg)
+    if (!sun_)
         return glm::dvec3(0);
     const glm::dvec2 at = glm::dvec2(pixel) + 0.5;
     const auto here = rays.direction(at, channel);
@@ -141,14 +140,11 @@ glm::dvec3 GlobeView::glare(const ViewRays& rays, const glm::ivec2& pixel, int c
     };
     const double pixel_deg = std::sqrt(glm::length(glm::cross(step({0.5, 0}), step({0, 0.5})))) / degree;
     const double nearest = std::max({nearest_glare_deg, pixel_deg, sun_->part_deg});
-    if (sun_->end_deg <= std::max(nearest_glare_deg, 2 * pixel_deg))
-        return glm::dvec3(0);
-    const double level = glare_per_sr(sun_->end_deg, nearest);
     glm::dvec3 change(0);
     for (const auto& [way, light] : sun_->lights)
-        change += light * std::max(glare_per_sr(angle_between(*here, way) / degree, nearest) - level, 0.0);
+        change += light * sun_glare_per_sr(angle_between(*here, way) / degree, nearest);
     if (sun != glm::dvec3(0))
-        change -= sun * light_of_glare(sun_->end_deg, nearest);
+        change -= sun * light_of_sun_glare(nearest);
     return change;
 }
 

@@ -8,10 +8,9 @@ class GlobeView {
 public:
     /// An empty one, for a world without globes.
     GlobeView() = default;
-    /// size: the view's pixels. beside: the eye's place for a direction, as in TracingEye::look. exposure: the shown
-    /// picture's.
+    /// size: the view's pixels. beside: the eye's place for a direction, as in TracingEye::look.
     GlobeView(const TracingEye& eye, const ViewRays& rays, const glm::ivec2& size,
-        const std::function<glm::dvec3(const glm::dvec3& way)>& beside, double exposure);
+        const std::function<glm::dvec3(const glm::dvec3& way)>& beside);
 
     std::span<const double> parts() const { return parts_; } ///< for TracingEye::look
     std::span<const GlobeSpot> spots() const { return spots_; }
@@ -24,7 +23,6 @@ private:
     std::vector<GlobeSpot> spots_;
     struct SunGlare {
         std::vector<std::pair<glm::dvec3, glm::dvec3>> lights; ///< of parts of its disc, as GlobeSpot's way and light
-        double end_deg = 0;
         double part_deg = 0; ///< width of a part
     };
     std::optional<SunGlare> sun_;

@@ -1,5 +1,6 @@
 #include "globes.h"
 #include "config/model/angles.h"
+#include "shaders/physics/physics.h"
 #include <algorithm>
 #include <cmath>
 
@@ -123,6 +124,39 @@ glm::dvec2 ring_at(const PlanetRing& ring, double radius)
 }
 
 constexpr double lamps_depth = 0.0973; // of the air in lamplight
+
+/// The ground and the sky above it where a map is coarser than a pixel: docs/physics/solar-system.md, detail.
+struct Detailed {
+    glm::dvec4 parts; ///< of the kinds of ground
+    double clouds, lamps, wind = 7;
+    double land_sun, cloud_sun;
+
+    /// sky: clouds and lamps. octaves: of noise that a pixel shows.
+    Detailed(const glm::dvec3& normal, const glm::dvec3& to_sun, int rows, const glm::dvec4& map, const glm::dvec2& sky,
+        double octaves)
+        : parts(map)
+        , clouds(sky.x)
+        , lamps(sky.y)
+    {
+        const double cosine = glm::dot(normal, to_sun);
+        land_sun = cloud_sun = std::max(cosine, 0.0);
+        if (octaves <= 0)
+            return;
+        const double cells = rows / pi;
+        const glm::dvec3 place = normal * cells, sunward = to_sun - normal * cosine;
+        const physics::Detail here = physics::detail_at(place, sunward, octaves);
+        const double field = here.value.y;
+        clouds = physics::detail_cover(sky.x, here.value.x, here.variance);
+        parts.w = physics::detail_cover(map.w, field, here.variance);
+        const double land = (1 - parts.w) / std::max(1 - map.w, 1e-3) * std::max(1 + 0.3 * field, 0.2);
+        for (int k = 0; k < 3; ++k)
+            parts[k] *= land;
+        wind *= std::clamp(1 + 0.5 * field, 0.2, 1.8);
+        lamps *= physics::detail_spots(field, here.variance, 1.2);
+        land_sun = std::max(cosine - physics::detail_slope(here.slope.y, 5e-5 * cells), 0.0);
+        cloud_sun = std::max(cosine - physics::detail_slope(here.slope.x, 8e-5 * cells), 0.0);
+    }
+};
 
 } // namespace
 
@@ -438,14 +472,14 @@ void GlobeSight::add_ring(const Body& body, const Sight& sight, double way, doub
 }
 
 void GlobeSight::add_ground(
-    const Body& body, const Sight& sight, double way, double air, double part, Ray& out, Through& through) const
+    const Body& body, const Sight& sight, double way, double air, const Pixel& pixel, Ray& out, Through& through) const
 {
     const Globe& globe = *body.globe;
     const glm::dvec3 place = sight.from + sight.direction * way;
     const double polar = 1 / (1 - globe.flattening);
     const glm::dvec3 normal = glm::normalize(place * glm::dvec3(1, 1, polar * polar));
     const double mu = std::max(-glm::dot(normal, sight.direction), 0.0);
-    const double weight = part * through.grey;
+    const double weight = pixel.part * through.grey;
     if (globe.scattering == Scattering::sun) {
         double power = weight;
         for (int k = 0; k < 6; ++k, power *= mu) {
@@ -456,7 +490,8 @@ void GlobeSight::add_ground(
     }
     const Texture& map = globes_.maps[body.index];
     const bool mapped = map.size.x > 0;
-    glm::dvec4 parts = mapped ? texel(map, normal) * glm::dvec4(glm::dvec3(globe.map_scale), 1) : glm::dvec4(0, 0, 0, 1);
+    const glm::dvec4 parts
+        = mapped ? texel(map, normal) * glm::dvec4(glm::dvec3(globe.map_scale), 1) : glm::dvec4(0, 0, 0, 1);
     const double mu_sun = glm::dot(normal, body.to_sun);
     const double sunlight = std::pow(astronomical_unit_m / body.sun_m, 2) * sun_left(body, place);
     const auto add = [&](int kind, double light, double through_air) {
@@ -480,34 +515,37 @@ void GlobeSight::add_ground(
     }
     const AirAround around{globe.radius_m, globe.air->scale_height_m};
     const glm::dvec4 above = texel(globes_.sky, normal, 1);
-    const double clouds = above.x;
+    const double texels
+        = map.size.y / pi * pixel.rad * way * sight.ball_scale / globe.radius_m / std::max(std::sqrt(mu), 0.3);
+    const Detailed here(normal, body.to_sun, map.size.y, parts, glm::dvec2(above), -std::log2(texels));
+    const double clouds = here.clouds;
     const double sun_size = sun_radius_m_ / body.sun_m;
     const double risen = smooth_step(-sun_size, sun_size, std::asin(std::clamp(mu_sun, -1.0, 1.0)));
     if (mu_sun > 0) {
         const glm::dvec3 stretch(1, 1, polar);
         const glm::dvec3 up = glm::normalize(place * stretch), to_sun = glm::normalize(body.to_sun * stretch);
         const double all = air + around.outward(globe.radius_m, std::max(glm::dot(up, to_sun), 0.0));
-        const double light = sunlight * mu_sun * risen;
+        const double light = sunlight * risen;
         for (std::size_t k = 0; k < 4; ++k)
-            add(body.kinds[k], light * (1 - clouds) * parts[int(k)], 0.5 * all);
-        add(body.clouds, light * clouds, 0.25 * all);
+            add(body.kinds[k], light * (k < 3 ? here.land_sun : mu_sun) * (1 - clouds) * here.parts[int(k)], 0.5 * all);
+        add(body.clouds, light * here.cloud_sun * clouds, 0.25 * all);
         // The Sun's mirror image in waves.
         const glm::dvec3 wave = glm::normalize(body.to_sun - sight.direction);
-        const double cosine = glm::dot(wave, normal), variance = 0.003 + 0.00512 * 7;
+        const double cosine = glm::dot(wave, normal), variance = 0.003 + 0.00512 * here.wind;
         if (cosine > 0) {
             const double tangent_square = (1 - cosine * cosine) / (cosine * cosine);
             const double fresnel = 0.0204 + 0.9796 * std::pow(1 - std::clamp(glm::dot(wave, body.to_sun), 0.0, 1.0), 5);
             const auto q = [&](double c) { return std::sqrt(c * c + variance * (1 - c * c)); };
             const double glint = pi / 4 * std::exp(-tangent_square / variance) / (pi * variance * std::pow(cosine, 4))
                 * fresnel * 2 / (mu + q(mu)) * 2 * mu_sun / (mu_sun + q(mu_sun));
-            add(GlobeColours::white, sunlight * risen * glint * parts.w * (1 - clouds), all);
+            add(GlobeColours::white, sunlight * risen * glint * here.parts.w * (1 - clouds), all);
         }
     }
-    add(GlobeColours::lamps, globe.air->brightest_lamps * above.y * std::exp(-lamps_depth * air), 0);
+    add(GlobeColours::lamps, globe.air->brightest_lamps * here.lamps * std::exp(-lamps_depth * air), 0);
 }
 
 GlobeSight::Ray GlobeSight::ray(
-    const glm::dvec3& from_m, const glm::dvec3& direction, std::span<const double> parts, int only) const
+    const glm::dvec3& from_m, const glm::dvec3& direction, double pixel_rad, std::span<const double> parts, int only) const
 {
     Ray out;
     Through through;
@@ -537,7 +575,7 @@ GlobeSight::Ray GlobeSight::ray(
         if (body.globe->air)
             air = add_air(body, sight, ground, part, out, through);
         if (hit) {
-            add_ground(body, sight, ground, air, part, out, through);
+            add_ground(body, sight, ground, air, {part, pixel_rad}, out, through);
             if (part >= 0.5)
                 out.distance_m = std::min(out.distance_m, ground);
             through.grey *= 1 - part;

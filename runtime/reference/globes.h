@@ -53,10 +53,12 @@ public:
         double through = 1; ///< the part of the light behind that comes through, for the eye's most sensitive wavelength
         double distance_m = INFINITY; ///< to the nearest ground; rings and air have none
     };
-    /// Follows a ray. from_m: the eye's offset from the event; direction: unit, world axes. parts: for each globe of the
-    /// system the part of it that is drawn as a disc; empty: all. only: an index into bodies() to leave out all others'
+    /// Follows a ray. from_m: the eye's offset from the event; direction: unit, world axes. pixel_rad: the angle of a pixel
+    /// in the world, down to which the ground has detail. parts: for each globe of the system the part of it that is drawn
+    /// as a disc; empty: all. only: an index into bodies() to leave out all others'
     /// light, which still hide it; -1: all.
-    Ray ray(const glm::dvec3& from_m, const glm::dvec3& direction, std::span<const double> parts, int only = -1) const;
+    Ray ray(const glm::dvec3& from_m, const glm::dvec3& direction, double pixel_rad, std::span<const double> parts,
+        int only = -1) const;
 
     /// A globe that the eye may see.
     struct Body {
@@ -82,8 +84,11 @@ public:
 private:
     struct Sight; ///< a ray in a globe's axes
     struct Through; ///< the light that comes through so far
+    struct Pixel {
+        double part, rad; ///< the part of a globe that is drawn as a disc; the angle of the pixel in the world
+    };
     void add_ground(
-        const Body& body, const Sight& sight, double way, double air, double part, Ray& out, Through& through) const;
+        const Body& body, const Sight& sight, double way, double air, const Pixel& pixel, Ray& out, Through& through) const;
     double add_air(const Body& body, const Sight& sight, double end, double part, Ray& out, const Through& through) const;
     void add_ring(const Body& body, const Sight& sight, double way, double part, Ray& out, Through& through) const;
     double sun_left(const Body& body, const glm::dvec3& place) const;

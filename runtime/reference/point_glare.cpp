@@ -24,6 +24,23 @@ double light_of_glare(double end, double nearest)
     return part;
 }
 
+double sun_glare_per_sr(double angle_deg, double nearest)
+{
+    return glare_per_sr(angle_deg, nearest) * std::pow(1 - std::pow(std::min(angle_deg / sun_glare_deg, 1.0), 2), 2);
+}
+
+double light_of_sun_glare(double nearest)
+{
+    double part = 0;
+    constexpr int rings = 400;
+    for (int ring = 0; ring < rings; ++ring) {
+        const auto edge = [&](double at) { return sun_glare_deg * std::pow(at / rings, 3); };
+        const double inner = edge(ring), outer = edge(ring + 1);
+        part += sun_glare_per_sr(0.5 * (inner + outer), nearest) * pi * (outer * outer - inner * inner) * degree * degree;
+    }
+    return part;
+}
+
 double glare_radius(const glm::dvec3& light, double exposure, double farthest)
 {
     constexpr double shown = 5e-4; // of white

@@ -13,6 +13,12 @@ double glare_per_sr(double angle_deg, double nearest);
 /// The part of a point's light in its glare above the glare's level at its end, degrees: a sum over rings.
 double light_of_glare(double end, double nearest);
 
+/// The Sun's glare fades out at so many degrees: docs/physics/solar-system.md, small globes.
+constexpr double sun_glare_deg = 15;
+double sun_glare_per_sr(double angle_deg, double nearest);
+/// The part of the Sun's light in its glare.
+double light_of_sun_glare(double nearest);
+
 /// The angle, degrees, at which the glare of so much light (times steradians) is the dimmest that shows, at most `farthest`;
 /// by bisection.
 double glare_radius(const glm::dvec3& light, double exposure, double farthest);

@@ -98,9 +98,8 @@ public:
         if (globe_colours_)
             for (ViewAt& view : views_) {
                 view.globes = globes_.size();
-                globes_.emplace_back(
-                    eyes_[view.eye], view.rays, view.compiled->view.size,
-                    [&](const glm::dvec3& way) { return beside(view, way); }, exposure_);
+                globes_.emplace_back(eyes_[view.eye], view.rays, view.compiled->view.size,
+                    [&](const glm::dvec3& way) { return beside(view, way); });
             }
         else
             globes_.emplace_back();

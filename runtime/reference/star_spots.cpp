@@ -10,7 +10,23 @@ namespace {
 
 constexpr double radius = 2; // of a spot, pixels
 
-constexpr double farthest_glare_deg = 3, farthest_glare_pixels = 96;
+constexpr double farthest_glare_deg = 3, farthest_of_disc_deg = 6, farthest_glare_pixels = 96;
+
+/// The Sun's disc: unit directions of the world, evenly spread.
+std::vector<glm::dvec3> disc_around(const glm::dvec3& way, double radius_rad)
+{
+    const glm::dvec3 right
+        = glm::normalize(glm::cross(way, std::abs(way.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    const glm::dvec3 up = glm::cross(way, right);
+    constexpr int rings = 6;
+    std::vector<glm::dvec3> all;
+    for (int ring = 0; ring < rings; ++ring)
+        for (int i = 0, count = 6 * ring + 3; i < count; ++i) {
+            const double off = radius_rad * (ring + 0.5) / rings, turn = 2 * pi * i / count;
+            all.push_back(glm::normalize(way + off * (std::cos(turn) * right + std::sin(turn) * up)));
+        }
+    return all;
+}
 
 /// The part of a spot's light that falls on a pixel so far from its middle.
 double profile(double square)
@@ -37,7 +53,16 @@ StarSpots::StarSpots(const std::vector<Star>& stars, const StarSky& sky, double 
             const glm::dvec3 way = world_from_sky * star.direction * star.distance_m - eye_m;
             const double nearer = star.distance_m / std::max(glm::length(way), astronomical_unit_m);
             const physics::AberratedRay seen = eye.from_world(glm::normalize(way));
-            const double shown = eye.sky_part(seen.n, beside(seen.n), parts);
+            const double radius_rad = std::asin(std::min(star.radius_m / glm::length(way), 1.0));
+            double shown = 0;
+            const std::vector<glm::dvec3> points
+                = star.radius_m > 0 ? disc_around(glm::normalize(way), radius_rad) : std::vector{glm::normalize(way)};
+            for (const glm::dvec3& point : points) {
+                const glm::dvec3 at = eye.from_world(point).n;
+                // A ball of its own hides nothing of the Sun.
+                const double distance = 0.98 * glm::length(way) / unit_m;
+                shown += eye.part_left(at, distance, beside(at), parts) / double(points.size());
+            }
             if (shown == 0)
                 continue;
             glm::dvec3 light = colours.star(star.temperature_K, effects[Effect::doppler] ? seen.D : 1)
@@ -45,7 +70,9 @@ StarSpots::StarSpots(const std::vector<Star>& stars, const StarSky& sky, double 
             if (effects[Effect::headlight])
                 light *= seen.D * seen.D * seen.D;
             light *= eye.solid_angle(seen); // a star is a surface too small to have a visible extent
-            all[std::size_t(i)] = {seen.n, light, glare_radius(light, exposure, farthest_glare_deg)};
+            all[std::size_t(i)] = {seen.n, light,
+                glare_radius(light, exposure, star.radius_m > 0 ? farthest_of_disc_deg : farthest_glare_deg), 0,
+                radius_rad * std::sqrt(eye.solid_angle(seen)) / degree};
         }
     });
     for (const GlobeSpot& globe : globes)
@@ -170,7 +197,8 @@ glm::dvec3 StarSpots::glare(const ViewRays& rays, const glm::ivec2& pixel, int c
             all -= seen.spot->light * (seen.spot->glared * profile(seen.off_square) / seen.solid_angle_sr);
             continue;
         }
-        const double pixel_deg = std::sqrt(seen.solid_angle_sr) / degree, nearest = std::max(nearest_glare_deg, pixel_deg);
+        const double pixel_deg = std::sqrt(seen.solid_angle_sr) / degree;
+        const double nearest = std::max({nearest_glare_deg, pixel_deg, seen.spot->disc_deg});
         const double end = std::min(seen.spot->glare_deg, farthest_glare_pixels * pixel_deg);
         if (end <= std::max(radius * pixel_deg, nearest))
             continue;

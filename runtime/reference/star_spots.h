@@ -33,6 +33,7 @@ private:
         glm::dvec3 light; ///< divided by a solid angle, as a radiance
         double glare_deg = 0; ///< radius within which its glare is seen, if pixels are small
         double glared = 0; ///< the part of its light that a glare elsewhere holds
+        double disc_deg = 0; ///< the Sun's radius, within which its glare grows no more
     };
     /// A spot's place in the picture, as found from a pixel.
     struct Seen {

@@ -15,6 +15,7 @@
 namespace starbow {
 namespace {
 
+constexpr double sun_radius_m = 6.957e8; // IAU 2015, resolution B3
 constexpr double sun_b_v = 0.65; // for stars whose B-V is not known
 constexpr std::size_t most_stars = 4'000'000; // 128 MB on the device for each place of an eye
 
@@ -104,14 +105,24 @@ std::vector<Star> by_brightness(const StarSky& sky)
     return stars;
 }
 
+/// At one astronomical unit.
+double sun_magnitude(const StarSky& sky)
+{
+    if (!sky.sun_light)
+        return -26.74; // IAU 2015, resolution B2: absolute bolometric 4.74
+    const double of_magnitude_0 = sky.brightness_arcmin2 * std::pow(degree / 60, 2); // white times steradians
+    return -2.5 * std::log10(*sky.sun_light * pi / of_magnitude_0); // a white surface spreads its light over pi steradians
+}
+
 } // namespace
 
 std::vector<Star> stars_in_depth(const StarSky& sky)
 {
     std::vector<Star> stars = by_brightness(sky);
     stars.resize(std::min(stars.size(), sky.in_depth));
-    if (sky.sun_deg) // magnitude -26.74 at one astronomical unit (IAU 2015, resolution B2: absolute bolometric 4.74)
-        stars.push_back({equatorial(sky.sun_deg->x, sky.sun_deg->y), -26.74, sun_K, astronomical_unit_m});
+    if (sky.sun_deg)
+        stars.push_back(
+            {equatorial(sky.sun_deg->x, sky.sun_deg->y), sun_magnitude(sky), sun_K, astronomical_unit_m, sun_radius_m});
     return stars;
 }
 
@@ -190,8 +201,8 @@ StarField star_field(const std::vector<Star>& stars, const StarSky& sky, double 
         const auto [luminance, added] = luminances.try_emplace(star.temperature_K);
         if (added)
             luminance->second = black_body_xyz(star.temperature_K).y;
-        field.stars.push_back(
-            {turn * star.direction * distance, light * distance * distance, 1 / luminance->second, star.temperature_K});
+        field.stars.push_back({turn * star.direction * distance, light * distance * distance, 1 / luminance->second,
+            star.temperature_K, star.radius_m / unit_m});
     }
     return field;
 }
@@ -206,7 +217,9 @@ double stars_from(const StarField& field, const glm::dvec3& eye, std::span<share
         const double square = glm::dot(way, way), distance = std::sqrt(square);
         const glm::dvec3 n = distance > 0 ? way / distance : glm::dvec3(0, 0, -1);
         const double light = star.light / std::max(square, least_square);
-        entries[i] = {glm::vec4(n, star.temperature_K), glm::vec4(light * star.over_luminance, light, 0, 0)};
+        entries[i] = {glm::vec4(n, star.temperature_K),
+            glm::vec4(light * star.over_luminance, light,
+                star.radius > 0 ? std::asin(std::min(star.radius / distance, 1.0)) : 0, std::min(distance, 1e30))};
         nearest_square = std::min(nearest_square, square);
     }
     return std::sqrt(nearest_square);

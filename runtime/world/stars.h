@@ -16,6 +16,7 @@ struct Star {
     double magnitude; ///< visual
     double temperature_K;
     double distance_m = unknown_distance_m;
+    double radius_m = 0; ///< of the Sun alone: beside things it is no point
 };
 
 /// Reads a catalogue; scenes/stars/README.md describes its columns. Throws InputError with the line, the problem, and
@@ -53,6 +54,7 @@ struct PlacedStar {
     double light; ///< illuminance at a distance of one scene unit, in the scene's white times steradians
     double over_luminance; ///< 1 / black_body_xyz(temperature_K).y
     double temperature_K;
+    double radius; ///< scene units, or 0
 };
 
 /// The stars around a world. At first the brightest as seen from the Sun, by which an eye sets its exposure, then all

@@ -22,3 +22,10 @@ FN real glare_end(real level)
         x -= (real(10.0) * x * x * x + real(5.4917248) * x * x - level) / (real(30.0) * x * x + real(10.9834496) * x);
     return real(1.0) / x;
 }
+
+// The part of glare that is shown at an angle where it fades out up to another one, without a break in its slope.
+FN real glare_fade(real angle, real most)
+{
+    real left = max(real(1.0) - angle * angle / (most * most), real(0.0));
+    return left * left;
+}

@@ -12,6 +12,7 @@ using rvec3 = glm::dvec3;
 using rvec4 = glm::dvec4;
 #include "aberration.glsl"
 #include "boost.glsl"
+#include "detail.glsl"
 #include "eclipse.glsl"
 #include "galilean.glsl"
 #include "glare.glsl"
@@ -27,6 +28,7 @@ using rvec3 = glm::vec3;
 using rvec4 = glm::vec4;
 #include "aberration.glsl"
 #include "boost.glsl"
+#include "detail.glsl"
 #include "eclipse.glsl"
 #include "galilean.glsl"
 #include "glare.glsl"

@@ -14,6 +14,7 @@ const std::string whole = R"({
     "sky": { "zenith": [0.1, 0.2, 0.3], "horizon": [1, 1, 1], "nadir": [0, 0, 0],
         "temperature_K": 2.725 },
     "stars": { "catalogue": "skies/few.txt", "in_depth": 70, "brightness_arcmin2": 30, "ahead_deg": [84, -19], "sun_deg": [10, -5],
+        "sun_light": 0.25,
         "milky_way": { "panorama": "skies/milky.png", "peak_arcmin2": 0.5 } },
     "ambient": [0.25, 0.5, 0.75],
     "lights": [
@@ -53,6 +54,7 @@ TEST(SceneFileTest, EveryMemberIsRead)
     EXPECT_EQ(scene.stars->brightness_arcmin2, 30);
     EXPECT_EQ(scene.stars->ahead_deg, glm::dvec2(84, -19));
     EXPECT_EQ(scene.stars->sun_deg, glm::dvec2(10, -5));
+    EXPECT_EQ(scene.stars->sun_light, 0.25);
     EXPECT_EQ(scene.stars->milky_way.value().panorama, file.parent_path() / "skies/milky.png");
     EXPECT_EQ(scene.milky_way(), 15);
     ASSERT_EQ(scene.lights.size(), 4u);
@@ -102,6 +104,8 @@ TEST(SceneFileTest, WrongScenesAreRefused)
             {with(R"("sky": { "nadir": [0, 0] })"), "/sky/nadir", "[0,0]", "has length 2; "},
             {with(R"("stars": { "catalogue": "a", "in_depth": 5000 })"), "/stars/in_depth", "5000",
                 "leaves no place for the other stars"},
+            {with(R"("stars": { "catalogue": "a", "sun_light": 1 })"), "/stars/sun_light", "1",
+                "has no Sun that could shine"},
             {with(R"("stars": { "catalogue": "a", "ahead_deg": [84] })"), "/stars/ahead_deg", "[84]", "has length 1; "},
             {with(R"("ambient": 0.5)"), "/ambient", "0.5", "is not a list; a list of 3 numbers"},
             {with(nine), "/lights", R"([{"radiance":[1,1,1],"towards":[0,1,0],"type":"directional"}...)",

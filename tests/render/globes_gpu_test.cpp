@@ -157,8 +157,9 @@ std::vector<Subject> subjects()
         const std::string name = one.name;
         const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
         one.air = has("limb") || has("Earth") || has("shadow");
-        if (has("limb"))
-            one.rough = 0.1;
+        if (has("limb")) // towards the horizon a pixel's ground is longer than wide, and its one ray meets a cloud's edge or
+                         // not
+            one.rough = 0.25;
         if (has("cities")) // each finer than a pixel: the map's levels place its light elsewhere in the pixel
             one.mean = 0.1, one.psnr_dB = 18;
         if (has("rings")) // ringlets and gaps are finer than a pixel, and the live picture takes eight places of each

@@ -955,4 +955,65 @@ TEST(Physics, AnEclipseLeavesTheSumOverTheRestOfTheDisc)
     EXPECT_EQ(pd::left_of_sun(1.04, 2.05), 1);
 }
 
+/// Moments over places that are spread evenly, far from each other. A mean of 40,000 places of variance 1 is off by 0.005
+/// (one standard deviation); the logistic curve and the noise, which is not normal, by 0.012.
+TEST(Physics, DetailKeepsTheMeanOfTheMaps)
+{
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> place(-600, 600);
+    constexpr int count = 40000;
+    for (const double octaves : {0.5, 1.0, 3.0, 9.0}) {
+        glm::dvec2 mean(0), square(0);
+        double both = 0, said = 0, spots = 0;
+        std::vector<double> parts = {0.02, 0.2, 0.5, 0.8, 0.98}, covers(parts.size());
+        for (int i = 0; i < count; ++i) {
+            const pd::Detail here = pd::detail_at(dvec3(place(random), place(random), place(random)), dvec3(0), octaves);
+            mean += here.value / double(count), square += here.value * here.value / double(count);
+            both += here.value.x * here.value.y / count;
+            spots += pd::detail_spots(here.value.x, here.variance, 1.2) / count;
+            for (std::size_t k = 0; k < parts.size(); ++k)
+                covers[k] += pd::detail_cover(parts[k], here.value.x, here.variance) / count;
+            said = here.variance;
+        }
+        for (int field = 0; field < 2; ++field) {
+            EXPECT_NEAR(mean[field], 0, 0.02) << octaves;
+            EXPECT_NEAR(square[field], said, 0.03) << octaves;
+        }
+        EXPECT_NEAR(both, 0, 0.02) << octaves << ": the fields should be independent";
+        EXPECT_NEAR(spots, 1, 0.04) << octaves;
+        for (std::size_t k = 0; k < parts.size(); ++k)
+            EXPECT_NEAR(covers[k], parts[k], 0.018) << octaves;
+    }
+}
+
+TEST(Physics, DetailsSlopeIsItsDifference)
+{
+    std::mt19937_64 random(4);
+    std::uniform_real_distribution<double> place(-600, 600);
+    const dvec3 along(0.3, -0.4, 0.2);
+    for (int i = 0; i < 2000; ++i) {
+        const dvec3 p(place(random), place(random), place(random));
+        const double octaves = i % 9 + 0.5, step = 1e-6;
+        const pd::Detail here = pd::detail_at(p, along, octaves), next = pd::detail_at(p + step * along, dvec3(0), octaves),
+                         before = pd::detail_at(p - step * along, dvec3(0), octaves);
+        // The second derivative jumps at the cells' sides: by 6 of the finest octave, of 0.02 * 512 * 512.
+        for (int field = 0; field < 2; ++field)
+            EXPECT_NEAR((next.value[field] - before.value[field]) / (2 * step), here.slope[field], 0.05);
+        // A float knows the place to 3e-5 of a cell, and the slopes of all octaves together are below 200.
+        const glm::vec3 rough(p);
+        const pd::Detail exact = pd::detail_at(dvec3(rough), along, octaves);
+        EXPECT_NEAR(pf::detail_at(rough, glm::vec3(along), float(octaves)).value.x, exact.value.x, 0.02);
+    }
+}
+
+TEST(Physics, DetailIsTheMapWhereAPixelIsWider)
+{
+    const pd::Detail none = pd::detail_at(dvec3(12.3, 4.5, 6.7), dvec3(1, 0, 0), 0);
+    EXPECT_EQ(none.value, glm::dvec2(0));
+    EXPECT_EQ(none.variance, 0);
+    for (const double part : {0.001, 0.3, 0.999})
+        EXPECT_NEAR(pd::detail_cover(part, 0, 0), part, 1e-12);
+    EXPECT_EQ(pd::detail_spots(0, 0, 1.2), 1);
+}
+
 } // namespace physics_test

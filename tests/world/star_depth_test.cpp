@@ -181,6 +181,29 @@ TEST(StarDepth, TheFieldBeginsWithTheBrightestAndLosesNone)
     EXPECT_NEAR(sum / expected, 1, 1e-6);
 }
 
+/// sun_light: the radiance of a white surface that faces the Sun, one astronomical unit away. It sends its light over pi
+/// steradians.
+TEST(StarDepth, TheSunHasTheLightOfTheScene)
+{
+    StarSky sky{.catalogue = catalogue,
+        .brightness_arcmin2 = 500,
+        .sun_deg = glm::dvec2(64, -4.6),
+        .sun_light = 0.01,
+        .in_depth = 3};
+    for (const double unit_m : {1.0, 299792458.0}) {
+        const std::vector<Star> stars = stars_in_depth(sky);
+        ASSERT_EQ(stars.size(), 4u);
+        const StarField field = star_field(stars, sky, unit_m);
+        std::vector<shared::StarEntry> entries(4);
+        stars_from(field, {0, 0, 0}, entries);
+        const auto sun = std::find_if(entries.begin(), entries.end(), [](const auto& one) { return one.light.z > 0; });
+        ASSERT_NE(sun, entries.end());
+        EXPECT_NEAR(sun->light.y, 0.01 * pi, 1e-6);
+        EXPECT_NEAR(sun->light.z / degree, 0.2666, 1e-3); // half of 31 minutes and 59 seconds, the mean of the year
+        EXPECT_NEAR(sun->light.w * unit_m, 1.495979e11, 1e5);
+    }
+}
+
 TEST(StarDepth, AnEyeInAStarSeesNoInfiniteLight)
 {
     const Star star{{1, 0, 0}, 0, 5772, parsec_m};
