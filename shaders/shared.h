@@ -294,6 +294,7 @@ struct OverlayConstants {
 #define OVERLAY_RING 2
 #define OVERLAY_DISTANCE 3
 #define OVERLAY_EMISSION 4
+#define OVERLAY_PROTRACTOR 5
 
 // Push constants of the finish pass: from light to the screen's input. The vectors are rows of matrices.
 struct FinishPush {
