@@ -33,6 +33,9 @@ public:
     }
     /// True once after these characters were typed in a row.
     bool typed(std::string_view code) { return keyboard_.typed(code); }
+    /// As Keyboard's.
+    void write(bool writes) { keyboard_.write(writes); }
+    std::string take_written() { return keyboard_.take_written(); }
     /// Another visitor's hands come: what the last ones have left tilted, open or held counts once it has reported again.
     void forget() { hid_.forget(), keyboard_.forget(); }
     /// Another layout has another head tracker, or none. One whose rules are the same goes on.

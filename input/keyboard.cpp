@@ -27,6 +27,22 @@ bool is_read_elsewhere(int joystick, const std::vector<UsbId>& read_elsewhere)
     return kind && std::find(read_elsewhere.begin(), read_elsewhere.end(), *kind) != read_elsewhere.end();
 }
 
+/// The character of a key that writes none by itself; empty for the others.
+std::string_view written_character(int key)
+{
+    switch (key) {
+    case GLFW_KEY_ENTER:
+    case GLFW_KEY_KP_ENTER:
+        return "\n";
+    case GLFW_KEY_BACKSPACE:
+        return "\b";
+    case GLFW_KEY_ESCAPE:
+        return "\x1b";
+    default:
+        return {};
+    }
+}
+
 } // namespace
 
 std::string key_text(int key)
@@ -71,6 +87,15 @@ bool Keyboard::typed(std::string_view code)
     return true;
 }
 
+void Keyboard::write(bool writes)
+{
+    if (writes == writes_)
+        return;
+    // A key that is down at the change, such as the Enter that ends a number, is no switch and steers nothing.
+    forget();
+    written_.clear(), writes_ = writes;
+}
+
 void Keyboard::begin()
 {
     now_.fill(false);
@@ -94,6 +119,8 @@ void Keyboard::collect(GLFWwindow* window)
         Keyboard& self = *static_cast<Keyboard*>(glfwGetWindowUserPointer(of));
         // GLFW takes the first press after a grab for a repetition, as it has missed the release.
         const bool anew = std::exchange(self.stale_[std::size_t(key)], false);
+        if (self.writes_ && action != GLFW_RELEASE)
+            self.written_ += written_character(key);
         if (action != GLFW_PRESS && !(anew && action == GLFW_REPEAT))
             return;
         self.keys_left_.press(std::size_t(key));
@@ -104,6 +131,8 @@ void Keyboard::collect(GLFWwindow* window)
         constexpr std::size_t most = 64;
         Keyboard& self = *static_cast<Keyboard*>(glfwGetWindowUserPointer(of));
         self.typed_ += code < 128 ? char(code) : '?';
+        if (self.writes_ && code < 128)
+            self.written_ += char(code);
         if (self.typed_.size() > most)
             self.typed_.erase(0, 1);
     });
@@ -160,6 +189,15 @@ void Keyboard::finish(Controls& controls, bool left_handed)
     controls.held |= held_ || std::ranges::find(now_, true) != now_.end();
     was_held_ = held_;
     controls.turn = glm::clamp(controls.turn, -1.0, 1.0);
+}
+
+void Keyboard::finish_writing(Controls& controls)
+{
+    keys_left_.end(), mouse_left_.end();
+    controls.held |= std::ranges::find(now_, true) != now_.end();
+    controls.pressed |= std::ranges::any_of(presses_, [](std::uint8_t presses) { return presses > 0; });
+    presses_.fill(0);
+    dragging_ = nullptr, was_held_ = false;
 }
 
 void Keyboard::read_pads(Controls& controls, double dt_s, const std::vector<UsbId>& read_elsewhere, bool left_handed)

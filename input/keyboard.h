@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 struct GLFWwindow;
@@ -29,7 +30,10 @@ public:
         for (GLFWwindow* window : windows)
             collect(window);
         let_go(grabbed);
-        finish(controls, left_handed);
+        if (writes_)
+            finish_writing(controls);
+        else
+            finish(controls, left_handed);
         read_pads(controls, dt_s, read_elsewhere, left_handed);
         return controls;
     }
@@ -40,12 +44,18 @@ public:
     /// True once after these characters were typed in a row.
     bool typed(std::string_view code);
 
+    /// Whether the keys are somebody's handwriting, from now on: they then steer nothing and are no switches.
+    void write(bool writes);
+    /// The keys since the last call, while they are handwriting: characters of ASCII, '\b', '\n' for Enter, '\x1b' for Esc.
+    std::string take_written() { return std::exchange(written_, {}); }
+
 private:
     static constexpr int keys = 512;
     void begin();
     void collect(GLFWwindow* window);
     void let_go(bool grabbed);
     void finish(Controls& controls, bool left_handed);
+    void finish_writing(Controls& controls);
     void read_pads(Controls& controls, double dt_s, const std::vector<UsbId>& read_elsewhere, bool left_handed);
     bool down(int key) const { return now_[key]; }
     bool pressed(int key) const { return presses_[key] > 0; }
@@ -56,6 +66,8 @@ private:
     /// all count, one frame after another.
     std::array<std::uint8_t, keys> presses_{};
     std::string typed_; ///< the last characters
+    std::string written_; ///< not taken yet
+    bool writes_ = false;
     PadButtons pads_;
     PadsLeft pads_left_;
     HeldOver<keys> keys_left_; ///< left behind, and so is the mouse button

@@ -85,6 +85,36 @@ vec4 ring(vec3 n, float pixel_angle)
     return over(line(vec3(1.0), off, 0.9, 1.0), tint) * overlay.ring.z;
 }
 
+// Ticks of a scale of degrees: every degree, longer every five, longest every ten. along: the angle; across: the distance
+// from the scale's line; both in radians.
+vec4 degree_ticks(float along, float across, float pixel_angle)
+{
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 3; ++i) {
+        float apart = radians(i == 0 ? 1.0 : i == 1 ? 5.0 : 10.0), reach = radians(i == 0 ? 0.35 : i == 1 ? 0.7 : 1.1);
+        float room = clamp(apart / pixel_angle / 3.0 - 0.5, 0.0, 1.0); // ticks a few pixels apart would fill the line
+        float within = clamp((reach - abs(across)) / pixel_angle + 0.5, 0.0, 1.0);
+        sum = over(line(vec3(1.0), from_multiple(along, apart) / pixel_angle, 0.4, room * within), sum);
+    }
+    return sum;
+}
+
+// Circles around the motion, and a scale of degrees from it through the crosshair and beyond. n: the ship's direction, motion
+// axes.
+vec4 protractor(vec3 n, float pixel_angle)
+{
+    float angle = atan(length(n.xy), n.z), ten = from_multiple(angle, radians(10.0)), thirty = from_multiple(angle, radians(30.0));
+    vec4 sum = line(vec3(0.55, 0.75, 0.85), ten / pixel_angle, 0.6, 0.7);
+    sum = over(line(vec3(0.45, 0.85, 1.0), thirty / pixel_angle, 1.1, 0.9), sum);
+    sum = over(line(vec3(1.0, 0.62, 0.2), (angle - radians(90.0)) / pixel_angle, 1.1, 0.9), sum);
+    // Straight ahead the crosshair has no side: the scale is level.
+    vec2 aside = overlay.aim[int(overlay.world0.w)].xy;
+    aside = dot(aside, aside) > 1e-6 ? aside : overlay.right.xy;
+    float across = dot(n.xy, vec2(-aside.y, aside.x)) / length(aside);
+    sum = over(line(vec3(1.0), across / pixel_angle, 0.4, 0.8), sum);
+    return over(degree_ticks(angle, across, pixel_angle), sum) * overlay.ring.z;
+}
+
 // A distance (scene units) along n (the ship's direction, motion axes) as a colour with contours; the picture behind stays
 // visible.
 vec4 false_colour(float distance, vec3 n)
@@ -138,9 +168,12 @@ vec4 signs(vec3 n, float pixel_angle)
         if (sine > 1e-6) {
             axis /= sine;
             if (dot(cross(first, n), axis) > 0.0 && dot(cross(n, second), axis) > 0.0) {
-                float along = atan(dot(cross(first, n), axis), dot(first, n));
+                float along = atan(dot(cross(first, n), axis), dot(first, n)), across = dot(n, axis);
                 float dash = step(0.5, fract(along / max(radians(0.8), 8.0 * pixel_angle)));
-                sum = line(vec3(1.0), dot(n, axis) / pixel_angle, 0.6, 0.8 * dash);
+                bool ruler = OVERLAY == OVERLAY_PROTRACTOR;
+                sum = line(vec3(1.0), across / pixel_angle, 0.6, ruler ? 0.8 : 0.8 * dash);
+                if (ruler)
+                    sum = over(degree_ticks(along, across, pixel_angle), sum);
             }
         }
     }
@@ -185,6 +218,8 @@ void main()
     }
     if (OVERLAY == OVERLAY_RING)
         sum = ring(n, pixel_angle);
+    if (OVERLAY == OVERLAY_PROTRACTOR)
+        sum = protractor(n, pixel_angle);
     if (OVERLAY == OVERLAY_DISTANCE || OVERLAY == OVERLAY_EMISSION) {
         Shown seen = shown_along(n, pixel_angle);
         // Moving things have no distance in the world where velocities simply add.

@@ -302,7 +302,8 @@ struct OverlayConstants {
 #define OVERLAY_RING 2
 #define OVERLAY_DISTANCE 3
 #define OVERLAY_EMISSION 4
-#define OVERLAY_FIGURES 5
+#define OVERLAY_PROTRACTOR 5
+#define OVERLAY_FIGURES 6
 
 // The table of the constellations' lines, as figure_table() of runtime/world/sky_names.h has it: cells, and the distance in
 // radians up to which a cell has lines.

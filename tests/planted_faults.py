@@ -125,6 +125,11 @@ FAULTS = [
     ("hud", "runtime/hud/hud_place.cpp", '{0, -1, half.y}', '{0, -1, half.x}', "HudPlaceTest.*"),
     ("hud", "runtime/hud/signs.cpp", 'behind_cosine * distance * speed', 'behind_cosine * distance', "Signs.*"),
     ("hud", "runtime/hud/why_sketch.cpp", 'part_of(-light_per_s * t_s / apart)', 'part_of(light_per_s * t_s / apart)', "WhySketch.*"),
+    ("hud", "runtime/hud/lab_readings.cpp", "squares / double(all.count - 1)", "squares / double(all.count)", "LabReadings.*"),
+    ("hud", "runtime/hud/lab_readings.cpp", "std::lgamma(a + 1)", "std::lgamma(a)", "LabReadings.*"),
+    ("hud", "runtime/hud/lab_entry.cpp", "!(*number > 0)", "false", "LabEntry.*"),
+    ("hud", "runtime/hud/lab_rows.cpp", "Q::wavelength, 635.0853", "Q::wavelength, 476.314", "LabRows.*"),
+    ("hud", "runtime/hud/lab_panel.cpp", "page.numbers.clear()", "page.numbers.size()", "LabScales.*"),
     ("hud", "runtime/hud/challenges.cpp", '(!best->solved && (one.solved', '((one.solved', "Challenges.*"),
     ("hud", "runtime/hud/instruments.cpp", 'found = i, nearest = off;', 'found = i;', "Instruments.*"),
 ]

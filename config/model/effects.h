@@ -46,6 +46,9 @@ inline constexpr EffectSet usual_effects = [] {
     return usual;
 }();
 
+/// The effects of a list such as "aberration,headlight"; "none": none. Throws InputError for an unknown name.
+EffectSet effects_named(std::string_view list);
+
 /// The comparisons: velocities that simply add, or everything at the ship's present, as if light came at once.
 enum class Comparison { none, galilean, no_light_delay };
 constexpr std::array<const char*, 3> comparison_names = {"none", "galilean", "no-light-delay"};

@@ -127,7 +127,8 @@ inline constexpr std::array all_switches{
     SwitchEntry{Switch::range, "range", Leap::toggle, Presser::visitor,
         "everything visible at once, with brightness compressed, on and off", {'V'}},
     SwitchEntry{Switch::overlay, "overlay", Leap::press, Presser::visitor,
-        "instruments: crosshair, grid, ring of D = 1, distance, time of emission, off", {'O'}, PadButton::start},
+        "instruments: crosshair, grid, ring of D = 1, distance, time of emission, protractor, spectrum, photometer, off",
+        {'O'}, PadButton::start},
     SwitchEntry{Switch::mark, "mark", Leap::press, Presser::visitor, // shows the crosshair and its panel, as `log` does
         "mark the thing at the crosshair (the first, the second)", {'X'}, PadButton::right_stick},
     SwitchEntry{Switch::log, "log", Leap::press, Presser::student, "write a line of the log", {'K'}},

@@ -93,6 +93,6 @@ static void add_challenges(Subcommand& app, std::function<int()>& chosen)
     command->callback([options, &chosen] { chosen = [options] { return show(*options); }; });
 }
 
-static const Registered challenges_command{15, add_challenges};
+static const Registered challenges_command{16, add_challenges};
 
 } // namespace starbow

@@ -24,6 +24,6 @@ static void add_help(Subcommand& app, std::function<int()>& chosen)
     });
 }
 
-static const Registered help_command{17, add_help};
+static const Registered help_command{18, add_help};
 
 } // namespace starbow

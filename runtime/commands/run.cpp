@@ -38,6 +38,7 @@ struct RunOptions {
                 ladder, trace, warm_up = "auto", node, frame_log;
     double frame_budget_ms = -1; ///< below 0: the exhibit's
     double log_every_s = 0;
+    bool by_eye = false;
     long frames = 0;
     bool presenter = false; ///< the guide's window, whatever the exhibit's file says
     bool verbose = false;
@@ -161,6 +162,7 @@ int run(const RunOptions& given)
         exhibit_options.warms_up = options.warm_up == "always";
     exhibit_options.log = options.log;
     exhibit_options.log_every_s = options.log_every_s;
+    exhibit_options.by_eye = options.by_eye;
     if (!has_display() && options.any_given)
         throw InputError(
             "There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no window can be opened; "
@@ -226,6 +228,8 @@ static void add_run(Subcommand& app, std::function<int()>& chosen)
         "frames a second takes 70 kB at rest, 0.4 MB with a stick in hand, 1.2 MB with a head tracker");
     Option* log = command->add_option("--log", options->log,
         "Write what the instruments read into this CSV file, a line each time K is pressed; an existing file is continued");
+    command->add_flag("--by-eye", options->by_eye,
+        "For a laboratory: the instruments have scales without figures, and with --log K asks for your own reading");
     command->add_option("--log-every", options->log_every_s, "With --log: also write a line every this many seconds")
         ->check(number_between(0.02, 86400.0))
         ->needs(log);

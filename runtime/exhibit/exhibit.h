@@ -47,6 +47,7 @@ struct ExhibitOptions {
     Pattern pattern = Pattern::none; ///< the first test pattern
     std::filesystem::path record{}; ///< file or folder for the record, or folder for a record of each visit; empty: none
     std::filesystem::path log{}; ///< CSV file of the instruments' readings; empty: none
+    bool by_eye = false; ///< the instruments have scales alone, and the key of the log asks for a reading
     double log_every_s = 0; ///< interval of automatic lines; 0: only at a key
     std::filesystem::path replay{}; ///< a record that is flown instead of the visitor's flight; empty: none
     Trace* trace = nullptr; ///< receives the spans of each frame; null: none. It must outlive the flight

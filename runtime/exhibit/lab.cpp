@@ -1,15 +1,17 @@
 #include "lab.h"
 #include "config/json/error.h"
 #include "config/json/whole_file.h"
+#include "runtime/hud/lab_scales.h"
 #include "runtime/operation/log.h"
 #include <algorithm>
 
 namespace starbow {
 
-Lab::Lab(const std::filesystem::path& log, double every_s, const Words& words)
+Lab::Lab(const std::filesystem::path& log, double every_s, bool by_eye, const Words& words)
     : words_(words)
     , log_(log.empty() ? nullptr : std::make_unique<LabLog>(log, write_log))
     , every_s_(every_s)
+    , by_eye_(by_eye)
     , panel_number_(std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count())
 {
     if (!log_ || log_->lines() == 0)
@@ -50,6 +52,9 @@ void Lab::read(const FrameRenderer& frame, Switches pressed, const GpuWorld& wor
         plot_ = Plot((int(plot_) + 1) % int(plot_names.size()));
     if ((pressed[Switch::mark] || pressed[Switch::log] || every_s_ > 0) && overlay_ == Overlay::off)
         overlay_ = Overlay::aim; // marking and logging show the crosshair
+    if (pressed.any())
+        said_.clear();
+    keep_reading(say);
     marks_due_ += pressed[Switch::mark];
     lines_due_ += pressed[Switch::log];
     if (!on() || effects_.comparison != Comparison::none) { // the instruments measure the physical picture only
@@ -81,11 +86,40 @@ void Lab::read(const FrameRenderer& frame, Switches pressed, const GpuWorld& wor
     }
 }
 
+void Lab::type(std::string_view keys)
+{
+    if (!writes() || keys.empty())
+        return;
+    entry_->type(keys);
+    drawn_ = {}; // the key is in the next picture
+}
+
 void Lab::keep(const std::function<void(std::string)>& say)
 {
     if (!log_)
         say(words_("lab.no_log"));
-    else if (log_->write(*measured_, overlay_names[std::size_t(overlay_)])) {
+    else if (by_eye_ && every_s_ == 0)
+        entry_.emplace(*measured_), said_.clear(), drawn_ = {};
+    else
+        keep_line(*measured_, {}, say);
+}
+
+void Lab::keep_reading(const std::function<void(std::string)>& say)
+{
+    if (!entry_ || entry_->open())
+        return;
+    if (const std::optional<WrittenReading> reading = entry_->written()) {
+        keep_line(entry_->instant(), reading, say);
+        said_ = says_of(*reading, words_);
+    }
+    entry_.reset();
+    drawn_ = {};
+}
+
+void Lab::keep_line(
+    const Measured& measured, const std::optional<WrittenReading>& reading, const std::function<void(std::string)>& say)
+{
+    if (log_->write(measured, overlay_names[std::size_t(overlay_)], reading)) {
         add_to_plots(log_->last(), log_->lines() + 1);
         drawn_ = {}; // the point is in the next picture
         if (every_s_ == 0)
@@ -105,22 +139,25 @@ std::optional<Instruments> Lab::request(
     if (again)
         scale_ = overlay_scale(world.world, shot.position, world.scene.seconds_per_time_unit()), drawn_ = now;
     Instruments what{overlay_ == Overlay::off ? Overlay::aim : overlay_, marks_, scale_};
-    if (measured_ && flight.hud) {
-        const double aspect = plot_ == Plot::none ? lab_aspect(overlay_, why_) : plot_aspect;
-        const int width = views.lab_panel_width(aspect);
-        if (again || panel_.size != glm::ivec2(width, int(width * aspect)))
+    if (measured_ && (flight.hud || entry_)) {
+        const int width = views.lab_panel_width(aspect());
+        if (again || panel_.size != glm::ivec2(width, int(width * aspect())))
             panel_ = draw_panel(typesetter, width), ++panel_number_;
         what.panel = &panel_, what.panel_number = panel_number_;
-        if (plot_ == Plot::none)
+        if (plot_ == Plot::none && !entry_)
             what.scale_place = scale_place(overlay_, why_);
     }
     return what;
 }
 
+double Lab::aspect() const { return entry_ ? entry_aspect : plot_ == Plot::none ? lab_aspect(overlay_, why_) : plot_aspect; }
+
 Panel Lab::draw_panel(const Typesetter& typesetter, int width) const
 {
+    if (entry_)
+        return draw_lines(typesetter, entry_->lines(words_), {width, int(width * entry_aspect)});
     if (plot_ == Plot::none)
-        return draw_lab_panel(typesetter, words_, *measured_, overlay_, scale_, why_, width,
+        return draw_lab_panel(typesetter, words_, *measured_, {overlay_, scale_, why_, by_eye_, said_}, width,
             std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count());
     return draw_lab_plot(typesetter, words_, plot_, points_[std::size_t(plot_)], glm::length(measured_->observer.u), width);
 }

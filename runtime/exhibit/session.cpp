@@ -175,7 +175,7 @@ Session::Session(const ExhibitOptions& given)
     , kept(layout)
     , loader(layout)
     , alignment(given.pattern)
-    , lab(given.log, given.log_every_s, words)
+    , lab(given.log, given.log_every_s, given.by_eye, words)
     , speaker(given.speech ? std::make_unique<Speaker>() : nullptr)
     , usage(given.state, given.textfile)
 {
@@ -278,8 +278,10 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     entry.skipped_ns = passed.count() - entry.dt_ns;
     const double dt_s = 1e-9 * double(entry.dt_ns);
     session.desktop_saver.keep_away();
+    session.devices.write(session.lab.writes());
     controls = session.devices.read(windows, session.display.keyboard_grabbed(windows),
         std::chrono::nanoseconds(now - session.began).count(), dt_s, session.choices.left_handed, now);
+    session.lab.type(session.devices.take_written());
     session.last = now;
     if (session.options.visitor)
         session.options.visitor(entry);

@@ -84,7 +84,7 @@ std::vector<Point> parse_points(const std::string& text, const Layout& layout)
 }
 
 StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& world, const Shot& shot,
-    const std::vector<Point>& points, const std::string& overlay, const std::string& why, const Words& words)
+    const std::vector<Point>& points, const std::string& overlay, const std::string& why, const Words& words, bool by_eye)
 {
     StillMeasurement measurement;
     const auto which = [](const auto& names, const std::string& name) {
@@ -126,11 +126,13 @@ StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& worl
     for (std::size_t i = 0; i < probed.size(); ++i) {
         const Measured measured
             = measured_of(frame.head(i), ship, world.scene, world.world, shot.effects, spot_of(i), probed[i].light, marks);
+        measurement.points.push_back(measured);
+        if (by_eye)
+            continue;
         measurement.lines.push_back(
             (i == 0 ? "ahead: " : "point " + std::to_string(i) + ": ") + describe(measured.aim, measured, english));
-        measurement.points.push_back(measured);
     }
-    if (measurement.points[0].pair) {
+    if (measurement.points[0].pair && !by_eye) {
         // The pair's numbers are those of the observer who sees both, the visitor's where two observers see one each.
         const bool one_view = what.probes[1].view == what.probes[2].view;
         const auto fields = reading_fields(measurement.points[one_view ? 1 : 0], english);
@@ -143,8 +145,10 @@ StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& worl
     const OverlayScale scale = overlay_scale(world.world, frame.observer().place, world.scene.seconds_per_time_unit());
     what.over = {over == Overlay::off && page != Why::none ? Overlay::aim : over, marks, scale};
     if (over != Overlay::off || page != Why::none) {
-        measurement.panel = std::make_shared<Panel>(draw_lab_panel(Typesetter(), words, measurement.points[0], over, scale,
-            page, frame.views().lab_panel_width(lab_aspect(over, page))));
+        const bool at_point = over == Overlay::spectrum || over == Overlay::photometer;
+        measurement.panel = std::make_shared<Panel>(
+            draw_lab_panel(Typesetter(), words, measurement.points[at_point && !points.empty() ? 1 : 0],
+                {over, scale, page, by_eye}, frame.views().lab_panel_width(lab_aspect(over, page))));
         what.panel = measurement.panel.get();
         what.scale = scale_place(over, page);
     }

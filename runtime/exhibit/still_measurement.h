@@ -27,8 +27,10 @@ struct StillMeasurement {
 };
 
 /// Measures a shot. If an overlay or a page is requested, the renderer's next picture shows it; the result must outlive
-/// that picture. words: for the panel. Throws InputError for a point that shows nothing.
+/// that picture. by_eye: it shows scales alone, and no line has a reading. The spectrum's slit and the photometer are at the
+/// first point, or without points straight ahead. words: for the panel. Throws InputError for a point that shows nothing.
 StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& world, const Shot& shot,
-    const std::vector<Point>& points, const std::string& overlay, const std::string& why, const Words& words);
+    const std::vector<Point>& points, const std::string& overlay, const std::string& why, const Words& words,
+    bool by_eye = false);
 
 } // namespace starbow

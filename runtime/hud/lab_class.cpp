@@ -4,6 +4,8 @@
 #include "config/json/reader.h"
 #include "config/markup/html.h"
 #include "config/markup/svg.h"
+#include "lab_class_marks.h"
+#include "lab_class_readings.h"
 #include "lab_log.h"
 #include <algorithm>
 #include <cmath>
@@ -13,61 +15,11 @@
 namespace starbow {
 namespace {
 
-/// Okabe and Ito, Color Universal Design, 2008: told apart by people with any kind of colour vision. Their yellow is too
-/// pale for a white page.
-constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"};
-
-/// The outlines of the marks, as SVG paths around 0, about 5 pixels to each side. Colour and mark differ between neighbours,
-/// so that a print without colours shows the groups as well.
-constexpr const char* shapes[] = {"M-5 0A5 5 0 1 0 5 0A5 5 0 1 0 -5 0Z", "M-4.5 -4.5H4.5V4.5H-4.5Z", "M0 -6L5.6 4H-5.6Z",
-    "M0 -6.2L6.2 0L0 6.2L-6.2 0Z", "M0 6L5.6 -4H-5.6Z", "M-1.9 -5.6H1.9V-1.9H5.6V1.9H1.9V5.6H-1.9V1.9H-5.6V-1.9H-1.9Z",
-    "M0 -6.5L1.8 -2.2L6.4 -2L2.8 0.9L4 5.4L0 2.9L-4 5.4L-2.8 0.9L-6.4 -2L-1.8 -2.2Z",
-    "M-6 -3.2L-3.2 -6L0 -2.8L3.2 -6L6 -3.2L2.8 0L6 3.2L3.2 6L0 2.8L-3.2 6L-6 3.2L-2.8 0Z"};
-constexpr std::size_t colour_count = std::size(colours), shape_count = std::size(shapes);
-static_assert(colour_count * shape_count == most_groups); // 7 and 8 have no common divisor: each pair comes once
-
-const char* colour_of(std::size_t group) { return colours[group % colour_count]; }
-std::size_t shape_of(std::size_t group) { return group % shape_count; }
-
-std::string figure(double value, const char* form)
-{
-    std::array<char, 40> text;
-    std::snprintf(text.data(), text.size(), form, value);
-    return text.data();
-}
-
-/// A mark at a place; hollow, and around a filled one, for what was seen.
-void mark(Svg& svg, std::size_t group, bool by_eye, glm::dvec2 at)
-{
-    svg.raw("<use href=\"#m" + std::to_string(shape_of(group)) + "\" transform=\"translate(" + shortest(at.x) + ' '
-        + shortest(at.y) + (by_eye ? ")scale(1.4)\" " : ")\" ")
-        + (by_eye ? "fill=\"none\" stroke=\"" : "stroke=\"#fff\" stroke-width=\"0.6\" fill=\"") + colour_of(group)
-        + (by_eye ? "\" stroke-width=\"1.2\"/>" : "\"/>"));
-}
-
-std::string key_mark(std::size_t group, bool by_eye)
-{
-    Svg svg;
-    mark(svg, group, by_eye, {8, 8});
-    return svg.drawn({16, 16}, "class=\"key\"");
-}
-
 std::string key_theory()
 {
     Svg svg;
     svg.line({0, 8}, {16, 8}, "class=\"theory\"");
     return svg.drawn({16, 16}, "class=\"key\"");
-}
-
-/// The shapes of all marks, which show nothing here.
-std::string mark_shapes()
-{
-    Svg svg;
-    svg.raw("<defs>");
-    for (std::size_t i = 0; i < shape_count; ++i)
-        svg.path(shapes[i], attribute("id", "m" + std::to_string(i)));
-    svg.raw("</defs>");
-    return svg.drawn({0, 0}, "width=\"0\" height=\"0\" style=\"position:absolute;width:0\"");
 }
 
 std::string drawing(const LabClass& all, Plot plot, const Words& words)
@@ -114,7 +66,7 @@ std::string drawing(const LabClass& all, Plot plot, const Words& words)
             const double x = x_of(point.x), y = y_of(point.y);
             if (point.y > 0 && x >= left - 1 && x <= right + 1 && y >= top - 1 && y <= bottom + 1
                 && drawn.insert({std::lround(x), std::lround(y), point.by_eye}).second)
-                mark(svg, i, point.by_eye, {x, y});
+                draw_group_mark(svg, i, point.by_eye, {x, y});
         }
     }
     return svg.drawn({width, height}, "role=\"img\" " + attribute("aria-label", escaped_html(words(keys.title))));
@@ -131,26 +83,32 @@ std::string percent(double part, bool sign, const Words& words)
     return text + " %";
 }
 
+/// The groups' deviations of what was seen; empty where no group has any. Filled points would only repeat the formula.
 std::string table(const LabClass& all, Plot plot, const Words& words)
 {
-    std::ostringstream out;
-    out << "<table>\n<tr><th>" << words("class.group") << "</th><th></th><th>" << words("class.count") << "</th><th>"
-        << words("class.mean") << "</th><th>" << words("class.spread") << "</th></tr>\n";
-    for (std::size_t i = 0; i < all.groups.size(); ++i)
-        for (const bool by_eye : {false, true}) {
-            const Deviation deviation = deviation_of(all.groups[i].points[std::size_t(plot)], by_eye);
-            if (deviation.count == 0)
-                continue;
-            out << "<tr><td>" << key_mark(i, by_eye) << ' ' << escaped_html(all.groups[i].name) << "</td><td>"
-                << words(by_eye ? "class.by_eye"_key : "class.read"_key) << "</td><td>" << deviation.count << "</td><td>"
-                << percent(deviation.mean, true, words) << "</td><td>"
-                << (deviation.count > 1 ? percent(deviation.spread, false, words) : "—") << "</td></tr>\n";
-        }
-    out << "</table>\n";
-    return out.str();
+    std::string rows;
+    for (std::size_t i = 0; i < all.groups.size(); ++i) {
+        const Deviation deviation = deviation_of(all.groups[i].points[std::size_t(plot)], true);
+        if (deviation.count > 0)
+            rows += "<tr><td>" + group_mark(i, true) + ' ' + escaped_html(all.groups[i].name) + "</td><td>"
+                + std::to_string(deviation.count) + "</td><td>" + percent(deviation.mean, true, words) + "</td><td>"
+                + (deviation.count > 1 ? percent(deviation.spread, false, words) : "—") + "</td></tr>\n";
+    }
+    if (rows.empty())
+        return rows;
+    return std::string("<table class=\"seen ") + plot_names[std::size_t(plot)] + "\">\n"
+        + table_row({words("class.group"), words("class.count"), words("class.mean"), words("class.spread")}, "th") + rows
+        + "</table>\n";
 }
 
 } // namespace
+
+/// Cells that a line of an older version lacks.
+static std::size_t missing_cells(std::string_view line)
+{
+    static const auto right = std::ranges::count(log_header(), ',');
+    return std::size_t(right - std::ranges::count(line, ','));
+}
 
 std::string class_header() { return "group," + log_header(); }
 
@@ -169,7 +127,9 @@ void add_group(LabClass& all, const std::string& name, std::string_view bytes, c
         LabLine now = read_lab_line(texts[i].second, file, texts[i].first);
         for (std::size_t plot = 1; plot < plot_names.size(); ++plot)
             add_points(group.points[plot], Plot(plot), i > 0 ? &before : nullptr, now);
-        csv.append(begin).append(texts[i].second).append("\r\n");
+        csv.append(begin).append(texts[i].second).append(missing_cells(texts[i].second), ',').append("\r\n");
+        if (std::optional<StudentReading> reading = reading_of(now))
+            group.readings.push_back(std::move(*reading));
         before = std::move(now);
         if (progress && i % 4096 == 0)
             progress(double(texts[i].second.data() - bytes.data()) / double(bytes.size()));
@@ -180,21 +140,36 @@ void add_group(LabClass& all, const std::string& name, std::string_view bytes, c
     all.groups.push_back(std::move(group));
 }
 
+void add_readings(LabClass& all, const std::string& name, std::string_view bytes, const std::string& file)
+{
+    LabGroup group{.name = name, .readings = read_reading_list(bytes, file)};
+    if (group.readings.empty())
+        throw InputError(one_line(file) + ": has no reading; a list with at least one number and its uncertainty is right");
+    group.lines = long(group.readings.size());
+    all.groups.push_back(std::move(group));
+}
+
 std::string class_page(const LabClass& all, const Words& words)
 {
     std::ostringstream out;
     out << page_begin(words.language, words("class.title"),
         "text{font-size:14px}svg.key{width:1.1em;height:1.1em;vertical-align:-.2em}.grid{stroke:#ddd;fill:none}"
         ".theory{stroke:#777;stroke-width:1.5;fill:none}.speed{font-size:12px;fill:#555}"
-        ".legend span{margin-right:1.5em;white-space:nowrap}")
-        << mark_shapes() << "<h1>" << escaped_html(words("class.title")) << "</h1>\n<p class=\"legend\">";
+        ".legend span{margin-right:1.5em;white-space:nowrap}"
+        ".sure{fill:#0072b2;opacity:.12}.zero{stroke:#333}table{font-size:.9em}"
+        ".says{text-align:left;white-space:normal}td,th{white-space:nowrap}table.readings th{white-space:normal}"
+        "@media print{body{margin:0;max-width:none}table,svg{break-inside:avoid}}")
+        << group_mark_shapes() << "<h1>" << escaped_html(words("class.title")) << "</h1>\n<p class=\"legend\">";
     for (std::size_t i = 0; i < all.groups.size(); ++i)
-        out << "<span>" << key_mark(i, false) << ' ' << escaped_html(all.groups[i].name) << " (" << words("class.lines")
+        out << "<span>" << group_mark(i, false) << ' ' << escaped_html(all.groups[i].name) << " (" << words("class.lines")
             << ": " << all.groups[i].lines << ")</span> ";
-    out << "<span>" << key_theory() << ' ' << words("class.theory") << "</span></p>\n<p>"
-        << escaped_html(words("class.explain")) << "</p>\n";
+    out << "</p>\n" << readings_section(all.groups, words);
+    if (all.csv.empty()) // lists of readings alone
+        return out.str() + "</body></html>\n";
+    out << "<h2>" << escaped_html(words("class.plots")) << "</h2>\n<p>" << key_theory() << ' ' << words("class.theory")
+        << "</p>\n<p>" << escaped_html(words("class.explain")) << "</p>\n";
     for (std::size_t plot = 1; plot < plot_names.size(); ++plot)
-        out << "<h2>" << escaped_html(words(plot_words[plot].title)) << "</h2>\n"
+        out << "<h3>" << escaped_html(words(plot_words[plot].title)) << "</h3>\n"
             << drawing(all, Plot(plot), words) << table(all, Plot(plot), words);
     out << "</body></html>\n";
     return out.str();

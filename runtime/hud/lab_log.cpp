@@ -52,7 +52,18 @@ void add_spot(Columns& columns, const std::string& name, const std::optional<Spo
             {name + "_emitted_world_s", csv_number(s.emitted_s)}, {name + "_clock_s", csv_number(s.clock_s)}});
 }
 
-Columns columns_of(const Measured& m, const std::string& overlay, const std::string& utc)
+void add_reading(Columns& columns, const std::optional<WrittenReading>& reading)
+{
+    const auto number = [&](double value) { return reading ? csv_number(value) : ""; };
+    const WrittenReading r = reading.value_or(WrittenReading{});
+    columns.insert(columns.end(),
+        {{"reading_of", reading ? std::string(entry_of(r.of).name) : ""}, {"reading", number(r.value)},
+            {"reading_uncertainty", number(r.uncertainty)}, {"reading_theory", number(r.theory)},
+            {"reading_sigmas", number(r.sigmas())}});
+}
+
+Columns columns_of(
+    const Measured& m, const std::string& overlay, const std::string& utc, const std::optional<WrittenReading>& reading = {})
 {
     const MeasuringObserver& o = m.observer;
     const double speed = glm::length(o.u), gamma = physics::gamma_of(o.u);
@@ -87,6 +98,7 @@ Columns columns_of(const Measured& m, const std::string& overlay, const std::str
             {"marks_relative_gamma_beta", csv_number(pair.relative_u)},
             {"marks_from_motion_at_rest_deg", csv_number(pair.from_motion_at_rest_rad, degree)},
             {"marks_clock_2_minus_1_s", csv_number(pair.clocks_s)}});
+    add_reading(all, reading);
     return all;
 }
 
@@ -115,9 +127,10 @@ std::string utc_now()
 
 std::string log_header() { return joined(columns_of({}, "", ""), &Columns::value_type::first); }
 
-std::string log_line(const Measured& measured, const std::string& overlay, const std::string& utc)
+std::string log_line(const Measured& measured, const std::string& overlay, const std::string& utc,
+    const std::optional<WrittenReading>& reading)
 {
-    return joined(columns_of(measured, overlay, utc), &Columns::value_type::second);
+    return joined(columns_of(measured, overlay, utc, reading), &Columns::value_type::second);
 }
 
 LabLog::LabLog(const std::filesystem::path& file, LogTo log)
@@ -148,9 +161,9 @@ LabLog::LabLog(const std::filesystem::path& file, LogTo log)
 
 LabLog::~LabLog() { close(stream_); }
 
-bool LabLog::write(const Measured& measured, const std::string& overlay)
+bool LabLog::write(const Measured& measured, const std::string& overlay, const std::optional<WrittenReading>& reading)
 {
-    std::string line = log_line(measured, overlay, utc_now());
+    std::string line = log_line(measured, overlay, utc_now(), reading);
     if (!write_out(line + line_end))
         return false;
     last_ = std::move(line);

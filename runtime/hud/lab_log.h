@@ -1,6 +1,6 @@
 #pragma once
 #include "config/model/log_kinds.h"
-#include "why.h"
+#include "lab_quantities.h"
 #include <filesystem>
 #include <string>
 
@@ -18,7 +18,7 @@ public:
     LabLog(const LabLog&) = delete;
 
     /// Appends a line. Returns false if the disk refuses it; later lines are lost then.
-    bool write(const Measured& measured, const std::string& overlay);
+    bool write(const Measured& measured, const std::string& overlay, const std::optional<WrittenReading>& reading = {});
     long lines() const { return lines_; } ///< in the file, without the first
     const std::string& last() const { return last_; } ///< the last line written, without its end
     const std::filesystem::path& file() const { return file_; }
@@ -36,7 +36,8 @@ private:
 
 /// The first line, without its end.
 std::string log_header();
-/// A line, without its end. utc: ISO 8601. Unknown values are left empty.
-std::string log_line(const Measured& measured, const std::string& overlay, const std::string& utc);
+/// A line, without its end. utc: ISO 8601. Unknown values are left empty. reading: of a student at this instant.
+std::string log_line(const Measured& measured, const std::string& overlay, const std::string& utc,
+    const std::optional<WrittenReading>& reading = {});
 
 } // namespace starbow

@@ -1,5 +1,6 @@
 #include "lab_panel.h"
 #include "config/model/angles.h"
+#include "lab_scales.h"
 #include "why_sketch.h"
 #include <algorithm>
 #include <cmath>
@@ -50,11 +51,21 @@ std::string overlay_line(Overlay overlay, const Measured& measured, const Overla
     case Overlay::emission:
         return words("overlay.emission",
             {{"step", rounded_s(scale.emission_step_s, words)}, {"five", rounded_s(5 * scale.emission_step_s, words)}});
+    case Overlay::protractor:
+        return words("overlay.protractor");
     case Overlay::off:
     case Overlay::aim:
+    case Overlay::spectrum:
+    case Overlay::photometer:
         break;
     }
     return unshifted ? words("overlay.aim", {{"unshifted", angle}}) : words("overlay.aim_rest");
+}
+
+/// Whether an overlay's line says where D is 1, which is a figure of the theory.
+bool line_has_figure(Overlay overlay)
+{
+    return overlay != Overlay::grid && overlay != Overlay::protractor && !has_scale(overlay);
 }
 
 /// Writes numbers under the scale of colours: at 1, 2 and 5 times powers of ten.
@@ -88,11 +99,10 @@ void write_scale(const Typesetter& typesetter, Panel& panel, Overlay overlay, co
         }
 }
 
-Panel draw_readings(const Typesetter& typesetter, const Words& words, const Measured& measured, Overlay overlay,
-    const OverlayScale& scale, int width)
+/// The readings' figures, in three rows.
+void write_fields(const Typesetter& typesetter, Panel& panel, const Words& words, const Measured& measured)
 {
-    const int height = int(width * lab_aspect(overlay, Why::none)), unit = int(width * readings_aspect);
-    Panel panel = plate({width, height}, unit * 0.12);
+    const int width = panel.size.x, unit = int(width * readings_aspect);
     const auto fields = reading_fields(measured, words);
     const double rows[] = {0.26, 0.50, 0.74}, columns[] = {margin, 0.36, 0.71};
     for (int i = 0; i < 9; ++i) {
@@ -105,10 +115,42 @@ Panel draw_readings(const Typesetter& typesetter, const Words& words, const Meas
         typesetter.write(panel, fields[i].first, x, rows[i / 3] * unit, label(), 0.72);
         typesetter.write(panel, fields[i].second, x + value_at(), rows[i / 3] * unit, size, 1);
     }
-    write_within(typesetter, panel, overlay_line(overlay, measured, scale, words), width * margin, 0.93 * unit,
-        int(0.14 * unit), width * (1 - 2 * margin), 0.85);
-    if (has_scale(overlay))
-        write_scale(typesetter, panel, overlay, scale, measured.light_speed_m_s, words);
+}
+
+/// Sentences in the figures' place.
+void write_sentences(const Typesetter& typesetter, Panel& panel, const std::string& text)
+{
+    const double unit = panel.size.x * readings_aspect, room = panel.size.x * (1 - 2 * margin);
+    int letters = int(0.2 * unit);
+    std::vector<std::string> lines;
+    for (;; --letters) {
+        lines = wrapped(text, room, [&](const std::string& line) { return typesetter.width_of(line, letters); });
+        if (letters <= 6 || 1.3 * letters * double(lines.size()) < 0.65 * unit)
+            break;
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        typesetter.write(panel, lines[i], margin * panel.size.x, 0.1 * unit + letters * (0.9 + 1.3 * double(i)), letters, 1);
+}
+
+Panel draw_readings(
+    const Typesetter& typesetter, const Words& words, const Measured& measured, const LabView& view, int width)
+{
+    const glm::ivec2 size(width, int(width * lab_aspect(view.overlay, Why::none)));
+    const int unit = int(width * readings_aspect);
+    if (view.by_eye_says.empty() && view.overlay == Overlay::spectrum)
+        return draw_spectroscope(typesetter, words, measured.aim.seen_nm, size);
+    if (view.by_eye_says.empty() && view.overlay == Overlay::photometer)
+        return draw_photometer(typesetter, words, measured.aim.light.value_or(0), size);
+    Panel panel = plate(size, unit * 0.12);
+    if (view.by_eye)
+        write_sentences(typesetter, panel, view.by_eye_says.empty() ? words("lab.by_eye") : view.by_eye_says);
+    else
+        write_fields(typesetter, panel, words, measured);
+    if (!view.by_eye || !line_has_figure(view.overlay))
+        write_within(typesetter, panel, overlay_line(view.overlay, measured, view.scale, words), width * margin, 0.93 * unit,
+            int(0.14 * unit), width * (1 - 2 * margin), 0.85);
+    if (has_scale(view.overlay))
+        write_scale(typesetter, panel, view.overlay, view.scale, measured.light_speed_m_s, words);
     return panel;
 }
 
@@ -170,14 +212,17 @@ glm::vec4 scale_place(Overlay overlay, Why why)
     return {0.06, 0.155, 0.94, 0.215};
 }
 
-Panel draw_lab_panel(const Typesetter& typesetter, const Words& words, const Measured& measured, Overlay overlay,
-    const OverlayScale& scale, Why why, int width, double sketch_s)
+Panel draw_lab_panel(const Typesetter& typesetter, const Words& words, const Measured& measured, const LabView& view,
+    int width, double sketch_s)
 {
+    if (view.why == Why::none)
+        return draw_readings(typesetter, words, measured, view, width);
     // The sketch flies as fast as the formula beside it: for the Doppler effect past the spot, which may move itself.
-    const double gamma_beta = why == Why::doppler ? measured.aim.relative_u : glm::length(measured.observer.u);
-    return why != Why::none
-        ? draw_page(typesetter, why_page(why, measured, words), why_sketch(why, gamma_beta, sketch_s), width)
-        : draw_readings(typesetter, words, measured, overlay, scale, width);
+    const double gamma_beta = view.why == Why::doppler ? measured.aim.relative_u : glm::length(measured.observer.u);
+    WhyPage page = why_page(view.why, measured, words);
+    if (view.by_eye)
+        page.numbers.clear();
+    return draw_page(typesetter, page, why_sketch(view.why, gamma_beta, sketch_s), width);
 }
 
 } // namespace starbow

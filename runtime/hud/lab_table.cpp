@@ -16,13 +16,16 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-enum class Kind { time, overlay, flag, number };
+enum class Kind { time, overlay, quantity, flag, number };
 struct Column {
     std::string name;
     Kind kind = Kind::number;
     bool always = false; ///< never empty
     Range range{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
 };
+
+/// The first of the columns that logs of older versions lack.
+constexpr std::string_view first_of_reading = "reading_of";
 
 std::vector<std::string_view> split(std::string_view line)
 {
@@ -39,12 +42,14 @@ Column column_of(std::string_view name)
 {
     Column column{std::string(name)};
     const auto ends = [&](std::string_view end) { return name.ends_with(end); };
-    const bool of_ship = name.find("aim_") == name.npos && name.find("mark") == name.npos;
+    const bool of_ship = name.find("aim_") == name.npos && name.find("mark") == name.npos && !name.starts_with("reading");
     column.always = of_ship && !name.starts_with("doppler_1");
     if (name == "utc")
         column.kind = Kind::time;
     else if (name == "overlay")
         column.kind = Kind::overlay;
+    else if (name == first_of_reading)
+        column.kind = Kind::quantity;
     else if (ends("_on"))
         column.kind = Kind::flag;
     else if (ends("_deg"))
@@ -53,7 +58,7 @@ Column column_of(std::string_view name)
         column.range = {1, std::numeric_limits<double>::max()};
     else if (name == "beta" || name == "one_minus_beta")
         column.range = {0, 1};
-    else if (ends("_doppler") || ends("_nm"))
+    else if (ends("_doppler") || ends("_nm") || ends("_uncertainty"))
         column.range.low = 0, column.range.low_open = true;
     else if (ends("relative_gamma_beta") || ends("_number") || ends("_light") || (!of_ship && ends("_light_s")))
         column.range.low = 0;
@@ -70,6 +75,26 @@ const std::vector<Column>& columns()
         return columns;
     }();
     return all;
+}
+
+/// Columns of a log of an older version.
+std::size_t older_columns()
+{
+    const auto first = std::find_if(
+        columns().begin(), columns().end(), [](const Column& column) { return column.name == first_of_reading; });
+    return std::size_t(first - columns().begin());
+}
+
+/// A quantity's place among all; refuses other names than a log's.
+template <class Wrong> double read_quantity(std::string_view cell, const Wrong& wrong)
+{
+    if (cell.empty())
+        return none;
+    const auto found = std::find_if(all_lab_quantities.begin(), all_lab_quantities.end(),
+        [&](const LabQuantityEntry& one) { return one.theory && one.name == cell; });
+    if (found == all_lab_quantities.end())
+        wrong("is not a quantity; wavelength_nm, angle_deg or another that starbow run --log writes is right");
+    return double(found - all_lab_quantities.begin());
 }
 
 bool is_time(std::string_view text)
@@ -101,8 +126,10 @@ double read_cell(std::string_view cell, const Column& column, const std::string&
         return none;
     case Kind::overlay:
         if (std::find(overlay_names.begin(), overlay_names.end(), cell) == overlay_names.end())
-            wrong("is not an overlay; off, aim, grid, ring, distance or emission is right");
+            wrong("is not an overlay; off, aim, grid, ring, distance or another that starbow run --log writes is right");
         return none;
+    case Kind::quantity:
+        return read_quantity(cell, wrong);
     case Kind::flag:
         if (cell != "0" && cell != "1")
             wrong("is not a switch; 0 or 1 is right");
@@ -148,7 +175,8 @@ double LabLine::operator[](std::string_view column) const
 LabLine read_lab_line(std::string_view text, const std::string& file, long line)
 {
     const std::vector<std::string_view> cells = split(text);
-    if (cells.size() != columns().size())
+    const std::size_t older = older_columns();
+    if (cells.size() != columns().size() && cells.size() != older)
         refuse(file, line,
             "\"" + one_line(std::string(text), 60) + "\" has " + std::to_string(cells.size())
                 + " cells; a line as starbow run --log writes it, with " + std::to_string(columns().size())
@@ -157,6 +185,13 @@ LabLine read_lab_line(std::string_view text, const std::string& file, long line)
     read.values.reserve(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i)
         read.values.push_back(read_cell(cells[i], columns()[i], file, line));
+    read.values.resize(columns().size(), none);
+    for (std::size_t i = older + 1; i < columns().size(); ++i)
+        if (std::isfinite(read.values[older]) != std::isfinite(read.values[i]))
+            refuse(file, line,
+                columns()[i].name
+                    + ": a reading has all of its five cells, or none; a line as starbow run --log writes it "
+                      "is right");
     return read;
 }
 
@@ -175,7 +210,8 @@ std::vector<std::pair<long, std::string_view>> lab_texts(std::string_view bytes,
         from = to + 1;
     }
     const std::vector<std::string_view> names = split(texts.front().second);
-    for (std::size_t i = 0; i < std::max(names.size(), columns().size()); ++i) {
+    const std::size_t right = names.size() == older_columns() ? names.size() : columns().size();
+    for (std::size_t i = 0; i < std::max(names.size(), right); ++i) {
         const std::string_view name = i < names.size() ? names[i] : std::string_view();
         if (i >= columns().size())
             refuse(file, 1,

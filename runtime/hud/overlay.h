@@ -5,8 +5,13 @@
 namespace starbow {
 
 /// The measuring overlays of every viewport, in the order of the key that steps through them.
-enum class Overlay { off, aim, grid, ring, distance, emission };
-constexpr std::array<const char*, 6> overlay_names = {"off", "aim", "grid", "ring", "distance", "emission"};
+/// Spectrum and photometer have a panel of their own, and the crosshair.
+enum class Overlay { off, aim, grid, ring, distance, emission, protractor, spectrum, photometer };
+constexpr std::array<const char*, 9> overlay_names
+    = {"off", "aim", "grid", "ring", "distance", "emission", "protractor", "spectrum", "photometer"};
+/// Those that differ in the picture itself.
+inline constexpr std::array drawn_overlays
+    = {Overlay::aim, Overlay::grid, Overlay::ring, Overlay::distance, Overlay::emission, Overlay::protractor};
 
 /// The scales of the false colours.
 struct OverlayScale {

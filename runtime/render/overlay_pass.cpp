@@ -74,7 +74,9 @@ void OverlayPass::prepare(std::size_t view, const Content& content, const Measur
 void OverlayPass::draw(vk::CommandBuffer commands, std::size_t view, const WarpVariant& variant, const Content& content,
     vk::DescriptorSet warp_set, const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size, vk::Format target)
 {
-    constexpr int kinds[] = {OVERLAY_NONE, OVERLAY_NONE, OVERLAY_GRID, OVERLAY_RING, OVERLAY_DISTANCE, OVERLAY_EMISSION};
+    constexpr int kinds[] = {OVERLAY_NONE, OVERLAY_NONE, OVERLAY_GRID, OVERLAY_RING, OVERLAY_DISTANCE, OVERLAY_EMISSION,
+        OVERLAY_PROTRACTOR, OVERLAY_NONE, OVERLAY_NONE};
+    static_assert(std::size(kinds) == overlay_names.size());
     // Everything that finds the surface of a pixel is the warp's. Only the light is left out, so that the switches of the
     // light need no pipelines of their own.
     WarpVariant own = variant;

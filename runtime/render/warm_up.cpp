@@ -39,7 +39,7 @@ std::vector<WarmUp::State> states_of(bool combined)
         }
     };
     const auto with_overlays = [&](State state) {
-        for (Overlay overlay : {Overlay::aim, Overlay::grid, Overlay::ring, Overlay::distance, Overlay::emission}) {
+        for (Overlay overlay : drawn_overlays) {
             state.overlay = overlay;
             states.push_back(state);
         }

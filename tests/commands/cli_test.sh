@@ -217,7 +217,7 @@ for arguments in '' 'fly' 'render' 'render --shot' 'run --frames -1' 'check' 're
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ]; then passed=$((passed + 1)); else fail "'$arguments' is not refused with exit 2 in one line: $said"; fi
 done
 
-begins_with 'fly is not a command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench, measure, report, soak, tell, challenges, class and help are' fly
+begins_with 'fly is not a command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench, measure, report, soak, tell, lab, challenges, class and help are' fly
 begins_with 'look is not a command; inspect and convert are' warp look
 begins_with "--ouput is not an option of 'starbow render'; --help, --layout, --shot, --scene, --out," render --shot start --ouput o1
 begins_with "--sizes is not an option of 'starbow warp inspect'; " warp inspect x --sizes 3

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The laboratory's commands without a window: open questions, and the class. Usage: lab_test.sh PROGRAM
+# The laboratory's commands without a window: papers, open questions, and the class. Usage: lab_test.sh PROGRAM
 set -u
 program=$1
 tests=$(cd "$(dirname "$0")/.." && pwd)
@@ -37,6 +37,31 @@ for language in en de; do
     if [ $? = 0 ] && [[ $said == "3 groups, "*" lines: the page is $language/class.html, all lines are in $language/class.csv" ]]; then ok; else fail "class: $said"; fi
     said=$(cd "$folder" && python3 "$tests/lab/golden.py" $language/class.html newton.csv einstein.csv noether.csv 2>&1) && ok || fail "golden, $language: $said"
 done
+# Readings of three invented groups: every statistic is that of a computation that shares no code with the program.
+for language in en de; do
+    said=$(cd "$folder" && "$program" class hertz.csv kirchhoff.csv noddack.csv --out "$language/readings.html" --language $language 2>&1)
+    if [ $? = 0 ] && [[ $said == "3 groups, 117 lines: the page is $language/readings.html, 117 readings are in $language/readings-readings.csv" ]]; then ok; else fail "class of readings: $said"; fi
+    said=$(cd "$folder" && PYTHONDONTWRITEBYTECODE=1 python3 "$tests/lab/readings_golden.py" $language/readings.html hertz.csv kirchhoff.csv noddack.csv 2>&1) && ok || fail "readings, $language: $said"
+done
+[ ! -e "$folder/en/readings.csv" ] && ok || fail "a class of lists has a CSV file of logs"
+mkdir "$folder/invented" && PYTHONDONTWRITEBYTECODE=1 python3 "$tests/lab/invent.py" "$folder/invented" && diff -r -q "$folder/invented" "$tests/lab" | grep -q differ && fail "the invented groups differ from those of invent.py" || ok
+
+# The papers.
+for language in en de; do
+    for reader in student teacher; do
+        (cd "$folder" && "$program" lab --sheet $reader --language $language --out $language/$reader.html >/dev/null) && [ "$(grep -c '<tr><td>[A-Z][0-9]</td>' "$folder/$language/$reader.html")" = 36 ] && ok || fail "sheet: $reader, $language"
+    done
+done
+(cd "$folder" && "$program" lab --readings list.csv >/dev/null) && [ "$(wc -l <"$folder/list.csv")" = 37 ] && ok || fail "no list"
+refused 'list.csv is there already' lab --readings list.csv
+refused 'neither --sheet nor --readings' lab
+refused 'does not end in .html' lab --sheet student --out sheet.pdf
+refused 'does not end in .csv' lab --readings list.ods
+refused '--sheet' lab --sheet pupil
+refused 'list.csv: has no reading' class newton.csv list.csv
+printf 'no,quantity,reading,uncertainty\r\nA1,,35.7,0\r\n' >"$folder/sure.csv"
+refused 'sure.csv:2: uncertainty: "0" is out of range' class sure.csv
+
 # Another time it is replaced.
 (cd "$folder" && "$program" class newton.csv --out en/class.html >/dev/null) && [ "$(sort -u -t, -k1,1 "$folder/en/class.csv" | wc -l)" = 2 ] && ok || fail "class: another time"
 

@@ -137,6 +137,40 @@ assert rows[0]["mark_1_clock_s"] and not rows[0]["mark_2_clock_s"] and rows[1]["
 assert float(rows[1]["marks_angle_deg"]) == 0 and float(rows[1]["ship_time_s"]) > float(rows[0]["ship_time_s"])
 CHECK
 ok
+# By eye K asks for a reading: the keys write it and neither steer nor switch, and the theory comes with the whole line. Esc
+# gives up once, and then leaves.
+fly desk --shot clocks-passing --by-eye --log "$folder/eye.csv" --record "$folder/eye.jsonl"
+xdotool key o
+"$rig/wait_flown.py" "$folder/eye.jsonl" 0.2 || fail "by eye: the flight stands still"
+for key in k 1 6 3 w BackSpace 3 period 5 Return space 4 Return; do
+    xdotool key $key
+    sleep "$pace"
+done
+written() { [ "$(wc -l <"$folder/eye.csv")" = 2 ]; }
+until_true 30 written || fail "by eye: no reading in the log"
+xdotool keydown w
+for key in k 2 7 Escape; do
+    xdotool key $key
+    sleep "$pace"
+done
+xdotool keyup w
+xdotool key Escape
+wait $exhibit || fail "by eye: exit $?"
+ok
+python3 - "$folder/eye.csv" "$folder/eye.jsonl" <<'CHECK' || fail "by eye: the log is wrong: $(cat "$folder/eye.csv")"
+import csv, sys
+rows = list(csv.DictReader(open(sys.argv[1], newline="")))
+assert len(rows) == 1, rows
+row = rows[0]
+assert (row["reading_of"], row["reading"], row["reading_uncertainty"]) == ("wavelength_nm", "63.5", "4"), row
+assert row["aberration_on"] == "1" and row["headlight_on"] == "0" and abs(float(row["beta"]) - 0.5) < 1e-9, row
+assert abs(float(row["reading_theory"]) - float(row["aim_550_nm_seen_as_nm"])) < 1e-6, row
+assert abs(float(row["reading_sigmas"]) - (63.5 - float(row["reading_theory"])) / 4) < 1e-6, row
+flown = open(sys.argv[2]).read()
+for switch in ("aberration", "stop", "menu", "undo", "mark"):
+    assert f'"{switch}": true' not in flown and f'"{switch}":true' not in flown, switch
+CHECK
+ok
 printf 'date,weather\n' >"$folder/other.csv"
 said=$(timeout 20 "$program" run --log "$folder/other.csv" 2>&1 >/dev/null)
 [ $? = 2 ] && [[ $said == *"other.csv: 1: begins otherwise"* ]] || fail "a file that is not a log: $said"

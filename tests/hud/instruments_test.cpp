@@ -620,7 +620,7 @@ TEST(Instruments, LettersStayOnTheirPlate)
             for (std::size_t why = 0; why < why_names.size(); ++why)
                 for (std::size_t overlay = 1; overlay < overlay_names.size(); ++overlay) {
                     const Panel panel = draw_lab_panel(
-                        typesetter, words(language), some_measured(), Overlay(overlay), {0.5, 100, 2}, Why(why), width);
+                        typesetter, words(language), some_measured(), {Overlay(overlay), {0.5, 100, 2}, Why(why)}, width);
                     ASSERT_EQ(panel.size, glm::ivec2(width, int(width * lab_aspect(Overlay(overlay), Why(why)))));
                     long letters = 0;
                     for (int y = 0; y < panel.size.y; ++y)

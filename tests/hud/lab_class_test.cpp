@@ -1,6 +1,7 @@
 // Several groups' logs in one page and one CSV file. tests/lab/golden.py, which shares no code with the program, compared
 // the shipped logs' means and spreads with the page; its figures are repeated here.
 #include "runtime/hud/lab_class.h"
+#include "runtime/hud/lab_class_marks.h"
 #include "runtime/hud/lab_log.h"
 #include "tests/support/files.h"
 #include <gtest/gtest.h>
@@ -74,7 +75,7 @@ TEST(LabClass, TheCsvHasEveryLineWithItsGroup)
         std::stringstream lines(log_of(group));
         std::string line;
         for (std::getline(lines, line); std::getline(lines, line);)
-            expected += std::string(group) + "," + line + "\n";
+            expected += std::string(group) + "," + line.substr(0, line.size() - 1) + ",,,,,\r\n"; // no readings yet
     }
     EXPECT_EQ(all.csv, expected);
     // A name with a comma stays one cell.
@@ -97,12 +98,14 @@ TEST(LabClass, ThePageHasEveryGroupInAColourAndAMarkOfItsOwn)
 {
     for (const char* language : {"en", "de"}) {
         const std::string page = class_page(shipped_class(), words(language));
-        EXPECT_EQ(count_of(page, "<table>"), 3);
+        // What was seen alone: ticks of two groups, lengths of one. The clocks on board are all computed.
+        EXPECT_EQ(count_of(page, "<table class=\"seen"), 2);
         EXPECT_EQ(count_of(page, "role=\"img\""), 3);
         EXPECT_GE(count_of(page, "class=\"theory\""), 4); // D at its speeds, length, clock, and the legend
         EXPECT_EQ(page.find("nan"), page.npos);
         EXPECT_EQ(page.find("inf"), page.npos);
-        constexpr Key keys[]{"plot.doppler", "plot.length_y", "plot.clock", "class.mean", "class.explain"};
+        constexpr Key keys[]{
+            "plot.doppler", "plot.length_y", "plot.clock", "class.mean", "class.explain", "class.no_readings"};
         for (const Key key : keys)
             EXPECT_NE(page.find(words(language)(key)), page.npos) << key.name();
     }
@@ -116,6 +119,30 @@ TEST(LabClass, ThePageHasEveryGroupInAColourAndAMarkOfItsOwn)
     for (std::sregex_iterator at(page.begin(), page.end(), legend), end; at != end; ++at)
         pairs.insert((*at)[1].str() + (*at)[2].str());
     EXPECT_EQ(pairs.size(), most_groups);
+}
+
+// The three invented groups; tests/lab/readings_golden.py, which shares no code with the program, recomputes the page's
+// figures (tests/commands/lab_test.sh).
+TEST(LabClass, ReadingsHaveAPictureAndTwoTables)
+{
+    LabClass all = shipped_class();
+    for (const char* group : {"hertz", "kirchhoff", "noddack"})
+        add_readings(all, group, log_of(group), std::string(group) + ".csv");
+    for (const char* language : {"en", "de"}) {
+        const std::string page = class_page(all, words(language));
+        EXPECT_EQ(count_of(page, "<table class=\"groups"), 1);
+        EXPECT_EQ(count_of(page, "<table class=\"readings"), 1);
+        EXPECT_EQ(count_of(page, "role=\"img\""), 4);
+        constexpr Key keys[]{"class.agrees", "class.too_far", "class.too_close", "class.readings_explain", "class.z"};
+        for (const Key key : keys)
+            EXPECT_NE(page.find(words(language)(key)), page.npos) << key.name();
+        EXPECT_NE(page.find(words(language)("class.verdict")), page.npos);
+    }
+    // A class of lists alone has no plots.
+    LabClass lists;
+    add_readings(lists, "hertz", log_of("hertz"), "hertz.csv");
+    EXPECT_EQ(count_of(class_page(lists, words()), "role=\"img\""), 1);
+    EXPECT_EQ(lists.csv, "");
 }
 
 TEST(LabClass, AGroupWithoutMeasurementsIsRefused)

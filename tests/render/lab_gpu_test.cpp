@@ -5,74 +5,13 @@
 #include "runtime/flight/flight.h"
 #include "runtime/reference/reference.h"
 #include "tests/support/gpu_environment.h"
+#include "tests/support/lab_theory.h"
 #include "tests/support/quad.h"
-#include <fstream>
 #include <functional>
 #include <map>
-#include <sstream>
 
 namespace starbow::gpu_test::lab_gpu_test {
 namespace {
-
-struct Row {
-    std::vector<std::string> cells;
-    const std::string& no() const { return cells[0]; }
-};
-
-/// The rows of the document's tables that begin with a letter and a number.
-std::vector<Row> rows_of_the_document()
-{
-    std::ifstream stream(testing::source_dir() / "docs/lab.md");
-    std::vector<Row> rows;
-    for (std::string line; std::getline(stream, line);) {
-        if (line.size() < 6 || line[0] != '|' || !std::isupper(line[2]) || !std::isdigit(line[3]))
-            continue;
-        Row row;
-        std::stringstream cells(line.substr(1));
-        for (std::string cell; std::getline(cells, cell, '|');) {
-            const auto from = cell.find_first_not_of(' '), to = cell.find_last_not_of(' ');
-            row.cells.push_back(from == cell.npos ? "" : cell.substr(from, to - from + 1));
-        }
-        if (row.cells.size() >= 5) // the legend has fewer cells
-            rows.push_back(row);
-    }
-    return rows;
-}
-
-/// By school mathematics, from cosines and a speed.
-double doppler(double beta, double theta_deg)
-{
-    return std::sqrt(1 - beta * beta) / (1 - beta * std::cos(theta_deg * degree));
-}
-double seen_deg(double beta, double theta_deg)
-{
-    const double c = std::cos(theta_deg * degree);
-    return std::acos((c + beta) / (1 + beta * c)) / degree;
-}
-
-/// The theoretical value of each measurement.
-std::map<std::string, double> theory()
-{
-    const double b4 = std::sqrt(15.0) / 4, half = std::atan(10.0 / 31) / degree;
-    // The ship is at (17.897.., 0, 31) 35.79.. s after the clock at x showed 0.
-    const double past = 31 / std::sqrt(3.0), now = 2 * past;
-    const auto reading = [&](double x) { return now - std::hypot(past - x, 31.0); };
-    const auto world_deg = [&](double x) { return std::atan2(31.0, x - past) / degree; };
-    const auto rest_reading = [](double x) { return 31 - std::hypot(x, 31.0); };
-    const auto seen_at = [&](double x) { return seen_deg(0.5, world_deg(x)); };
-    const double D60 = doppler(b4, 60), off = std::acos(std::cos(15 * degree) * std::cos(5 * degree)) / degree;
-    const double way = ((4 + 0.25) / 2 - 1) / 0.5, angle = std::atan2(5, 31 - way);
-    const double at_4 = 2 * std::atan(std::tan(angle / 2) / 4) / degree;
-    return {{"A1", 2 * half}, {"A2", seen_at(-10) - seen_at(10)}, {"A3", world_deg(-10) - world_deg(10)}, {"A4", 90},
-        {"A5", 120}, {"A6", 90}, {"D1", 4 + std::sqrt(15.0)}, {"D2", 0.25}, {"D3", 4 - std::sqrt(15.0)}, {"D4", 1},
-        {"D5", std::acos((1 - 0.25) / b4) / degree}, {"D6", std::acos((1 - std::sqrt(0.75)) / 0.5) / degree},
-        {"D7", std::sqrt(0.75)}, {"D8", 550 / std::sqrt(0.75)}, {"C1", rest_reading(-10)}, {"C2", rest_reading(5)},
-        {"C3", reading(-10)}, {"C4", reading(-5)}, {"C5", reading(5)}, {"C6", reading(10)},
-        {"C7", reading(10) - reading(-10)}, {"C8", reading(10) - reading(-10)}, {"C9", 0}, {"T1", now}, {"T2", 31},
-        {"T3", 0}, {"T4", 31}, {"L1", 31 * (std::tan((seen_at(-10) - 90) * degree) + std::tan((90 - seen_at(10)) * degree))},
-        {"L2", 20 * std::sqrt(0.75)}, {"L3", 20}, {"H1", D60 * D60 * D60}, {"H2", std::pow(4 + std::sqrt(15.0), 3)},
-        {"H3", std::pow(doppler(b4, off), 3)}, {"S1", 1 + 0.5 * 31}, {"S2", 2 / (2 + 0.5 * 31)}, {"S3", at_4}};
-}
 
 using Read = std::function<std::optional<double>(const StillMeasurement&)>;
 const std::map<std::string, Read> readings = {
@@ -105,12 +44,12 @@ std::vector<Point> unsteady(std::vector<Point> points, double right_deg, double 
 
 TEST(Lab, EveryMeasurementGivesTheTheorysValue)
 {
-    const std::map<std::string, double> expected = theory();
+    const std::map<std::string, double> expected = testing::lab_theory();
     std::map<std::string, std::unique_ptr<RenderContext>> contexts;
     const Layout desk = one_view(Planar{60}, {400, 300});
     std::map<std::string, std::unique_ptr<OffscreenRenderer>> renderers;
     int measured = 0;
-    for (const Row& row : rows_of_the_document()) {
+    for (const testing::DocumentRow& row : testing::lab_rows_of_the_document()) {
         if (row.no()[0] == 'S')
             continue;
         SCOPED_TRACE(row.no());
@@ -263,8 +202,8 @@ TEST(Lab, UnderThrustTheClocksFirstSeemToMoveBackwards)
     }
     std::printf("  smallest %.4f at %.3f, at %.3f %.4f degrees\n", smallest, smallest_at, nearest_to_4, angle_at_4);
     const std::map<std::string, double> measured = {{"S1", smallest_at}, {"S2", smallest}, {"S3", angle_at_4}};
-    const std::map<std::string, double> expected = theory();
-    for (const Row& row : rows_of_the_document())
+    const std::map<std::string, double> expected = testing::lab_theory();
+    for (const testing::DocumentRow& row : testing::lab_rows_of_the_document())
         if (row.no()[0] == 'S') {
             const double documented = std::stod(row.cells[3]), error = std::stod(row.cells[4]);
             EXPECT_NEAR(documented, expected.at(row.no()), 0.1 * error + 5e-4 * documented) << row.no();

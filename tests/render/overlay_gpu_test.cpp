@@ -104,6 +104,92 @@ TEST(Overlay, AtRestThereIsNoRing)
     EXPECT_EQ(picture(offscreen, shot, Overlay::ring).rgba, picture(offscreen, shot, Overlay::aim).rgba);
 }
 
+// The protractor's circles lie every 10 degrees from the motion and are orange at 90; its scale has a tick every degree, on
+// the great circle from the motion through the crosshair. Elsewhere the picture is that of the crosshair.
+TEST(Overlay, TheProtractorMeasuresTheAngleFromTheMotion)
+{
+    const GpuWorld world = wall_world();
+    OffscreenRenderer offscreen = renderer(world, dome({480, 480}));
+    const Shot shot = shot_at({0, 0, 0}, {0.8, 0.2, -0.6}, {0.5, 0.1, -1});
+    const Numbers numbers(offscreen, shot);
+    const Pixels pixels = picture(offscreen, shot, Overlay::protractor), plain = picture(offscreen, shot, Overlay::aim);
+    const dvec3 motion = normalize(shot.u), look = shot.ship_from_cockpit * dvec3(0, 0, -1),
+                pole = normalize(cross(motion, look));
+    std::array<int, 3> on{}; // circles, of them at 90 degrees, ticks
+    int drawn = 0, orange = 0, ticks = 0, wrong = 0;
+    for (int i = 0; i < numbers.count(); ++i) {
+        const int x = i % pixels.size.x;
+        if (x == 0 || x + 1 == pixels.size.x || !numbers.shown(i) || !numbers.shown(i + 1)
+            || !free_of_aim(shot, numbers.camera(i)))
+            continue;
+        const dvec3 n = numbers.camera(i);
+        const double pixel = between(n, numbers.camera(i + 1)) / degree, angle = between(n, motion) / degree;
+        const double circle = std::abs(angle - 10 * std::round(angle / 10)) / pixel;
+        const double across = std::abs(std::asin(dot(n, pole))) / degree;
+        const bool differs = length(pixels.colour(i) - plain.colour(i)) > 0.05;
+        if (across > 2 && circle < 0.3) {
+            ++on[0], drawn += differs;
+            if (std::round(angle / 10) == 9)
+                ++on[1], orange += pixels.colour(i).r > pixels.colour(i).b + 0.3;
+        } else if (across > 2 && circle > 4) {
+            wrong += differs;
+        }
+        // Beside the scale's line, and short of the longer ticks at 5 and 10 degrees.
+        const double tick = std::abs(angle - std::round(angle)) / pixel;
+        if (across > 1.6 * pixel && across < 0.3 && std::abs(angle - 5 * std::round(angle / 5)) > 0.9 && tick < 0.2)
+            ++on[2], ticks += differs;
+    }
+    EXPECT_GT(on[0], 300);
+    EXPECT_EQ(drawn, on[0]);
+    EXPECT_GT(on[1], 30);
+    EXPECT_EQ(orange, on[1]);
+    EXPECT_EQ(wrong, 0);
+    EXPECT_EQ(ticks, on[2]);
+    const Shot resting = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
+    EXPECT_EQ(picture(offscreen, resting, Overlay::protractor).rgba, picture(offscreen, resting, Overlay::aim).rgba);
+}
+
+// Between two marks lies a ruler: at every whole degree from the first one a tick, and its whole length is the angle.
+TEST(Overlay, TheRulerBetweenTheMarksHasATickEveryDegree)
+{
+    const GpuWorld world = wall_world();
+    OffscreenRenderer offscreen = renderer(world, window({960, 720}));
+    const Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
+    const auto direction
+        = [](double degrees) { return dvec3(std::sin(degrees * degree), 0.05, -std::cos(degrees * degree)); };
+    const auto marked = [&](Overlay overlay) {
+        OverlayPass::Content over{overlay, {}, {}};
+        for (int i = 0; i < 2; ++i)
+            over.marks[std::size_t(i)] = Spot{.at = normalize(direction(i ? 14.6 : -13)), .sky = true};
+        offscreen.frame().measure(Measuring{.over = over});
+        Pixels pixels{offscreen.layout().outputs[0].size, offscreen.picture(shot)[0]};
+        offscreen.frame().measure({});
+        return pixels;
+    };
+    const Numbers numbers(offscreen, shot);
+    const Pixels ruled = marked(Overlay::protractor), plain = marked(Overlay::aim);
+    const dvec3 first = normalize(direction(-13)), second = normalize(direction(14.6));
+    const dvec3 pole = normalize(cross(first, second));
+    std::array<int, 2> whole{}, half{}; // pixels at whole degrees and at half ones, and of them those that are drawn
+    for (int i = 0; i + 1 < numbers.count(); ++i) {
+        const dvec3 n = numbers.camera(i);
+        const double along = std::atan2(dot(cross(first, n), pole), dot(first, n)) / degree;
+        const double across = std::abs(std::asin(dot(n, pole))) / degree;
+        if (across < 0.25 || across > 0.3 || along < 2 || along > 25 || !free_of_aim(shot, n))
+            continue;
+        const double pixel = between(n, numbers.camera(i + 1)) / degree, off = std::abs(along - std::round(along));
+        const bool differs = length(ruled.colour(i) - plain.colour(i)) > 0.05;
+        if (off < 0.3 * pixel)
+            ++whole[0], whole[1] += differs;
+        else if (off > 4 * pixel)
+            ++half[0], half[1] += differs;
+    }
+    EXPECT_GT(whole[0], 10);
+    EXPECT_EQ(whole[1], whole[0]);
+    EXPECT_GT(half[0], 50);
+    EXPECT_EQ(half[1], 0);
+}
+
 // Only the horizon is orange, in every direction that is level in the world.
 TEST(Overlay, TheGridFollowsTheWorldsDirections)
 {

@@ -60,7 +60,7 @@ TEST_P(WarmUpIn, AFlightAfterItMakesNoPipeline)
         fly(gamma, {}, Overlay::off);
     offscreen.frame().range({});
     for (double gamma : {1.0, 4.0})
-        for (Overlay overlay : {Overlay::aim, Overlay::grid, Overlay::ring, Overlay::distance, Overlay::emission})
+        for (Overlay overlay : drawn_overlays)
             fly(gamma, {}, overlay);
 }
 

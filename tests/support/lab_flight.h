@@ -86,14 +86,14 @@ public:
 
     MeasuringObserver observer() const { return measuring_observer_of(shot_of(flight, scene_)); }
     /// Writes a line; the crosshair is on the sky.
-    void log()
+    void log(const std::optional<WrittenReading>& reading = {})
     {
         since_line_s_ = 0;
         const MeasuringObserver now = observer();
         const Spot aim = spot_at(now, {.ray = aim_of(now), .distance = INFINITY}, world_);
         Measured m = measured_of(now, flight.ship, file_, world_, flight.effects, aim, 1, marks_);
         m.mark_numbers = numbers_;
-        bytes += log_line(m, "aim", "2026-11-25T08:30:00.000Z") + "\r\n";
+        bytes += log_line(m, "aim", "2026-11-25T08:30:00.000Z", reading) + "\r\n";
     }
     std::vector<LabLine> lines() const { return read_lab_lines(bytes, "flight.csv"); }
 

@@ -45,7 +45,7 @@ std::vector<Manoeuvre> manoeuvres(const Layout& layout)
         if (!one.usual)
             all.push_back({dashed(one.name), 2, 4, 4, effects(Effects{}.with(one.which))});
     all.push_back({"all on", 2, 4, 4, effects({})});
-    for (Overlay which : {Overlay::aim, Overlay::grid, Overlay::ring, Overlay::distance, Overlay::emission})
+    for (Overlay which : drawn_overlays)
         all.push_back({"overlay", 2, 4, 4, overlay(which)});
     all.push_back({"overlay off", 1, 4, 4, [](Shot&, FrameRenderer& frame) { frame.measure({}); }});
     all.push_back({"glow", 2, 4, 4, [](Shot&, FrameRenderer& frame) { frame.bloom(0.2); }});

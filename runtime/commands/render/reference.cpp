@@ -89,6 +89,6 @@ static void add_reference(Subcommand& app, std::function<int()>& chosen)
     command->callback([options, &chosen] { chosen = [options] { return render_reference(*options); }; });
 }
 
-static const Registered reference_command{18, add_reference};
+static const Registered reference_command{19, add_reference};
 
 } // namespace starbow

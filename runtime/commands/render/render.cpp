@@ -27,12 +27,12 @@ namespace {
 struct RenderOptions {
     std::string layout, shot, out, size, pattern = "none", exposure = "shot", mode = "eye", spectra = "needed", replay,
                                          frames, language = "en", information = "laboratory", tour, movie, points,
-                                         overlay = "off", why = "none", quality, part, scene;
+                                         overlay = "off", why = "none", quality, part, scene, effects;
     std::vector<std::string> others;
     long frames_per_s = 30;
     long every = 1, samples = 16;
     double bloom = 0;
-    bool exr = false, hud = false, sky_names = false, reference = false, join = false;
+    bool exr = false, hud = false, sky_names = false, reference = false, join = false, by_eye = false;
 };
 
 std::vector<std::string> reference_arguments(const RenderOptions& options)
@@ -69,6 +69,8 @@ int render(const RenderOptions& options)
         become_tools(reference_arguments(options));
     const Words words = words_in(options.language);
     Shot shot = still.shot;
+    if (!options.effects.empty())
+        shot.effects.on = effects_named(options.effects);
     const Layout layout = layout_in_size(options.layout, options.size);
     const Pattern pattern = pattern_named(options.pattern);
     std::vector<std::filesystem::path> pictures;
@@ -106,8 +108,8 @@ int render(const RenderOptions& options)
         shot.exposure_ev = 0; // of an eye's exposure, the curve has what it needs
     }
     std::optional<Panel> panel;
-    const StillMeasurement measurement = measure_still(
-        renderer, context.world, shot, parse_points(options.points, layout), options.overlay, options.why, words);
+    const StillMeasurement measurement = measure_still(renderer, context.world, shot, parse_points(options.points, layout),
+        options.overlay, options.why, words, options.by_eye);
     if (options.hud) {
         Readings shown = readings(ship_at(shot), context.world.scene, shot.effects);
         shown.exposure_ev = shot.exposure_ev;
@@ -174,12 +176,13 @@ static void add_render(Subcommand& app, std::function<int()>& chosen)
     Option* points = command->add_option("--measure", options->points, measure_help);
     Option* names = command->add_flag("--sky-names", options->sky_names,
         "With the names of constellations, bright stars and planets, and the constellations' lines");
-    Option* overlay = command
-                          ->add_option("--overlay", options->overlay,
-                              "With instruments over the picture, and their readings: off, "
-                              "aim, grid, ring (D = 1), distance or emission")
-                          ->check(one_of(std::vector<std::string>(overlay_names.begin(), overlay_names.end())))
-                          ->capture_default_str();
+    Option* overlay
+        = command
+              ->add_option("--overlay", options->overlay,
+                  "With instruments over the picture, and their readings: off, aim, grid, ring (D = 1), distance, "
+                  "emission, protractor, spectrum or photometer")
+              ->check(one_of(std::vector<std::string>(overlay_names.begin(), overlay_names.end())))
+              ->capture_default_str();
     Option* why = command
                       ->add_option("--why", options->why,
                           "With the page that explains one effect: aberration, doppler, headlight, delay, "
@@ -188,6 +191,11 @@ static void add_render(Subcommand& app, std::function<int()>& chosen)
                       ->capture_default_str();
     for (Option* other : {pattern, points, overlay, why})
         names->excludes(other);
+    Option* by_eye = command->add_flag("--by-eye", options->by_eye,
+        "With --overlay: scales alone, without the instruments' figures, and with --measure the marks alone");
+    Option* effects = command->add_option("--effects", options->effects,
+        "The effects that are on, instead of the shot's, with commas between them: aberration, doppler, headlight, "
+        "false_colours; or none");
     Option* hud = command->add_flag("--hud", options->hud, "With the head-up display");
     const std::vector<std::string_view> displays = names_of(informations);
     command->add_option("--information", options->information, "The head-up display for a visitor, guide or laboratory")
@@ -197,7 +205,8 @@ static void add_render(Subcommand& app, std::function<int()>& chosen)
     add_language(*command, options->language);
     Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
-    for (Option* other : {shot, scene, exr, pattern, points, names, overlay, why, mode}) // a record has its own mode
+    for (Option* other :
+        {shot, scene, exr, pattern, points, names, overlay, why, mode, by_eye, effects}) // a record has its own mode
         replay->excludes(other);
     Option* frames
         = command->add_option("--frames", options->frames, "With --replay: the frames from A to B, counted from 0, as A:B")
@@ -229,11 +238,11 @@ static void add_render(Subcommand& app, std::function<int()>& chosen)
     command->add_option("--others", options->others, "With --join: folders of frames from other machines' disks")
         ->needs(join);
     tour->needs(movie);
-    for (Option* other : {shot, scene, out, exr, pattern, replay, points, names, overlay, why, mode})
+    for (Option* other : {shot, scene, out, exr, pattern, replay, points, names, overlay, why, mode, by_eye, effects})
         tour->excludes(other);
     Option* reference = command->add_flag("--reference", options->reference,
         "Trace rays in double precision and with whole spectra, without a GPU: slow, the reference for the other pictures");
-    for (Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, names, overlay, why, mode})
+    for (Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, names, overlay, why, mode, by_eye, effects})
         reference->excludes(other);
     command->add_option("--samples", options->samples, "With --reference: rays of each pixel")
         ->check(whole_number(1, 4096))
@@ -250,7 +259,9 @@ static void add_render(Subcommand& app, std::function<int()>& chosen)
         "  starbow render --tour voyage --movie out/voyage.mp4 --part 3/8\n"
         "  starbow render --tour voyage --movie out/voyage.mp4 --join\n"
         "  starbow render --shot orion --out out/orion --sky-names --language de\n"
-        "  starbow render --shot clocks-passing --out out/clocks --measure \"400,300; 12deg,0deg\" --overlay ring");
+        "  starbow render --shot clocks-passing --out out/clocks --measure \"400,300; 12deg,0deg\" --overlay ring\n"
+        "  starbow render --shot clocks-passing --out out/clocks --measure 0deg,0deg --overlay spectrum --by-eye\n"
+        "  starbow render --shot avenue-gamma4 --out out/bright --effects aberration,headlight");
     command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
 }
 
