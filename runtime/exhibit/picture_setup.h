@@ -44,7 +44,7 @@ private:
 
     Panel panel_;
     std::int64_t drawn_ = -1; ///< HudText::number
-    Plate title_, sign_, name_;
+    Plate title_, sign_, name_, pointer_;
     bool no_room_ = false; ///< for the inset
     std::vector<Callout> callouts_;
 };

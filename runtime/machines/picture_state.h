@@ -21,6 +21,12 @@ struct ShownSign {
     glm::dvec3 towards{0, 0, -1};
 };
 
+/// The guide's pointer.
+struct ShownPointer {
+    glm::dvec3 towards{0, 0, -1}; ///< unit, cockpit axes
+    double strength = 1; ///< from 0 to 1: the whole ring
+};
+
 /// The inset view.
 struct InsetPicture {
     InsetView kind = InsetView::at_rest;
@@ -52,6 +58,7 @@ struct PictureState {
     std::optional<HudText> hud; ///< none: it is off
     std::string title; ///< in large letters over the picture, or empty
     std::optional<ShownSign> sign;
+    std::optional<ShownPointer> pointer;
     std::optional<InsetPicture> inset;
     std::optional<Instruments> instruments;
 };

@@ -236,6 +236,12 @@ template <class Part> void transfer(Part& part, ShownSign& sign)
     transfer_all(part, lines, towards);
 }
 
+template <class Part> void transfer(Part& part, ShownPointer& pointer)
+{
+    auto& [towards, strength] = pointer;
+    transfer_all(part, towards, strength);
+}
+
 template <class Part> void transfer(Part& part, InsetPicture& picture)
 {
     auto& [kind, start_ev, fov_deg, name] = picture;
@@ -262,10 +268,11 @@ template <class Part> void transfer(Part& part, Instruments& on)
 
 template <class Part> void transfer(Part& part, PictureState& now)
 {
-    auto& [shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, title, sign, inset, instruments]
+    auto& [shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, title, sign, pointer, inset,
+        instruments]
         = now;
-    transfer_all(part, shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, title, sign, inset,
-        instruments);
+    transfer_all(part, shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, title, sign, pointer,
+        inset, instruments);
 }
 
 template <class Part> void transfer(Part& part, TurnedNumber& number)

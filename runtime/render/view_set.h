@@ -79,10 +79,12 @@ public:
     /// The place of the instruments' panel, and the width in pixels that makes it sharp. aspect: height over width.
     PanelPass::Place lab_place(double aspect) const;
     int lab_panel_width(double aspect) const;
-    /// The place of a panel above a direction of the cockpit: the middle of its lower edge is there. half: its extent.
-    /// Right above the middle of the picture, straight above the head-up display: where it is seen whole, so is a panel
-    /// there that is no wider.
+    /// The place of a panel right above the middle of the picture, straight above the head-up display: where that is seen
+    /// whole, so is a panel there that is no wider. half: its extent.
     PanelPass::Place place_over_middle(const glm::dvec2& half) const;
+    /// The place of a panel whose middle is in a direction of the cockpit.
+    PanelPass::Place place_at(const glm::dvec3& towards, const glm::dvec2& half) const;
+    /// The same above a direction: the middle of the panel's lower edge is there.
     PanelPass::Place place_above(const glm::dvec3& towards, const glm::dvec2& half) const;
     /// The place of a panel at the head-up display's right end, across from the picture's nearer edge. off: from the
     /// display, on the panel's plane.

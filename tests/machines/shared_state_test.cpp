@@ -49,6 +49,7 @@ SharedState full()
     shown.notice = "kein Kopf", shown.information = Information::visitor;
     now.title = "Was sehen Sie nahe der Lichtgeschwindigkeit?";
     now.sign = {{"hinter Ihnen", "3 s alt"}, {0, 0.6, 0.8}};
+    now.pointer = {{0.6, 0, -0.8}, 0.25};
     now.inset = {InsetView::telescope, -1, 1.5, "Fernrohr 1,5°"};
     Instruments& on = now.instruments.emplace();
     on.overlay = Overlay::ring;
