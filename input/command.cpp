@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <optional>
 
 namespace starbow {
 namespace {
@@ -25,8 +27,11 @@ constexpr std::array kinds{CommandRule{fade, "fade", Role::docent, Value::on},
     CommandRule{inset, "beside", Role::docent, Value::name},
     CommandRule{information, "information", Role::docent, Value::name},
     CommandRule{language, "language", Role::docent, Value::name}, CommandRule{caption, "caption", Role::docent, Value::text},
-    CommandRule{hold, "hold", Role::docent, Value::on}, CommandRule{layout, "layout", Role::engineer, Value::name},
-    CommandRule{pattern, "pattern", Role::engineer, Value::name},
+    CommandRule{hold, "hold", Role::docent, Value::on},
+    CommandRule{pointer, "pointer", Role::docent, Value::place, {-180, 180}, {}, {-90, 90}},
+    CommandRule{touch, "touch", Role::docent, Value::place, {0, 1}, {}, {0, 1}},
+    CommandRule{item, "item", Role::docent, Value::number, {1, 1000}},
+    CommandRule{layout, "layout", Role::engineer, Value::name}, CommandRule{pattern, "pattern", Role::engineer, Value::name},
     CommandRule{quality, "quality", Role::engineer, Value::name}, CommandRule{unlock, "unlock", Role::engineer, Value::none},
     CommandRule{restart, "restart", Role::engineer, Value::none}};
 
@@ -49,6 +54,13 @@ std::string plain_digits_of(double number)
     return digits;
 }
 
+/// "from -10 to 10", "above 1 up to 1e6".
+std::string form_of(const CommandRange& range)
+{
+    return (range.above ? "above " : "from ") + plain_digits_of(range.least) + (range.above ? " up to " : " to ")
+        + plain_digits_of(range.most);
+}
+
 std::string form_of(const CommandRule& rule)
 {
     const std::string name(rule.name);
@@ -58,8 +70,10 @@ std::string form_of(const CommandRule& rule)
     case Value::on:
         return name + " on or " + name + " off";
     case Value::number:
-        return name + (rule.range.above ? " and a number above " : " and a number from ") + plain_digits_of(rule.range.least)
-            + (rule.range.above ? " up to " : " to ") + plain_digits_of(rule.range.most);
+        return name + " and a number " + form_of(rule.range)
+            + (rule.kind == speed_limit ? ", or a part of light's speed such as 0.97c," : "");
+    case Value::place:
+        return name + ", a number " + form_of(rule.range) + ", and a number " + form_of(rule.second);
     case Value::name:
         return name + " and a name";
     case Value::text:
@@ -84,7 +98,30 @@ bool is_name(std::string_view text)
            });
 }
 
+/// A number within a range; nullopt for any other text.
+std::optional<double> number_in(std::string_view text, const CommandRange& range)
+{
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.begin(), text.end(), number);
+    const bool within = range.above ? number > range.least : number >= range.least;
+    if (error != std::errc() || end != text.end() || !(within && number <= range.most))
+        return {};
+    return number;
+}
+
+/// A speed limit as gamma: 2.5, or 0.97c.
+std::optional<double> limit_in(std::string_view text, const CommandRange& range)
+{
+    if (!text.ends_with('c'))
+        return number_in(text, range);
+    const std::optional<double> speed = number_in(text.substr(0, text.size() - 1), {0, 1, true});
+    const double gamma = speed ? 1 / std::sqrt((1 - *speed) * (1 + *speed)) : 0;
+    return gamma > range.least && gamma <= range.most ? std::optional(gamma) : std::nullopt;
+}
+
 } // namespace
+
+double speed_of(double gamma) { return std::sqrt((gamma - 1) * (gamma + 1)) / gamma; }
 
 std::span<const CommandRule> command_rules()
 {
@@ -117,7 +154,7 @@ Command command_of(std::span<const std::string> words)
             all += (all.empty() ? "" : ", ") + std::string(known.name);
         throw InputError("the command " + one_line(words[0], 40) + " is not known; one of these is right: " + all);
     }
-    if (words.size() != (rule->value == Value::none ? 1 : 2))
+    if (words.size() != (rule->value == Value::none ? 1 : rule->value == Value::place ? 3 : 2))
         refuse(*rule, "has " + std::to_string(words.size() - 1) + " values");
     Command command{.kind = rule->kind, .effect = rule->effect};
     const std::string value = words.size() > 1 ? words[1] : "";
@@ -130,11 +167,17 @@ Command command_of(std::span<const std::string> words)
         command.on = value == "on";
         break;
     case Value::number: {
-        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), command.number);
-        const CommandRange& range = rule->range;
-        const bool within = range.above ? command.number > range.least : command.number >= range.least;
-        if (error != std::errc() || end != value.data() + value.size() || !(within && command.number <= range.most))
+        const auto number = rule->kind == speed_limit ? limit_in(value, rule->range) : number_in(value, rule->range);
+        if (!number)
             refuse(*rule, "has the value " + one_line(value, 40));
+        command.number = *number;
+        break;
+    }
+    case Value::place: {
+        const auto first = number_in(value, rule->range), second = number_in(words[2], rule->second);
+        if (!first || !second)
+            refuse(*rule, "has the values " + one_line(value, 40) + " and " + one_line(words[2], 40));
+        command.number = *first, command.second = *second;
         break;
     }
     case Value::name:
@@ -163,6 +206,9 @@ std::vector<std::string> words_of(const Command& command)
         break;
     case Value::number:
         words.push_back(digits_of(command.number));
+        break;
+    case Value::place:
+        words.push_back(digits_of(command.number)), words.push_back(digits_of(command.second));
         break;
     case Value::name:
     case Value::text:

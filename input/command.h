@@ -33,6 +33,9 @@ enum class CommandKind : std::uint8_t {
     language,
     caption, ///< text on the head-up display; empty: none
     hold, ///< on: the visitors' devices do nothing
+    pointer, ///< place: azimuth and elevation, degrees in the cockpit; the guide's pointer goes there
+    touch, ///< place in the live picture, parts of its width and height; the pointer goes to what is seen there
+    item, ///< number: of the show's programme, the first one 1; it is shown
     layout,
     pattern,
     quality,
@@ -41,8 +44,8 @@ enum class CommandKind : std::uint8_t {
     effect, ///< on: it is shown; one command for each effect, with its name
 };
 
-/// The one value that a command has, or none.
-enum class CommandValue : std::uint8_t { none, on, number, name, text };
+/// The value that a command has, or none; a place is two numbers.
+enum class CommandValue : std::uint8_t { none, on, number, name, text, place };
 
 /// The numbers that a command may have.
 struct CommandRange {
@@ -56,8 +59,9 @@ struct CommandRule {
     std::string_view name;
     Role role;
     CommandValue value;
-    CommandRange range{0, 0}; ///< of a number
+    CommandRange range{0, 0}; ///< of a number, and of a place's first one
     Effect effect{}; ///< of the kind `effect`
+    CommandRange second{0, 0}; ///< of a place's second number
 };
 
 /// All commands: one of each kind in the order of CommandKind, and as the last ones one for each effect.
@@ -70,6 +74,7 @@ struct Command {
     double number = 0;
     std::string text{}; ///< a name, or a caption
     Effect effect{}; ///< of the kind `effect`
+    double second = 0; ///< of a place; its first number is `number`
 
     bool operator==(const Command&) const = default;
 };
@@ -82,7 +87,11 @@ constexpr double most_exposure_ev = 10;
 /// Longest text of a command in bytes: a caption of some lines.
 constexpr std::size_t most_command_text = 400;
 
-/// Reads a command from its words, as on a command line: {"scene", "avenue"}, {"doppler", "off"}, {"stop"}. Throws
+/// v/c at a gamma. A speed limit is a gamma, and people read it as a part of light's speed.
+double speed_of(double gamma);
+
+/// Reads a command from its words, as on a command line: {"scene", "avenue"}, {"doppler", "off"}, {"stop"}, {"pointer",
+/// "30", "20"}. A speed limit may be a part of light's speed, 0.97c. Throws
 /// InputError with the right form. It does not look whether a named file exists.
 Command command_of(std::span<const std::string> words);
 /// The words of which command_of makes the same command.

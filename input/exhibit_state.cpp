@@ -24,6 +24,8 @@ ExhibitState after(ExhibitState state, const Command& command)
         state.max_gamma = command.number;
     else if (command.kind == CommandKind::exposure)
         state.exposure_ev = command.number;
+    else if (command.kind == CommandKind::item)
+        state.item = int(command.number), state.item_s = 0;
     else if (command.kind == CommandKind::caption)
         state.caption = command.text;
     return state; // anything else depends on the exhibit

@@ -1,6 +1,7 @@
 #pragma once
 #include "config/json/describe.h"
 #include "describe_layout.h"
+#include "describe_programme.h"
 #include "exhibit_file.h"
 
 namespace starbow {
@@ -17,11 +18,6 @@ struct PathFrom : Text {
     {
         return (folder.path / text(place)).lexically_normal();
     }
-};
-/// The name of a shipped file of a kind.
-struct ShippedName : Text {
-    const char* kind;
-    std::string read(const Place& place, const Folder&) const;
 };
 
 template <>
@@ -62,7 +58,10 @@ inline constexpr auto description<Flying> = describe<Flying>("flying",
         "not slowed down otherwise.",
         &Flying::mode),
     field("max_gamma", Number{{1.001, 1000000}},
-        "The Lorentz factor at full throttle; lower places are evenly spaced in rapidity.", &Flying::max_gamma),
+        "The Lorentz factor at full throttle; lower places are evenly spaced in rapidity. 2.294 is 0.9 of light's speed, "
+        "7.089 "
+        "is 0.99, 22.37 is 0.999.",
+        &Flying::max_gamma),
     field("turn_deg_per_s", Number{{0, 360, true}},
         "The fastest turn of the nose up, down, left or right, degrees per second.", &Flying::turn_deg_per_s),
     field(
@@ -237,6 +236,10 @@ inline constexpr auto description<Exhibit> = describe_file<Exhibit>("exhibit",
     field("tour", NameOrPath{},
         "The shown tour, in its own scene: a tour file, or the name of one in config/tours. Not beside a scene or a shot.",
         &Exhibit::tour),
+    field("programme", NameOrPath{},
+        "The programme of a guide's show: a programme file, or the name of one in config/programmes. The guide's window and "
+        "the remote's page show it.",
+        &Exhibit::programme),
     field("language", NameOrPath{},
         "The language of the visitors' texts: a file of words, or the name of one in config/words.", &Exhibit::language),
     field("quality", NameOrPath{},

@@ -126,8 +126,9 @@ void check(const Place& place, Turning& turning, const Folder&);
 template <>
 inline constexpr auto description<Try> = describe<Try>("try", "The visitor flies.",
     field("mode", Named{&flight_modes}, "The flight mode; left out, the exhibit's.", &Try::mode),
-    field(
-        "max_gamma", Number{{1.001, 1e6}}, "The Lorentz factor at full throttle, at most the exhibit's.", &Try::max_gamma));
+    field("max_gamma", Number{{1.001, 1e6}},
+        "The Lorentz factor at full throttle, at most the exhibit's. 2.294 is 0.9 of light's speed, 7.089 is 0.99.",
+        &Try::max_gamma));
 static_assert(is_complete<Try>());
 
 /// Seconds of the ship's clock in each of the visitor's.

@@ -1,6 +1,5 @@
 #include "describe_exhibit.h"
 #include "describe_layout.h"
-#include "shipped.h"
 #include <algorithm>
 #include <arpa/inet.h>
 
@@ -11,19 +10,6 @@ std::string NameOrPath::read(const Place& place, const Folder& folder) const
     const std::string name = text(place);
     const bool path = name.find('/') != name.npos || name.ends_with(".json") || name.ends_with(".jsonl");
     return path ? (folder.path / name).lexically_normal().string() : name;
-}
-
-std::string ShippedName::read(const Place& place, const Folder&) const
-{
-    const std::string name = text(place);
-    const std::vector<std::string> all = shipped_names(kind);
-    if (std::ranges::find(all, name) == all.end()) {
-        std::string list;
-        for (const std::string& one : all)
-            list += (list.empty() ? "" : ", ") + one;
-        fail_at(place, "is not among the shipped " + std::string(kind) + "; one of these is right: " + list);
-    }
-    return name;
 }
 
 std::string read_unlock(const Place& place, const Folder&)

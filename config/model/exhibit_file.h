@@ -32,6 +32,7 @@ struct Exhibit {
     std::string shot; ///< the start of the visit, in its own scene; empty: the scene's start
     std::filesystem::path profiles; ///< a folder with profiles of this exhibit's own sticks; empty: none
     std::string tour; ///< the shown tour, in its own scene; empty: none
+    std::string programme; ///< of a guide's show: a path, or the name of a shipped one; empty: none
     std::string language = "en"; ///< of the visitors' texts: a path, or the name of a shipped one
     Menu menu;
     Information information = Information::laboratory; ///< the first display of information

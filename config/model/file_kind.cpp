@@ -12,9 +12,9 @@ struct KindName {
     const char* use; ///< before the file's name, what takes it
 };
 /// In the order of FileKind.
-constexpr std::array<KindName, 8> kinds{{{"a glTF world", "run --scene "}, {"a scene", "run --scene "},
+constexpr std::array<KindName, 9> kinds{{{"a glTF world", "run --scene "}, {"a scene", "run --scene "},
     {"a layout", "run --layout "}, {"a tour", "run --tour "}, {"a shot", "run --shot "}, {"an exhibit", "run --exhibit "},
-    {"a quality", "run --quality "}, {"a language's words", "run --language "}}};
+    {"a quality", "run --quality "}, {"a language's words", "run --language "}, {"a programme", "run --programme "}}};
 
 std::optional<FileKind> kind_of(const nlohmann::json& root)
 {
@@ -30,6 +30,8 @@ std::optional<FileKind> kind_of(const nlohmann::json& root)
         return FileKind::layout;
     if (any({"steps"}))
         return FileKind::tour;
+    if (any({"items"}))
+        return FileKind::programme;
     if (any({"texels_per_pixel", "max_texels_per_pixel", "cube_samples"}))
         return FileKind::quality;
     if (any({"gltf"}))

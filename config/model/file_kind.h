@@ -5,7 +5,7 @@
 namespace starbow {
 
 /// The kinds of files that people give by their path.
-enum class FileKind { gltf, scene, layout, tour, shot, exhibit, quality, words };
+enum class FileKind { gltf, scene, layout, tour, shot, exhibit, quality, words, programme };
 
 /// The kind of a file, by its content; of a glTF also by its name, where the content does not tell. nullopt: none of these,
 /// or it can't be read.

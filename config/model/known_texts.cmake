@@ -1,5 +1,5 @@
 # Writes the keys of the English texts, in order, each with the names in { } of its text, as rows of C++ (words.h includes them). Tours'
-# and goals' texts belong to files of their own and are left out.
+# and goals' texts, and the names of worlds, tours and views, belong to files of their own and are left out.
 #   known_texts(config/words/en.json HEADER)
 function(known_texts file header)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
@@ -9,7 +9,7 @@ function(known_texts file header)
   set(rows)
   foreach(line ${lines})
     string(REGEX REPLACE "\n *\"([^\"]*)\".*" "\\1" key "${line}")
-    if(NOT key MATCHES "^(tour|goal)\\.")
+    if(NOT key MATCHES "^(tour|goal|name)\\.")
       string(REGEX MATCHALL "{[^}]*}" names "${line}")
       string(REGEX REPLACE "[{}]" "" names "${names}")
       list(SORT names)

@@ -2,6 +2,7 @@
 #include "describe_exhibit.h"
 #include "describe_layout.h"
 #include "describe_profile.h"
+#include "describe_programme.h"
 #include "describe_quality.h"
 #include "describe_scene.h"
 #include "describe_tour.h"
@@ -16,7 +17,7 @@ template <class... Files> std::vector<std::pair<std::string_view, Json (*)()>> a
 }
 const std::vector<std::pair<std::string_view, Json (*)()>>& schemas()
 {
-    static const auto known = all<Exhibit, Layout, Profile, Quality, Ladder, SceneFile, Shot, Tour>();
+    static const auto known = all<Exhibit, Layout, Profile, Programme, Quality, Ladder, SceneFile, Shot, Tour>();
     return known;
 }
 

@@ -24,7 +24,7 @@ std::optional<FileKind> kind_in(const std::string& folder)
 {
     static const std::map<std::string, FileKind> kinds{{"scenes", FileKind::scene}, {"layouts", FileKind::layout},
         {"tours", FileKind::tour}, {"shots", FileKind::shot}, {"exhibits", FileKind::exhibit},
-        {"qualities", FileKind::quality}, {"words", FileKind::words}};
+        {"qualities", FileKind::quality}, {"words", FileKind::words}, {"programmes", FileKind::programme}};
     const auto kind = kinds.find(folder);
     return kind == kinds.end() ? std::nullopt : std::optional(kind->second);
 }

@@ -12,6 +12,9 @@ constexpr std::string_view of_tours = "tour.";
 /// The prefix of the goals' keys, which the scenes define.
 constexpr std::string_view of_goals = "goal.";
 
+/// The prefix of the names of worlds, tours and views, which their files define.
+constexpr std::string_view of_names = "name.";
+
 /// "a b" as "{a}, {b}".
 std::string in_braces(std::string_view names)
 {
@@ -56,6 +59,12 @@ const std::string* Words::tour(const std::string& key) const
     return found == texts.end() ? nullptr : &found->second;
 }
 
+std::string Words::title(std::string_view kind, const std::string& name) const
+{
+    const auto found = texts.find(std::string(of_names).append(kind).append(".").append(name));
+    return found == texts.end() ? name : found->second;
+}
+
 std::string Words::number(std::string c) const
 {
     if (const std::size_t point = c.find('.'); point != c.npos)
@@ -73,7 +82,7 @@ Words load_words(const std::filesystem::path& file)
     for (const KnownText& one : known_texts)
         keys.push_back(one.key);
     for (const auto& [key, value] : top.json->items())
-        if (key.starts_with(of_tours) || key.starts_with(of_goals))
+        if (key.starts_with(of_tours) || key.starts_with(of_goals) || key.starts_with(of_names))
             keys.push_back(key);
     reject_unknown_members(top, keys);
     Words words{.language = file.stem(), .file = file, .texts = {}};

@@ -15,7 +15,8 @@ struct KnownText {
     std::string_view key, placeholders;
     constexpr auto operator<=>(const KnownText&) const = default;
 };
-/// Every text of the program but tours' and goals': those of config/words/en.json, in the order of their keys.
+/// Every text of the program but tours', goals' and the names of files: those of config/words/en.json, in the order of their
+/// keys.
 inline constexpr KnownText known_texts[] = {
 #include <known_texts.inc>
 };
@@ -65,6 +66,10 @@ public:
 
     /// A tour's text; nullopt where there is none.
     const std::string* tour(const std::string& key) const;
+
+    /// People's name of a world (kind "scene"), a tour ("tour") or a view ("shot"), wherever one is offered or shown. Of one
+    /// that the words do not know, the file's own.
+    std::string title(std::string_view kind, const std::string& name) const;
 
     /// A number in C's format, with the language's decimal sign.
     std::string number(std::string c) const;

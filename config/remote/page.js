@@ -42,7 +42,6 @@ const choiceWords = {
         "wedges": "remote.wedges", "overlap": "remote.overlap",
     },
 };
-const speedLimits = [1.1547, 2.2942, 7.0888, 22.366, 100, 1000, 1e6];
 const exposures = [3, 2.5, 2, 1.5, 1, 0.5, 0, -0.5, -1, -1.5, -2, -2.5, -3]; // EV
 
 function choiceText(kind, name) {
@@ -51,21 +50,40 @@ function choiceText(kind, name) {
     const key = (choiceWords[kind] || {})[name];
     if (key)
         return word(key);
+    const title = (words[language] || {})[`name.${kind}.${name}`];
+    if (title)
+        return title;
     const text = name.replaceAll("-", " ");
     return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
-// A limit as a docent says it: a part of light's speed while that can be read, then γ.
+// A limit as a docent says it: a part of light's speed, with as many digits as tell it from light's.
 function limitText(gamma) {
-    if (gamma >= 1e6)
+    if (gamma >= lists["speed-limits"].at(-1))
         return word("remote.no_limit");
-    if (gamma > 30)
-        return `γ ${showNumber(gamma, 4)}`;
-    return `${showNumber(Math.sqrt(1 - 1 / (gamma * gamma)), 3)} c`;
+    const speed = Math.sqrt((gamma - 1) * (gamma + 1)) / gamma;
+    const maximumFractionDigits = Math.max(3, Math.ceil(-Math.log10(1 - speed)));
+    return `${speed.toLocaleString(language, { maximumFractionDigits })} c`;
 }
 
 function exposureText(ev) {
     return `${ev.toLocaleString(language, { minimumFractionDigits: 1, signDisplay: "exceptZero" })} EV`;
+}
+
+// The small picture of a tour, a world or a view; where the exhibit has none, none is shown.
+function showThumbnail(place, kind, name) {
+    const image = document.querySelector(`[data-thumbnail="${place}"]`), source = name ? `thumbnail/${kind}/${name}` : "";
+    if (image.dataset.source === source)
+        return;
+    image.dataset.source = source;
+    image.hidden = true;
+    if (source)
+        image.src = source;
+}
+
+function showChosen() {
+    for (const kind of ["tour", "scene", "shot"])
+        showThumbnail(kind, kind, find(kind).value);
 }
 
 function fillSelect(select, values, textOf) {
@@ -84,10 +102,11 @@ function fillWords() {
     for (const button of all("#languages button"))
         button.setAttribute("aria-pressed", String(button.lang === language));
     find("role").textContent = word("remote.you_are", { role: word(roleWords[role]) });
-    if (lists)
+    if (lists) {
         for (const select of all("select[data-names]"))
             fillSelect(select, lists.names[select.dataset.names] || [], (name) => choiceText(select.dataset.names, name));
-    fillSelect(find("speed-limit"), speedLimits, limitText);
+        fillSelect(find("speed-limit"), lists["speed-limits"], limitText);
+    }
     fillSelect(find("exposure"), exposures, exposureText);
     showLink();
     showStatus();
@@ -115,18 +134,58 @@ function duration(seconds) {
         : word("remote.hours", { hours: String(hours), minutes: String(minutes) });
 }
 
+function clock(seconds) {
+    return { minutes: String(Math.floor(seconds / 60)), seconds: String(seconds % 60).padStart(2, "0") };
+}
+
+// A sentence about the visit, then the tour's step, then what else is so.
+function doesText() {
+    const parts = [word(`does.${status.doing}`)];
+    if (status.steps > 0)
+        parts.push(choiceText("tour", status.tour), word("remote.step", { step: String(status.step), steps: String(status.steps) }),
+            word("does.left", clock(status["left-s"])));
+    if (status.coming)
+        parts.push(word("does.coming", { world: choiceText("scene", status.coming) }));
+    for (const [name, key] of [["paused", "does.paused"], ["fade", "does.dark"], ["hold", "does.held"], ["calm", "does.calm"]])
+        if (status[name])
+            parts.push(word(key));
+    return parts.join(" · ");
+}
+
+// Texts of the programme's file, in the page's language or another that it has.
+function inLanguage(texts) {
+    return texts[language] || texts.en || Object.values(texts)[0] || "";
+}
+
+function showProgramme() {
+    const items = lists.programme, { item } = status, now = items[item - 1], then = items[item];
+    const title = ({ kind, name }) => choiceText(kind, name);
+    find("programme").hidden = items.length === 0 || role === "look";
+    if (items.length === 0)
+        return;
+    show("item", !now ? word("remote.not_begun")
+        : `${word("remote.item", { item: String(item), items: String(items.length) })} · ${title(now)}`);
+    show("item-time", !now ? ""
+        : word("remote.item_time", { ...clock(status["item-s"]), planned: now.minutes.toLocaleString(language) }));
+    showThumbnail("item", ...now ? [now.kind, now.name] : ["", ""]);
+    show("notes", now ? inLanguage(now.notes) : "");
+    show("then", then ? word("remote.then", { item: title(then) }) : "");
+    find("item-back").disabled = item <= 1;
+    find("item-next").disabled = !then;
+}
+
 function showStatus() {
-    if (!status)
+    if (!status || !lists)
         return;
     show("scene", status.shot ? `${choiceText("scene", status.scene)}, ${choiceText("shot", status.shot)}`
         : choiceText("scene", status.scene));
-    const step = word("remote.step", { step: String(status.step), steps: String(status.steps) });
-    show("tour", !status.tour ? word("remote.no_tour")
-        : `${choiceText("tour", status.tour)}, ${status.paused ? word("remote.paused") : step}`);
+    show("does", doesText());
+    show("next-caption", status["next-caption"]);
+    find("coming").hidden = !status["next-caption"];
+    showProgramme();
     const digits = status.speed > 0.999 ? 9 : 3;
     show("speed", `${status.speed.toLocaleString(language, { minimumFractionDigits: digits, maximumFractionDigits: digits })} c`);
     show("gamma", status.gamma.toLocaleString(language, { minimumSignificantDigits: 4, maximumSignificantDigits: 4 }));
-    show("visitors", word(status.fade ? "remote.dark" : status.hold ? "remote.held" : "remote.fly"));
     if (role === "engineer") {
         show("frames", word("remote.frames_value",
             { rate: showNumber(status["frames-per-s"], 3), ms: showNumber(status["frame-ms"], 3) }));
@@ -148,6 +207,8 @@ function showStatus() {
             select.dataset.begun = "1";
         }
     find("caption-clear").disabled = !status.caption;
+    if (role !== "look")
+        showChosen();
 }
 
 function showChoice(select, name) {
@@ -156,9 +217,9 @@ function showChoice(select, name) {
         return;
     if (name === "speed-limit") {
         // The exhibit's own limit stands in the list, too.
-        const near = speedLimits.find((limit) => Math.abs(limit / value - 1) < 1e-3);
+        const offered = lists["speed-limits"], near = offered.find((limit) => Math.abs(limit / value - 1) < 1e-3);
         if (near === undefined && ![...select.options].some((option) => Number(option.value) === value))
-            fillSelect(select, [...speedLimits, value].sort((a, b) => a - b), limitText);
+            fillSelect(select, [...offered, value].sort((a, b) => a - b), limitText);
         value = near === undefined ? value : near;
     }
     if (name === "exposure" && ![...select.options].some((option) => Number(option.value) === value))
@@ -232,6 +293,8 @@ function answered({ id, applied, refused }) {
         return;
     waiting.delete(id);
     settle(sent.element);
+    if (sent.quiet && applied)
+        return;
     say(applied ? word("remote.done", { command: sent.text })
         : word("remote.refused", { command: sent.text, reason: refused }), !applied);
 }
@@ -363,6 +426,55 @@ async function logOut() {
     }
 }
 
+// ----- pointing: a finger, the mouse or the arrow keys on the live picture
+
+const pointer = { down: false, at: [0.5, 0.5], sent: 0, late: 0 };
+
+function point([x, y]) {
+    pointer.at = [Math.min(1, Math.max(0, x)), Math.min(1, Math.max(0, y))];
+    find("spot").style.left = `${100 * pointer.at[0]}%`;
+    find("spot").style.top = `${100 * pointer.at[1]}%`;
+    const wait_ms = pointer.sent + 120 - Date.now(); // the exhibit takes at most twenty messages a second
+    clearTimeout(pointer.late);
+    if (wait_ms > 0) {
+        pointer.late = setTimeout(() => point(pointer.at), wait_ms);
+        return;
+    }
+    pointer.sent = Date.now();
+    const id = send({ command: ["touch", ...pointer.at.map((part) => part.toFixed(4))] });
+    if (!id)
+        say(word("remote.not_connected"), true);
+    else
+        waiting.set(id, { element: find("point"), text: word("remote.pointer"), quiet: true });
+    find("spot").hidden = false;
+    clearTimeout(pointer.gone);
+    pointer.gone = setTimeout(() => { find("spot").hidden = true; }, 4000); // as long as the exhibit shows it
+}
+
+function listenToPointing() {
+    const pad = find("point");
+    const place = (event) => {
+        const box = pad.getBoundingClientRect();
+        return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+    };
+    pad.addEventListener("pointerdown", (event) => {
+        pad.setPointerCapture(event.pointerId);
+        pointer.down = true;
+        point(place(event));
+    });
+    pad.addEventListener("pointermove", (event) => { if (pointer.down) point(place(event)); });
+    for (const end of ["pointerup", "pointercancel"])
+        pad.addEventListener(end, () => { pointer.down = false; });
+    const steps = { ArrowLeft: [-0.02, 0], ArrowRight: [0.02, 0], ArrowUp: [0, -0.02], ArrowDown: [0, 0.02] };
+    pad.addEventListener("keydown", (event) => {
+        const step = steps[event.key];
+        if (!step)
+            return;
+        event.preventDefault();
+        point([pointer.at[0] + step[0], pointer.at[1] + step[1]]);
+    });
+}
+
 // ----- the page's own elements
 
 function listenToSwitch(button) {
@@ -397,6 +509,13 @@ function listen() {
         select.addEventListener("change", () => command(select, select.dataset.live, select.value));
         select.addEventListener("blur", showStatus);
     }
+    listenToPointing();
+    for (const image of all("[data-thumbnail]"))
+        image.addEventListener("load", () => { image.hidden = false; });
+    for (const kind of ["tour", "scene", "shot"])
+        find(kind).addEventListener("change", showChosen);
+    find("item-back").addEventListener("click", (event) => command(event.currentTarget, "item", status.item - 1));
+    find("item-next").addEventListener("click", (event) => command(event.currentTarget, "item", status.item + 1));
     find("caption-show").addEventListener("click", (event) => command(event.currentTarget, "caption", find("caption").value));
     find("caption-clear").addEventListener("click", (event) => command(event.currentTarget, "caption", ""));
     find("restart").addEventListener("click", () => find("sure").showModal());

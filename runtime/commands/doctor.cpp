@@ -3,6 +3,7 @@
 #include "config/json/reader.h"
 #include "config/model/exhibit_file.h"
 #include "config/model/layout.h"
+#include "config/model/programme_file.h"
 #include "config/model/quality.h"
 #include "config/model/scene_file.h"
 #include "config/model/shipped.h"
@@ -362,6 +363,7 @@ void examine_files(Report& report)
         const Tour tour = tour_in(file.string(), *words);
         check_highlights(tour, open_scene(scene_of(tour)));
     });
+    kind("programmes", [](const fs::path& file) { load_programme(file); });
     kind("words", [](const fs::path& file) { load_words(file); });
     kind("qualities", [](const fs::path& file) {
         if (file.stem() == "ladder")

@@ -3,6 +3,7 @@
 #include "config/model/exhibit_file.h"
 #include "config/model/shipped.h"
 #include "contact_sheet.h"
+#include "displays/compile/compiled_view.h"
 #include "input/keyboard.h"
 #include "interrupt.h"
 #include "runtime/commands/options/command_line.h"
@@ -35,7 +36,7 @@ constexpr const char* plain_scene = "chart";
 
 struct RunOptions {
     std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour, log, quality,
-                ladder, trace, warm_up = "auto", node, frame_log;
+                ladder, trace, warm_up = "auto", node, frame_log, programme;
     double frame_budget_ms = -1; ///< below 0: the exhibit's
     double log_every_s = 0;
     bool by_eye = false;
@@ -86,6 +87,8 @@ ExhibitOptions open(const RunOptions& options)
         exhibit.frame_budget_ms = options.frame_budget_ms;
     if (!options.ladder.empty())
         exhibit.ladder = options.ladder;
+    if (!options.programme.empty())
+        exhibit.programme = options.programme;
     if (options.presenter && !exhibit.presenter)
         exhibit.presenter.emplace();
     if (!options.careful && (!options.tour.empty() || !options.scene.empty() || !options.shot.empty()))
@@ -95,6 +98,7 @@ ExhibitOptions open(const RunOptions& options)
     ExhibitOptions exhibit_options = open_exhibit(exhibit);
     exhibit_options.pattern = pattern_named(options.pattern);
     exhibit_options.record = options.record;
+    exhibit_options.cache = map_cache_folder();
     if (!options.node.empty()) {
         if (!exhibit.machines)
             throw InputError("--node " + options.node + " names a machine, and the exhibit " + options.exhibit
@@ -245,6 +249,9 @@ static void add_run(Subcommand& app, std::function<int()>& chosen)
     command->add_flag("--presenter", options->presenter,
         "Open the guide's window, too: the visitors' picture small, the tour's cue sheet, and all that a guide can do, by "
         "keys and by the mouse");
+    command->add_option("--programme", options->programme,
+        "The programme of a guide's show, a file or the name of one in config/programmes, for the guide's window and the "
+        "remote's page [the exhibit's]");
     Option* verbose = command->add_flag("--verbose", options->verbose, "Log debug messages on standard error");
     Option* quality = command->add_option("--quality", options->quality, quality_help + std::string(" [the exhibit's]"));
     Option* hold = command
@@ -263,11 +270,13 @@ static void add_run(Subcommand& app, std::function<int()>& chosen)
         tour->excludes(other);
     Option* replay = command->add_option(
         "--replay", options->replay, "Fly a record again, bit for bit, in its scene and on its layout (or on --layout's)");
-    for (const char* other : {"--exhibit", "--scene", "--shot", "--tour", "--pattern", "--record", "--presenter", "--node"})
+    for (const char* other :
+        {"--exhibit", "--scene", "--shot", "--tour", "--pattern", "--record", "--presenter", "--programme", "--node"})
         replay->excludes(other);
     command->footer(std::string("Keys:\n") + keyboard_help()
         + "\n\nExamples:\n  starbow run --layout stereo --shot avenue-gamma4\n  starbow run --exhibit dome --language de\n  "
-          "starbow run --tour first-minute\n  starbow run --exhibit our-dome.json --node left\n  starbow run --trace "
+          "starbow run --tour first-minute\n  starbow run --presenter --programme evening\n  starbow run --exhibit "
+          "our-dome.json --node left\n  starbow run --trace "
           "out/trace.json --verbose");
     command->callback([options, command, verbose, &chosen] {
         options->any_given = command->given_besides(verbose);

@@ -53,6 +53,7 @@ std::string command_list()
             + (rule.value == CommandValue::none          ? ""
                     : rule.value == CommandValue::on     ? " on|off"
                     : rule.value == CommandValue::number ? " NUMBER"
+                    : rule.value == CommandValue::place  ? " NUMBER NUMBER"
                     : rule.value == CommandValue::name   ? " NAME"
                                                          : " TEXT");
     return list;
@@ -64,10 +65,10 @@ static void add_tell(Subcommand& app, std::function<int()>& chosen)
 {
     Subcommand* command = app.add_subcommand("tell", "Give a running exhibit a command, or print its state.");
     command->footer(command_list()
-        + "\n\nExamples:\n  starbow tell status\n  starbow tell scene twins\n"
+        + "\n\nExamples:\n  starbow tell status\n  starbow tell pointer 30 20\n  starbow tell scene twins\n"
           "  starbow tell --host starbow.local --pin-file docent.pin caption \"Closed at six\"");
     static ParsedArguments given;
-    command->add_option("COMMAND", given.words, "the command and its value, or status")->required()->expected(1, 2);
+    command->add_option("COMMAND", given.words, "the command and its values, or status")->required()->expected(1, 3);
     command->add_option("--host", given.options.host, "the exhibit's machine; a name on its list")->capture_default_str();
     command->add_option("--port", given.options.port, "the port of \"remote\" in the exhibit's file")
         ->capture_default_str()

@@ -7,6 +7,7 @@
 #include "config/model/one_button.h"
 #include "config/model/presenting.h"
 #include "config/model/profile.h"
+#include "config/model/programme_file.h"
 #include "config/model/remote_file.h"
 #include "config/model/visiting.h"
 #include "config/model/words.h"
@@ -37,6 +38,7 @@ struct ExhibitOptions {
     bool speech = false; ///< captions, descriptions and goals are read aloud
     Information information = Information::laboratory; ///< the first display of information
     std::vector<std::string> menu_scenes{}, menu_tours{}; ///< that visitors can choose, names of shipped ones
+    std::optional<Programme> programme{}; ///< of a guide's show; none: there is none
     std::optional<Visiting> visiting{}; ///< the exhibit attends to its visitors itself; none: somebody else does
     bool careful = false; ///< the exhibit starts with care after disorderly ends; for the service manager's status
     std::optional<Quality> quality{}; ///< none: the device's default
@@ -58,6 +60,7 @@ struct ExhibitOptions {
     std::filesystem::path frame_log{}; ///< receives the frames that this one shows; empty: none
     std::optional<Presenting> presenter{}; ///< the guide's window; none: there is none
     std::string quality_name{}; ///< of quality, for the remote; empty: the ladder's, or the device's default
+    std::filesystem::path cache{}; ///< folder of the small pictures; empty: none are shown
     std::filesystem::path state{}; ///< folder of the days' counts; empty: none are kept
     std::filesystem::path textfile{}; ///< receives the counts for node_exporter; empty: none
     std::string version{}; ///< the program's, for the counts

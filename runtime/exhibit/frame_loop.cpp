@@ -96,6 +96,7 @@ bool FrameLoop::fly_frame()
         return false;
     remote_.read(entry.commands);
     presenter_.read(entry.commands);
+    aim_pointer(entry.commands);
     if (entry.controls[Switch::full_screen])
         screens_.switch_full_screen();
     if (session_.record_replay.replays() && !visible)
@@ -412,6 +413,8 @@ PictureState FrameLoop::next_picture_state(const Head& head)
     now.instruments = session_.lab.request(frame_->views(), now.shot, flight, context_.world, pictures_.typesetter);
     now.hud = hud_.update(session_, context_.world.scene, now.shot.exposure_ev);
     callouts_.choose(session_, context_.world, now);
+    if (const auto pointer = session_.pointer.shown())
+        now.pointer = {pointer->towards, pointer->strength};
     return now;
 }
 
@@ -484,8 +487,10 @@ void FrameLoop::begin_commands()
 void FrameLoop::end_commands()
 {
     remotes_view_ = remote_.wants_picture(), guides_view_ = presenter_.wants_view();
-    if (const auto copied = remotes_view_ || guides_view_ ? screens_.readable() : std::nullopt)
+    if (const auto copied = remotes_view_ || guides_view_ ? screens_.readable() : std::nullopt) {
         live_.record(*commands_[1], screens_.targets()[*copied]);
+        live_output_ = *copied;
+    }
     screens_.end_pictures(*commands_[1]);
     device_.timer = nullptr;
     timer_.pause(*commands_[0]);

@@ -55,6 +55,8 @@ private:
     /// picture stays until the new one can be drawn.
     void apply_file_changes();
     void apply(LayoutLoader::Loaded loaded);
+    /// Makes touches of the live picture into the directions that it shows there. So a record does not depend on the layout.
+    void aim_pointer(std::vector<Command>& commands) const;
     /// Advances the visitors' menu; its choice is a command of this frame.
     void choose_in_menu(RecordEntry& entry, Requests& requests);
     /// Takes those of the frame's commands out that lead to another world, until it is read, and brings them back then. So a
@@ -120,6 +122,7 @@ private:
     bool memory_reported_ = false; ///< the use of memory beyond its budget, which goes on
     vk::raii::Fence done_;
     LiveCopy live_;
+    std::size_t live_output_ = 0; ///< the copied one
     bool remotes_view_ = false, guides_view_ = false; ///< the recorded copy is for the remote, for the guide's window
     WorldLoader worlds_;
     std::optional<Command> coming_; ///< waits for its world

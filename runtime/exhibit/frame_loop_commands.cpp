@@ -1,6 +1,7 @@
 // The commands of a docent that need the device; session_commands.h has the others.
 #include "config/json/error.h"
 #include "config/json/reader.h"
+#include "config/model/angles.h"
 #include "config/model/shipped.h"
 #include "exhibit_renderer.h"
 #include "frame_loop.h"
@@ -12,6 +13,20 @@
 #include <utility>
 
 namespace starbow {
+
+void FrameLoop::aim_pointer(std::vector<Command>& commands) const
+{
+    const ViewSet& views = frame_->views();
+    for (Command& command : commands) {
+        if (command.kind != CommandKind::touch || live_output_ >= views.outputs.size())
+            continue;
+        const glm::dvec2 pixel = glm::dvec2(command.number, command.second) * glm::dvec2(views.outputs[live_output_].size);
+        if (const std::optional<glm::dvec3> towards = views.direction(live_output_, pixel)) // else it is refused
+            command = {.kind = CommandKind::pointer,
+                .number = std::atan2(towards->x, -towards->z) / degree,
+                .second = std::asin(std::clamp(towards->y, -1.0, 1.0)) / degree};
+    }
+}
 
 void FrameLoop::choose_in_menu(RecordEntry& entry, Requests& requests)
 {
@@ -31,8 +46,8 @@ void FrameLoop::await_worlds(std::vector<Command>& commands)
     // Frames that follow no clock have nobody who watches meanwhile.
     for (std::size_t i = 0; session_.options.paced && i < commands.size();) {
         const Command& command = commands[i];
-        const bool leads
-            = command.kind == CommandKind::scene || command.kind == CommandKind::shot || command.kind == CommandKind::tour;
+        const bool leads = command.kind == CommandKind::scene || command.kind == CommandKind::shot
+            || command.kind == CommandKind::tour || command.kind == CommandKind::item;
         std::filesystem::path scene;
         try {
             scene = leads ? content_after(session_, command).scene : "";
@@ -44,7 +59,7 @@ void FrameLoop::await_worlds(std::vector<Command>& commands)
         }
         worlds_.open(scene);
         coming_ = command;
-        session_.coming = title_of(session_.words, "scene", scene.stem());
+        session_.coming = scene.stem();
         remote_.defer(i);
         commands.erase(commands.begin() + std::ptrdiff_t(i));
     }
@@ -111,7 +126,10 @@ void FrameLoop::apply_command(const Command& command, Requests& requests)
         case CommandKind::scene:
         case CommandKind::shot:
         case CommandKind::tour:
+        case CommandKind::item:
             show_content(content_after(session_, command));
+            if (command.kind == CommandKind::item)
+                session_.item = int(command.number), session_.item_s = 0;
             if (!session_.attendance.in_hand())
                 session_.attendance.begin(); // by the docent
             break;
@@ -124,8 +142,10 @@ void FrameLoop::apply_command(const Command& command, Requests& requests)
         default:
             starbow::apply_command(session_, command, requests);
         }
-        session_.usage.count([](UsageCounts& counts) { ++counts.commands; });
         remote_.note("");
+        if (command.kind == CommandKind::pointer)
+            return; // ten a second while a finger moves: nobody reads, or counts, these
+        session_.usage.count([](UsageCounts& counts) { ++counts.commands; });
         presenter_.note(command, "", session_.words);
         write_log(LogKind::command_done, words);
     } catch (const vk::SystemError&) {

@@ -92,7 +92,7 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
             {{"board", shown_duration(board_s, words, 2)}, {"world", shown_duration(board_s * shown.gamma, words, 2)}});
     }
     if (!session.coming.empty())
-        shown.prompt = words("menu.coming", {{"world", session.coming}});
+        shown.prompt = words("menu.coming", {{"world", session.words.title("scene", session.coming)}});
     if (scans(session)) // a tour's caption of the flight speaks of keys and buttons that this visitor does not have
         shown.caption = caption_of(session.hands.scan(), session.options.one_button.value_or(OneButton()), words);
     add_visit(session, shown);

@@ -15,7 +15,7 @@ MenuPage page_of(const Words& words, const std::string& title, CommandKind kind,
 {
     MenuPage page{.title = title, .items = {}};
     for (const std::string& name : names)
-        page.items.push_back({title_of(words, named, name), Command{.kind = kind, .text = name}});
+        page.items.push_back({words.title(named, name), Command{.kind = kind, .text = name}});
     return page;
 }
 
@@ -75,12 +75,6 @@ MenuPage hands_of(const Session& session)
 }
 
 } // namespace
-
-std::string title_of(const Words& words, const std::string& kind, const std::string& name)
-{
-    const auto found = words.texts.find("menu." + kind + "." + name);
-    return found == words.texts.end() ? name : found->second;
-}
 
 std::vector<MenuPage> menu_of(const Session& session)
 {

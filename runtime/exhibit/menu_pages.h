@@ -9,9 +9,6 @@ namespace starbow {
 /// of a docent.
 std::vector<MenuPage> menu_of(const Session& session);
 
-/// The visitors' name of a world ("scene") or a tour ("tour"); of one that the words do not know, the file's own.
-std::string title_of(const Words& words, const std::string& kind, const std::string& name);
-
 /// The open menu's page as a caption, with the names of the controls at hand.
 Caption caption_of(const MenuState& menu, std::span<const MenuPage> pages, const Words& words,
     const InputCapabilities& capabilities, bool with_one_button);

@@ -36,6 +36,8 @@ ExhibitOptions open_exhibit(const Exhibit& exhibit)
     options.textfile = exhibit.textfile;
     options.remote = exhibit.remote;
     options.presenter = exhibit.presenter;
+    if (!exhibit.programme.empty())
+        options.programme = load_programme(shipped_file("programmes", exhibit.programme));
     options.visiting = exhibit.visiting;
     if (options.visiting)
         for (std::size_t i = 0; i < options.visiting->attract.size(); ++i)

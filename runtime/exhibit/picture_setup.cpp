@@ -1,6 +1,7 @@
 #include "picture_setup.h"
 #include "config/json/reader.h"
 #include "config/model/angles.h"
+#include "runtime/hud/pointer_ring.h"
 #include "runtime/hud/signs.h"
 #include "runtime/operation/log.h"
 #include <cmath>
@@ -72,6 +73,13 @@ void PictureSetup::place(const PictureState& now, FrameRenderer& frame)
     if (now.pattern == Pattern::none) {
         place_sky_labels(now.sky_labels, views, degree_px);
         place_highlights(now.highlights, views, degree_px);
+    }
+    if (now.pointer && now.pattern == Pattern::none) {
+        // So few steps that most frames of a glide draw no ring anew, and so many that a fade is smooth.
+        const int step = int(std::lround(32 * now.pointer->strength));
+        const Panel& ring
+            = pointer_.of({std::to_string(step)}, degree_px, [&] { return draw_pointer(step / 32.0, degree_px); });
+        callouts_.push_back({.letters = &ring, .place = views.place_at(now.pointer->towards, half_of(ring, degree_px))});
     }
     place_insets(now, frame, degree_px);
     frame.place(callouts_);

@@ -52,7 +52,7 @@ private:
 
     Panel panel_;
     std::int64_t drawn_ = -1; ///< HudText::number
-    Plate title_, sign_;
+    Plate title_, sign_, pointer_;
     std::map<std::string, Plate> sky_names_;
     std::array<Plate, 2> rings_, names_; ///< of highlights, and of insets
     static constexpr double line_degree_px = 16;

@@ -15,24 +15,10 @@ std::vector<Cue> cues_of(const std::vector<Step>& steps)
 {
     std::vector<Cue> cues;
     for (const Step& step : steps) {
-        std::string text = step.question ? step.question->ask : step.caption;
-        text = filled(text, {{"measured", "…"}}); // known only when the step is shown
+        std::string text = announced(step);
         cues.push_back({text.empty() ? "–" : std::move(text), step.seconds});
     }
     return cues;
-}
-
-/// Who is there, in a few words.
-std::string visitors_of(const Session& session)
-{
-    const Words& words = session.words;
-    if (session.docent.fades())
-        return words("remote.dark");
-    if (session.attendance.visit().phase == VisitPhase::asking)
-        return words("presenter.asking");
-    if (session.attendance.attends() && !session.attendance.in_hand())
-        return words("presenter.watches");
-    return words(!session.attendance.knows_visitor() ? "presenter.nobody"_key : "presenter.somebody"_key);
 }
 
 std::vector<std::pair<std::string, std::string>> titled(
@@ -40,25 +26,19 @@ std::vector<std::pair<std::string, std::string>> titled(
 {
     std::vector<std::pair<std::string, std::string>> all;
     for (const std::string& name : names)
-        all.emplace_back(name, title_of(words, kind, name));
+        all.emplace_back(name, words.title(kind, name));
     return all;
 }
 
 PresenterState state_of(const Session& session)
 {
-    const Words& words = session.words;
     PresenterState state;
     describe(session, state);
-    state.visitors = visitors_of(session);
-    state.world = title_of(words, "scene", state.scene), state.coming = session.coming;
     state.own_effects = session.source->by_hand();
-    if (const TourPlayer* tour = session.tour(); tour && !tour->over()) {
-        state.tour_title = title_of(words, "tour", state.tour);
-        state.cues = cues_of(tour->steps());
-        state.step = tour->step(), state.left_s = tour->left_s();
-    } else {
+    if (state.steps > 0)
+        state.cues = cues_of(session.tour()->steps());
+    else
         state.tour.clear();
-    }
     return state;
 }
 
@@ -131,7 +111,8 @@ void Presenter::close()
 void Presenter::read(std::vector<Command>& commands)
 {
     for (Command& command : given_) {
-        write_log(LogKind::command_taken, text_of(command) + " from the guide's window");
+        if (command.kind != CommandKind::touch) // ten a second while the mouse is dragged
+            write_log(LogKind::command_taken, text_of(command) + " from the guide's window");
         commands.push_back(std::move(command));
     }
     given_.clear();
@@ -160,8 +141,22 @@ void Presenter::press(int key)
     pressed_ = true;
 }
 
+void Presenter::point(glm::ivec2 at)
+{
+    const Clock::time_point now = Clock::now();
+    if (now - pointed_ < std::chrono::milliseconds(100))
+        return;
+    const PresenterBox shown = shown_box(places_of(sheet_, size_).picture, view_.size);
+    if (size_.x == 0 || !shown.holds(at))
+        return;
+    pointed_ = now;
+    const glm::dvec2 part = (glm::dvec2(at - shown.corner) + 0.5) / glm::dvec2(shown.size);
+    given_.push_back({.kind = CommandKind::touch, .number = part.x, .second = part.y});
+}
+
 void Presenter::click(glm::ivec2 at)
 {
+    point(at);
     if (const int key = key_at(sheet_, size_, at); key != 0 && !hands_.typed)
         press(key);
 }
@@ -198,9 +193,13 @@ void Presenter::paint(const Session& session, glm::ivec2 size, bool blue_first)
         words_ = session.words;
     state_.said = said_, state_.refused = refused_;
     state_.scenes = titled(session.words, "scene", scenes_), state_.tours = titled(session.words, "tour", tours_);
-    for (const std::string& name : shots_)
-        state_.shots.emplace_back(name, name);
+    state_.shots = titled(session.words, "shot", shots_);
     state_.languages = languages_;
+    if (session.options.programme)
+        for (const ProgrammeItem& item : session.options.programme->items) {
+            const auto& [kind, name] = shown_by(item);
+            state_.programme.push_back({session.words.title(kind, name), said(item.notes, session.words), item.minutes});
+        }
     sheet_ = sheet_of(state_, hands_, words_);
     size_ = size;
     PresenterPainter::Order& order = painter_->next();

@@ -59,6 +59,9 @@ public:
     /// A key of the window, by keys, or a click at a place of it.
     void press(int key);
     void click(glm::ivec2 at);
+    /// The mouse is pressed at a place of the window, and may be moved there: in the visitors' picture it points at what is
+    /// seen there.
+    void point(glm::ivec2 at);
     void type(char32_t character);
     bool types() const { return hands_.typed.has_value(); } ///< keys write a caption
 
@@ -89,7 +92,7 @@ private:
     std::vector<std::string> scenes_, tours_, shots_; ///< names of shipped ones
     std::vector<std::pair<std::string, std::string>> languages_; ///< name, and its own word
     bool pressed_ = false; ///< since the last painting
-    Clock::time_point painted_{}, viewed_{};
+    Clock::time_point painted_{}, viewed_{}, pointed_{};
 };
 
 } // namespace starbow

@@ -28,6 +28,17 @@ int printed_key(int key, int scancode)
     return letter >= 'a' && letter <= 'z' ? letter - 'a' + 'A' : key;
 }
 
+/// The mouse's place in a window, in pixels of its picture.
+glm::ivec2 mouse_in(GLFWwindow* window)
+{
+    glm::dvec2 at;
+    glm::ivec2 size, pixels;
+    glfwGetCursorPos(window, &at.x, &at.y);
+    glfwGetWindowSize(window, &size.x, &size.y);
+    glfwGetFramebufferSize(window, &pixels.x, &pixels.y);
+    return glm::ivec2(at * glm::dvec2(pixels) / glm::max(glm::dvec2(size), 1.0));
+}
+
 Output output_of(const std::optional<Presenting>& rules)
 {
     Output output{.name = "guide", .size = {1280, 800}, .resizable = true, .preview = true};
@@ -119,15 +130,14 @@ void PresenterWindow::listen()
             self.presenter_.type(code);
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* of, int button, int action, int) {
-        if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS)
-            return;
-        glm::dvec2 at;
-        glm::ivec2 size, pixels;
-        glfwGetCursorPos(of, &at.x, &at.y);
-        glfwGetWindowSize(of, &size.x, &size.y);
-        glfwGetFramebufferSize(of, &pixels.x, &pixels.y);
         PresenterWindow& self = *static_cast<PresenterWindow*>(glfwGetWindowUserPointer(of));
-        self.presenter_.click(glm::ivec2(at * glm::dvec2(pixels) / glm::max(glm::dvec2(size), 1.0)));
+        if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS)
+            self.presenter_.click(mouse_in(of));
+    });
+    glfwSetCursorPosCallback(window, [](GLFWwindow* of, double, double) {
+        PresenterWindow& self = *static_cast<PresenterWindow*>(glfwGetWindowUserPointer(of));
+        if (glfwGetMouseButton(of, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
+            self.presenter_.point(mouse_in(of));
     });
 }
 

@@ -1,5 +1,6 @@
 #include "remote_control.h"
 #include "runtime/operation/log.h"
+#include "thumbnails.h"
 
 namespace starbow {
 namespace {
@@ -10,8 +11,6 @@ void describe(const Session& session, Snapshot& out)
     out.layout = command_name_of(session.layout.file);
     out.quality = session.qualities.name();
     out.pattern = pattern_names[std::size_t(session.alignment.pattern())];
-    out.step = session.tour() ? int(session.tour()->step()) + 1 : 0;
-    out.steps = session.tour() ? int(session.tour()->steps().size()) : 0;
     const Attendance& attendance = session.attendance;
     const VisitPhase phase
         = attendance.attends() || attendance.knows_visitor() ? attendance.visit().phase : VisitPhase::attract;
@@ -33,6 +32,10 @@ RemoteControl::RemoteControl(const ExhibitOptions& options)
         return;
     RemoteOptions remote{.settings = options.remote, .version = options.version};
     remote.patterns.assign(pattern_names.begin(), pattern_names.end());
+    remote.programme = options.programme;
+    // A wrong file is reported where it is shown.
+    for (const Thumbnail& one : thumbnails(options.cache, options.words, [](const std::string&) {}))
+        remote.thumbnails[one.kind + "/" + one.name] = one.file;
     remote_ = std::make_unique<Remote>(std::move(remote));
 }
 

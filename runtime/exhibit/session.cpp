@@ -9,6 +9,7 @@
 #include "runtime/operation/record_files.h"
 #include "runtime/operation/vitals.h"
 #include "runtime/render/render_context.h"
+#include "runtime/visit/doing.h"
 #include "runtime/visit/hand_flight.h"
 #include "runtime/visit/shown_record.h"
 #include "runtime/world/open_scene.h"
@@ -76,6 +77,17 @@ void describe(const Session& session, ExhibitState& out)
     out.tour = command_name_of(content.tour_name);
     static_cast<Choices&>(out) = session.choices;
     const Flight& flight = session.flight();
+    out.coming = session.coming;
+    out.doing = session.record_replay.replays() ? Doing::replays
+                                                : doing_of(session.attendance, *session.source, !content.record.empty());
+    const TourPlayer* tour = session.tour();
+    const bool runs = tour && !tour->over();
+    out.step = runs ? int(tour->step()) + 1 : 0, out.steps = runs ? int(tour->steps().size()) : 0;
+    out.left_s = runs ? tour->left_s() : 0;
+    out.next_caption = runs && tour->step() + 1 < tour->steps().size() ? announced(tour->steps()[tour->step() + 1]) : "";
+    out.item = session.item, out.items = session.options.programme ? int(session.options.programme->items.size()) : 0;
+    out.item_s = session.item_s;
+    out.calm = session.options.exposure.calm;
     out.paused = session.source->paused();
     out.fade = session.docent.fades(), out.hold = session.docent.holds();
     out.effects = flight.effects, out.slow_motion = flight.time_scale > 0;
@@ -356,6 +368,8 @@ void step(Session& session, RecordEntry& entry, const Metered& metered)
         session.choices.range = entry.ranged;
     entry.ranged = session.choices.range;
     session.docent.advance(dt_s);
+    session.pointer.advance(dt_s);
+    session.item_s += session.item > 0 ? dt_s : 0;
     session.light.advance(entry,
         {.source = *session.source,
             .metered = metered,

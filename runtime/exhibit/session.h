@@ -19,6 +19,7 @@
 #include "runtime/operation/usage_statistics.h"
 #include "runtime/visit/attendance.h"
 #include "runtime/visit/docent.h"
+#include "runtime/visit/pointer.h"
 #include "runtime/visit/shown_light.h"
 #include "runtime/visit/tour_player.h"
 #include <chrono>
@@ -39,13 +40,16 @@ struct Session {
 
     Attendance attendance;
     Docent docent{};
+    Pointer pointer{}; ///< the docent's
     Choices choices; ///< the visitor's
     Words words; ///< of the chosen language
     MenuState menu{}; ///< the visitors'
     std::vector<std::pair<std::string, std::string>> languages{}; ///< names and own words, as read when the menu opened
-    std::string coming{}; ///< the visitors' name of a world that is being read; empty: none
+    std::string coming{}; ///< the name of a world that is being read; empty: none
 
     SessionContent content; ///< the shown one
+    int item = 0; ///< of the programme, begun last, the first one 1; 0: none yet
+    double item_s = 0; ///< since then
     Flying rules; ///< of the visitors' flight in it
     std::unique_ptr<FlightSource> source; ///< of its flight
     GoalState goals{}; ///< the visitor's, in this world

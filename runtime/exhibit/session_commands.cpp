@@ -2,6 +2,7 @@
 #include "config/json/reader.h"
 #include "config/model/shipped.h"
 #include "runtime/operation/last_language.h"
+#include <cmath>
 
 namespace starbow {
 namespace {
@@ -39,6 +40,20 @@ void step_tour(const Session& session, Requests& requests, Switch by)
 /// The shown tour in its own motion; null where hands fly.
 TourPlayer* moving_tour(Session& session) { return session.source->by_hand() ? nullptr : session.source->tour(); }
 
+SessionContent content_of_item(const Session& session, double number)
+{
+    const std::optional<Programme>& programme = session.options.programme;
+    if (!programme)
+        throw InputError("the exhibit has no programme; \"programme\" in its file is right");
+    const std::size_t count = programme->items.size();
+    if (number != std::floor(number) || number > double(count))
+        throw InputError("the programme has no such item; a whole number from 1 to " + std::to_string(count) + " is right");
+    const auto& [kind, name] = shown_by(programme->items[std::size_t(number) - 1]);
+    return kind == "tour" ? content_of_tour(name, session.words)
+        : kind == "shot"  ? content_of_shot(name)
+                          : content_of_scene(name);
+}
+
 } // namespace
 
 void apply_command(Session& session, const Command& command, Requests& requests)
@@ -51,6 +66,11 @@ void apply_command(Session& session, const Command& command, Requests& requests)
     case CommandKind::restart:
         session.docent.apply_command(command);
         break;
+    case CommandKind::pointer:
+        session.pointer.touch(command.number, command.second);
+        break;
+    case CommandKind::touch:
+        throw InputError("the live picture shows no direction there; a place within the picture is right");
     case CommandKind::speed_limit:
         session.docent.apply_command(command);
         session.rules.max_gamma = command.number;
@@ -101,6 +121,7 @@ void apply_command(Session& session, const Command& command, Requests& requests)
     case CommandKind::tour:
     case CommandKind::scene:
     case CommandKind::shot:
+    case CommandKind::item:
     case CommandKind::layout:
     case CommandKind::quality:
         break; // the frame loop's
@@ -116,6 +137,8 @@ SessionContent content_after(const Session& session, const Command& command)
         return content_of_shot(command.text);
     case CommandKind::tour:
         return content_of_tour(command.text, session.words);
+    case CommandKind::item:
+        return content_of_item(session, command.number);
     default:
         return session.options.content;
     }
@@ -161,6 +184,8 @@ void forget_directions(Session& session)
 {
     forget_visitor(session);
     session.docent.forget();
+    session.pointer = {};
+    session.item = 0, session.item_s = 0;
     session.qualities.forget();
 }
 

@@ -11,11 +11,12 @@ namespace {
 /// Far longer than any written line. A longer line belongs to no record and is not read to its end.
 constexpr std::size_t longest_line = 1 << 16;
 
-/// True for a command whose effect the record's frames hold: what the hand did that steers, and the curve of brightness.
+/// True for a command whose effect the record's frames hold (what the hand did that steers, and the curve of brightness), or
+/// that has none on the flight, as the guide's pointer.
 bool kept_in_frames(const Command& command)
 {
     return command.kind == CommandKind::one_button || command.kind == CommandKind::left_handed
-        || command.kind == CommandKind::range;
+        || command.kind == CommandKind::range || command.kind == CommandKind::pointer;
 }
 
 } // namespace

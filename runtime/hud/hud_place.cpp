@@ -10,6 +10,8 @@
 namespace starbow {
 namespace {
 
+constexpr std::array<glm::dvec2, 4> sides{glm::dvec2(-1, 0), {1, 0}, {0, -1}, {0, 1}};
+
 glm::dvec3 panel_middle(const HudPlacement& hud)
 {
     const double a = hud.azimuth_deg * degree, e = hud.elevation_deg * degree;
@@ -96,7 +98,8 @@ public:
         return least;
     }
 
-    /// True if all of the panel is seen, with some room around it, and it takes no more of the picture than it may.
+    /// True if all of the panel is seen, off the edges of flat pictures by safe_area of their extent and with some room
+    /// around it elsewhere, and it takes no more of the picture than it may.
     bool fits(const HudPlacement& hud) const
     {
         constexpr double room = 1.02; // around the panel, so that its edge is not the picture's
@@ -110,11 +113,21 @@ public:
             for (const double x : {-room, room})
                 if (!seen(x, y))
                     return false;
+        for (const double y : {-1.0, 1.0})
+            for (const double x : {-1.0, 1.0})
+                if (!is_off_edges(glm::normalize(cockpit_from_panel * glm::dvec3(glm::dvec2(x, y) * half, 1))))
+                    return false;
         int high = 2;
         for (const int way : {-1, 1})
             for (int k = 1; k < least_high && seen(0, way * (1 + k)); ++k)
                 ++high;
         return high >= least_high && share(hud, room) == 1;
+    }
+
+    /// True if each flat view that shows the direction shows it off its edges, or another one goes on beyond them.
+    bool is_off_edges(const glm::dvec3& direction) const
+    {
+        return std::ranges::all_of(groups_, [&](const Group& group) { return group.is_off_edges(direction); });
     }
 
     /// True if some eye sees the direction, and where there are two eyes, both do.
@@ -142,6 +155,17 @@ private:
             return std::ranges::any_of(views, [&](const Seen& seen) {
                 const auto pixel = pixel_of(*seen.view, direction);
                 return pixel && !hidden(seen, *pixel);
+            });
+        }
+
+        bool is_off_edges(const glm::dvec3& direction) const
+        {
+            return std::ranges::all_of(views, [&](const Seen& seen) {
+                const auto pixel = seen.view->matrix ? pixel_of(*seen.view, direction) : std::nullopt;
+                const glm::dvec2 off = safe_area * glm::dvec2(seen.view->view.size);
+                return !pixel || std::ranges::all_of(sides, [&](const glm::dvec2& side) {
+                    return shows(glm::normalize(*seen.view->matrix * glm::dvec3(*pixel + side * off, 1)));
+                });
             });
         }
 

@@ -10,6 +10,10 @@ namespace starbow {
 /// each output.
 glm::dmat3 panel_from_cockpit(const HudPlacement& hud, std::span<const std::vector<CompiledView>> views);
 
+/// The part of a flat picture's width and height, at each of its edges, that a found placement leaves free: frames, curtains
+/// and televisions' overscan hide the outermost rows.
+constexpr double safe_area = 0.05;
+
 /// The head-up display's placement: the layout's own, or one that is found from its views. Found ones are seen whole, by
 /// both eyes and by each observer who sees the middle; they are straight ahead if that can be, low in the picture, 48
 /// degrees wide, 60 on domes and walls at least 120 degrees wide, and narrower in narrow pictures. A layout's own placement

@@ -69,9 +69,7 @@ public:
     /// A picture as large as it fits into the box, in its own shape.
     void picture(const PresenterBox& box, const VisitorsView& view)
     {
-        const double scale = std::min(double(box.size.x) / view.size.x, double(box.size.y) / view.size.y);
-        const glm::ivec2 size = glm::max(glm::ivec2(glm::dvec2(view.size) * scale), 1),
-                         corner = box.corner + (box.size - size) / 2;
+        const auto [corner, size] = shown_box(box, view.size);
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
                 const std::size_t row = std::size_t(y) * std::size_t(view.size.y) / std::size_t(size.y),
@@ -102,7 +100,9 @@ void paint_button(Canvas& canvas, const PresenterKey& key, const PresenterBox& b
 {
     canvas.fill(box, key.on ? on_colour : key.usable ? button_colour : unusable_colour);
     const double strength = key.usable ? 1 : 0.5, pad = 8 * unit;
-    const int large = int(22 * unit), label = int(18 * unit), small = int(15 * unit);
+    // Two lines of letters, with their descents, have 44 units; in a lower button they are smaller.
+    const double fits = two_lines && !key.state.empty() ? std::min(1.0, box.size.y / (44 * unit)) : 1;
+    const int large = int(22 * unit), label = int(18 * fits * unit), small = int(15 * fits * unit);
     const double name_width = std::max(canvas.width_of(key.name, large), 14 * unit) + 2 * pad;
     canvas.fill({box.corner, {int(name_width), box.size.y}}, key_colour);
     const double middle = box.corner.y + 0.5 * box.size.y, x = box.corner.x + name_width + pad,
@@ -113,7 +113,7 @@ void paint_button(Canvas& canvas, const PresenterKey& key, const PresenterBox& b
         canvas.line(key.label, x, middle + 0.35 * label, label, room, strength);
     } else if (two_lines) {
         canvas.line(key.label, x, middle - 0.1 * label, label, room, strength);
-        canvas.line(key.state, x, middle + 1.25 * small, small, room, strength * 0.85);
+        canvas.line(key.state, x, middle + 1.1 * small, small, room, strength * 0.85);
     } else {
         const double state = canvas.width_of(key.state, small);
         canvas.line(key.label, x, middle + 0.35 * label, label, room - state - pad, strength);
@@ -173,6 +173,27 @@ void paint_cues(Canvas& canvas, const PresenterSheet& sheet, const PresenterBox&
     }
 }
 
+/// The present item's title and time, as many lines of its notes as there is room for, and the next item.
+void paint_programme(Canvas& canvas, const PresenterSheet& sheet, const PresenterBox& box, double unit)
+{
+    if (sheet.item_title.empty())
+        return;
+    canvas.fill(box, plate_colour);
+    const double pad = 10 * unit, left = box.corner.x + pad, room = box.size.x - 2 * pad, end = box.corner.y + box.size.y;
+    const int title = int(20 * unit), notes = int(17 * unit), small = int(16 * unit);
+    double y = box.corner.y + 1.4 * title;
+    canvas.line(sheet.item_title, left, y, title, room);
+    canvas.cut_line(sheet.item_then, left, end - 0.6 * small, small, room, 0.8);
+    y += 0.3 * notes;
+    for (const std::string& line :
+        wrapped(sheet.item_notes, room, [&](const std::string& text) { return canvas.width_of(text, notes); })) {
+        y += 1.3 * notes;
+        if (y > end - 1.8 * small)
+            break;
+        canvas.cut_line(line, left, y, notes, room, 0.95);
+    }
+}
+
 void paint_said(Canvas& canvas, const PresenterSheet& sheet, const PresenterBox& box, double unit)
 {
     const int size = int(19 * unit), small = int(15 * unit);
@@ -203,12 +224,15 @@ PresenterPlaces places_of(const PresenterSheet& sheet, glm::ivec2 size)
     };
     constexpr int columns = 5;
     const std::size_t count = sheet.keys.size(), rest = count % columns;
-    const double keys_top = 0.635 * height, upper = 0.565 * height, // the end of what stands above the line about commands
+    const double keys_top = 0.62 * height, upper = 0.55 * height, // the end of what stands above the line about commands
         left = 0.31 * width, list = 0.25 * width;
     PresenterPlaces places;
     places.picture = box(gap, gap, left - 1.5 * gap, 0.34 * height - gap);
     places.facts = box(gap, 0.35 * height, left - 1.5 * gap, upper - 0.35 * height);
-    places.cues = box(left, gap, width - left - list - gap, upper - gap);
+    const double programme = sheet.item_title.empty() ? 0 : 0.19 * height;
+    places.programme = box(left, gap, programme > 0 ? width - left - list - gap : 0, programme);
+    const double cues_top = gap + (programme > 0 ? programme + gap : 0);
+    places.cues = box(left, cues_top, width - left - list - gap, upper - cues_top);
     places.list = box(width - list, gap, list - gap, upper - gap);
     places.said = box(gap, upper + gap, width - 2 * gap, keys_top - upper - 2 * gap);
     const double title = 34 * unit, choice = (places.list.size.y - title) / double(most_choices + 1);
@@ -220,9 +244,18 @@ PresenterPlaces places_of(const PresenterSheet& sheet, glm::ivec2 size)
         const bool last = i >= count - rest; // the last row's are wider
         const double in_row = last ? double(rest) : columns, column = (width - gap) / in_row,
                      at = double(last ? i - (count - rest) : i % columns);
-        places.keys.push_back(box(gap + at * column, keys_top + double(i / columns) * row, column - gap, row - gap));
+        places.keys.push_back(box(gap + at * column, keys_top + double(i / columns) * row, column - gap, row - 0.7 * gap));
     }
     return places;
+}
+
+PresenterBox shown_box(const PresenterBox& place, glm::ivec2 picture)
+{
+    if (picture.x <= 0 || picture.y <= 0)
+        return {};
+    const double scale = std::min(double(place.size.x) / picture.x, double(place.size.y) / picture.y);
+    const glm::ivec2 size = glm::max(glm::ivec2(glm::dvec2(picture) * scale), 1);
+    return {place.corner + (place.size - size) / 2, size};
 }
 
 int key_at(const PresenterSheet& sheet, glm::ivec2 size, glm::ivec2 at)
@@ -250,6 +283,7 @@ void paint(const PresenterSheet& sheet, const VisitorsView& view, const Typesett
     if (view.size.x > 0)
         canvas.picture(places.picture, view);
     paint_facts(canvas, sheet, places.facts, unit);
+    paint_programme(canvas, sheet, places.programme, unit);
     paint_cues(canvas, sheet, places.cues, unit);
     canvas.fill(places.list, plate_colour);
     const int title = int(20 * unit);

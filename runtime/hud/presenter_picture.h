@@ -19,10 +19,13 @@ struct PresenterBox {
 
 /// The places of a sheet's parts in a window.
 struct PresenterPlaces {
-    PresenterBox picture, facts, cues, list, said;
+    PresenterBox picture, facts, programme, cues, list, said; ///< programme: of size 0 where there is none
     std::vector<PresenterBox> choices, keys; ///< in the sheet's order
 };
 PresenterPlaces places_of(const PresenterSheet& sheet, glm::ivec2 size);
+
+/// The part of the picture's place that a picture of this size fills, in its own shape; of size 0: nothing.
+PresenterBox shown_box(const PresenterBox& place, glm::ivec2 picture);
 
 /// The key at a place of the window; 0: none.
 int key_at(const PresenterSheet& sheet, glm::ivec2 size, glm::ivec2 at);

@@ -9,18 +9,15 @@ namespace {
 
 using Order = CommandKind;
 
-/// The offered speed limits, γ: half, 0.9, 0.99 and 0.999 of light's speed, and then γ itself. The last is no limit.
-constexpr double speed_limits[]{1.1547, 2.2942, 7.0888, 22.366, 100, 1000, 1e6};
 constexpr double exposure_step_ev = 0.5;
 
-/// A limit as a docent says it: a part of light's speed while that can be read, then γ.
+/// A limit as a docent says it: a part of light's speed, with as many digits as tell it from light's.
 std::string limit_text(double max_gamma, const Words& words)
 {
-    if (max_gamma >= speed_limits[std::size(speed_limits) - 1])
+    if (max_gamma >= offered_limits.back())
         return words("remote.no_limit");
-    if (max_gamma > 30)
-        return "γ " + shown_number(max_gamma, 0, words);
-    return shown_number(std::sqrt(1 - 1 / (max_gamma * max_gamma)), 3, words) + " c";
+    const double speed = speed_of(max_gamma);
+    return shown_number(speed, std::max(3, int(std::ceil(-std::log10(1 - speed)))), words) + " c";
 }
 
 std::string exposure_text(double ev, const Words& words)
@@ -31,6 +28,52 @@ std::string exposure_text(double ev, const Words& words)
 std::string speed_text(const PresenterState& state, const Words& words)
 {
     return shown_number(state.speed, state.speed > 0.999 ? 7 : 3, words) + " c    γ " + shown_number(state.gamma, words);
+}
+
+/// What is so beside the visit itself, in a few words; or "".
+std::string also_text(const ExhibitState& state, const Words& words)
+{
+    std::string text;
+    for (const auto& [is, key] : {std::pair{state.paused, "does.paused"_key}, {state.fade, "does.dark"_key},
+             {state.hold, "does.held"_key}, {state.calm, "does.calm"_key}})
+        if (is)
+            text += (text.empty() ? "" : ", ") + words(key);
+    return text;
+}
+
+using Values = std::vector<std::pair<std::string_view, std::string>>;
+
+/// The placeholders of a time on a clock: 4:07.
+Values clock_of(int seconds)
+{
+    const int rest = seconds % 60;
+    return {{"minutes", std::to_string(seconds / 60)}, {"seconds", (rest < 10 ? "0" : "") + std::to_string(rest)}};
+}
+
+/// The present item's number, title and time.
+std::string item_text(const PresenterState& state, std::size_t item, const Words& words)
+{
+    const ProgrammeCue& shown = state.programme[item - 1];
+    Values time = clock_of(int(state.item_s));
+    time.emplace_back("planned", shown_number(shown.minutes, shown.minutes == std::floor(shown.minutes) ? 0 : 1, words));
+    return words("remote.item", {{"item", std::to_string(item)}, {"items", std::to_string(state.programme.size())}}) + " · "
+        + shown.title + " · " + words("remote.item_time", time);
+}
+
+void add_programme(PresenterSheet& sheet, const PresenterState& state, const Words& words)
+{
+    const std::size_t items = state.programme.size();
+    if (items == 0)
+        return;
+    const auto now = std::min(std::size_t(std::max(0, state.item)), items); // 0: it has not begun
+    if (now == 0) {
+        sheet.item_title = words("remote.not_begun");
+    } else {
+        sheet.item_title = item_text(state, now, words);
+        sheet.item_notes = state.programme[now - 1].notes;
+    }
+    if (now < items)
+        sheet.item_then = words("remote.then", {{"item", state.programme[now].title}});
 }
 
 struct Choices {
@@ -65,7 +108,7 @@ Choices choices_of(const PresenterState& state, PresenterList list, const Words&
         break;
     }
     Choices choices{words("remote.speed_limit"), {}, {}};
-    for (const double limit : speed_limits) {
+    for (const double limit : offered_limits) {
         choices.all.emplace_back(limit_text(limit, words), Command{.kind = Order::speed_limit, .number = limit});
         choices.shown.push_back(std::abs(limit / state.max_gamma - 1) < 1e-3);
     }
@@ -137,6 +180,10 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
     toggle('H', "remote.hold", {.kind = Order::hold}, state.hold);
     toggle('B', "remote.fade", {.kind = Order::fade}, state.fade);
 
+    const auto item = [](int number) { return Command{.kind = Order::item, .number = double(std::max(1, number))}; };
+    deed(',', ",", "remote.item_back", item(state.item - 1)).usable = state.item > 1;
+    deed('.', ".", "remote.item_next", item(state.item + 1)).usable = state.item < state.items;
+
     deed(space, words("presenter.space").c_str(), "remote.stop", Command{.kind = Order::stop});
     deed('R', "R", "remote.reset", Command{.kind = Order::reset});
     list('W', "presenter.worlds", PresenterList::worlds);
@@ -207,24 +254,32 @@ std::optional<Command> press_typing(PresenterHands& hands, int key)
 
 PresenterSheet sheet_of(const PresenterState& state, const PresenterHands& hands, const Words& words)
 {
-    PresenterSheet sheet{
-        .cues = state.cues, .step = state.step, .said = state.said, .refused = state.refused, .typed = hands.typed};
-    sheet.facts = {{words("remote.visitors"), state.visitors},
-        {words("remote.scene"), state.coming.empty() ? state.world : words("menu.coming", {{"world", state.coming}})},
+    PresenterSheet sheet{.cues = state.cues,
+        .step = std::size_t(std::max(0, state.step - 1)),
+        .said = state.said,
+        .refused = state.refused,
+        .typed = hands.typed};
+    constexpr auto doing_words = keys_of("does.", doing_names);
+    sheet.facts = {{words("remote.now"), words(doing_words[std::size_t(state.doing)])},
+        {words("remote.scene"),
+            state.coming.empty() ? words.title("scene", state.scene)
+                                 : words("does.coming", {{"world", words.title("scene", state.coming)}})},
         {words("remote.speed"), speed_text(state, words)}, {words("remote.speed_limit"), limit_text(state.max_gamma, words)},
         {words("remote.exposure"), exposure_text(state.exposure_ev, words)}};
+    if (const std::string also = also_text(state, words); !also.empty())
+        sheet.facts.emplace(sheet.facts.begin() + 1, "", also);
     if (!state.caption.empty())
         sheet.facts.emplace_back(words("remote.caption"), state.caption);
     if (state.cues.empty()) {
         sheet.cue_title = words("presenter.no_tour");
     } else {
         const std::string step
-            = words("remote.step", {{"step", std::to_string(state.step + 1)}, {"steps", std::to_string(state.cues.size())}});
-        sheet.cue_title = state.tour_title + " · " + step + " · "
-            + (state.paused ? words("remote.paused")
-                            : words("presenter.left", {{"left", std::to_string(int(std::ceil(state.left_s)))}}));
+            = words("remote.step", {{"step", std::to_string(state.step)}, {"steps", std::to_string(state.steps)}});
+        sheet.cue_title = words.title("tour", state.tour) + " · " + step + " · "
+            + (state.paused ? words("does.paused") : words("does.left", clock_of(int(std::ceil(state.left_s)))));
     }
     sheet.typed_help = words("presenter.typed");
+    add_programme(sheet, state, words);
     add_choices(sheet, state, hands, words);
     add_keys(sheet, state, words);
     return sheet;

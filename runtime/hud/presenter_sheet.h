@@ -15,14 +15,16 @@ struct Cue {
     double seconds = 0;
 };
 
+/// An item of the programme.
+struct ProgrammeCue {
+    std::string title, notes;
+    double minutes = 0; ///< planned
+};
+
 /// The running exhibit as its guide's window shows it.
 struct PresenterState : ExhibitState {
-    std::string visitors; ///< a line: who is there
-    std::string world, coming; ///< the visitors' names of the shown world, and of one that is being read; empty: none
-    std::string tour_title;
     std::vector<Cue> cues; ///< of the tour; empty: none is shown, or it is over
-    std::size_t step = 0; ///< the present one, counted from 0
-    double left_s = 0; ///< of the present step
+    std::vector<ProgrammeCue> programme; ///< empty: there is none
     bool own_effects = true; ///< the flight's effects can be switched; a tour shows its own
     std::string said; ///< about the last command; empty: none came
     bool refused = false; ///< it was refused
@@ -64,6 +66,8 @@ struct PresenterSheet {
     std::string cue_title; ///< the tour, its step and the seconds left; or that there is none
     std::vector<Cue> cues;
     std::size_t step = 0;
+    std::string item_title; ///< of the programme's present item, with its time; empty: there is no programme
+    std::string item_notes, item_then; ///< the guide's notes, and the next item
     std::string list_title;
     std::vector<PresenterKey> choices; ///< the shown page of the open list, at digits, and its key for more
     std::vector<PresenterKey> keys;

@@ -23,6 +23,12 @@ struct ShownSign {
     glm::dvec3 towards{0, 0, -1};
 };
 
+/// The guide's pointer.
+struct ShownPointer {
+    glm::dvec3 towards{0, 0, -1}; ///< unit, cockpit axes
+    double strength = 1; ///< from 0 to 1: the whole ring
+};
+
 /// The inset view.
 struct InsetPicture {
     InsetView kind = InsetView::at_rest;
@@ -57,6 +63,7 @@ struct PictureState {
     std::vector<ShownHighlight> highlights; ///< two at most; those that are enlarged have insets in place of `inset`
     bool figures = false; ///< the constellations' lines
     std::vector<SkyLabel> sky_labels;
+    std::optional<ShownPointer> pointer;
     std::optional<InsetPicture> inset;
     std::optional<Instruments> instruments;
 };

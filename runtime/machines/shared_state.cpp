@@ -248,6 +248,12 @@ template <class Part> void transfer(Part& part, SkyLabel& label)
     transfer_all(part, name, towards);
 }
 
+template <class Part> void transfer(Part& part, ShownPointer& pointer)
+{
+    auto& [towards, strength] = pointer;
+    transfer_all(part, towards, strength);
+}
+
 template <class Part> void transfer(Part& part, InsetPicture& picture)
 {
     auto& [kind, start_ev, fov_deg, name] = picture;
@@ -275,10 +281,10 @@ template <class Part> void transfer(Part& part, Instruments& on)
 template <class Part> void transfer(Part& part, PictureState& now)
 {
     auto& [shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, title, sign, highlights, figures,
-        sky_labels, inset, instruments]
+        sky_labels, pointer, inset, instruments]
         = now;
     transfer_all(part, shot, head, range, meters, bloom, fade, vignette, vignette_part, pattern, hud, title, sign,
-        highlights, figures, sky_labels, inset, instruments);
+        highlights, figures, sky_labels, pointer, inset, instruments);
 }
 
 template <class Part> void transfer(Part& part, TurnedNumber& number)

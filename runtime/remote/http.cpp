@@ -1,5 +1,6 @@
 // The page's files, logins and metrics: one answer a request.
 #include "config/json/error.h"
+#include "config/json/whole_file.h"
 #include "messages.h"
 #include "runtime/operation/exposition.h"
 #include "runtime/operation/log.h"
@@ -17,6 +18,8 @@ namespace {
 struct Visit {
     std::string path, received, sends;
 };
+
+constexpr std::string_view thumbnails = "/thumbnail/";
 
 /// libwebsockets gives a visit the room of one pointer, zero at first.
 Visit*& visit_at(void* room) { return *static_cast<Visit**>(room); }
@@ -117,15 +120,30 @@ HttpAnswer Server::get(lws* wsi, const std::string& path)
         return file->second;
     const std::optional<Role> role = this->role(wsi);
     if (path == "/lists" && role)
-        return {.type = "application/json", .body = lists_text(options_.patterns)};
+        return {.type = "application/json",
+            .body = lists_text(options_.patterns, *role >= Role::docent ? options_.programme : std::nullopt)};
     if (path == "/metrics") {
         const std::string peer = plain_address(peer_of(wsi));
         if (peer.starts_with("127.") || peer == "::1" || role == Role::engineer)
             return {.type = "text/plain; version=0.0.4; charset=utf-8", .body = metrics()};
     }
-    if (path == "/lists" || path == "/metrics")
+    if (path.starts_with(thumbnails) && role)
+        return thumbnail(path.substr(thumbnails.size()));
+    if (path == "/lists" || path == "/metrics" || path.starts_with(thumbnails))
         return {.status = role ? 403u : 401u, .body = "A login is missing, or it is for another role.\n"};
     return {.status = 404, .body = "There is no such page.\n"};
+}
+
+/// The small picture of such a name; the file may have come since the start.
+HttpAnswer Server::thumbnail(const std::string& name) const
+{
+    constexpr std::size_t most_bytes = 1 << 18;
+    try {
+        if (const auto file = options_.thumbnails.find(name); file != options_.thumbnails.end())
+            return {.type = "image/png", .body = read_whole(file->second, most_bytes, "a small picture")};
+    } catch (const InputError&) { // none is drawn yet
+    }
+    return {.status = 404, .body = "There is no such picture; starbow render --thumbnails draws all.\n"};
 }
 
 HttpAnswer Server::log_in(lws* wsi, const std::string& body)

@@ -50,6 +50,17 @@ bool is_quality(const std::string& name)
     }
 }
 
+/// Each item's kind and name, as a command gives them, its planned minutes, and its notes by language.
+json items_of(const Programme& programme)
+{
+    json all = json::array();
+    for (const ProgrammeItem& item : programme.items) {
+        const auto& [kind, name] = shown_by(item);
+        all.push_back({{"kind", kind}, {"name", name}, {"minutes", item.minutes}, {"notes", item.notes.texts}});
+    }
+    return all;
+}
+
 /// A finite number for JSON, which has no infinity.
 double finite(double number) { return std::isfinite(number) ? number : 0; }
 
@@ -70,12 +81,12 @@ Request request_of(std::string_view text)
         request.picture = picture->get<bool>();
         return request;
     }
-    if (!command->is_array() || command->size() > 2)
-        throw InputError("a message's command is not a list of one or two texts; [\"stop\"] is right");
+    if (!command->is_array() || command->size() > 3)
+        throw InputError("a message's command is not a list of one to three texts; [\"stop\"] is right");
     std::vector<std::string> words;
     for (const json& word : *command) {
         if (!word.is_string())
-            throw InputError("a message's command is not a list of one or two texts; [\"stop\"] is right");
+            throw InputError("a message's command is not a list of one to three texts; [\"stop\"] is right");
         words.push_back(word.get<std::string>());
     }
     request.command = command_of(words);
@@ -163,7 +174,10 @@ std::string status_text(const Snapshot& now, bool engineer)
     json status{{"scene", now.scene}, {"shot", now.shot}, {"tour", now.tour}, {"step", now.step}, {"steps", now.steps},
         {"language", now.language}, {"information", name_of(now.information)},
         {"comparison", comparison_names[std::size_t(now.effects.comparison)]}, {"speed", finite(now.speed)},
-        {"gamma", finite(now.gamma)}, {"max-gamma", finite(now.max_gamma)}, {"exposure", finite(now.exposure_ev)},
+        {"gamma", finite(now.gamma)}, {"max-gamma", finite(now.max_gamma)}, {"max-speed", finite(speed_of(now.max_gamma))},
+        {"exposure", finite(now.exposure_ev)}, {"doing", doing_names[std::size_t(now.doing)]},
+        {"left-s", std::ceil(finite(now.left_s))}, {"calm", now.calm}, {"next-caption", now.next_caption},
+        {"item", now.item}, {"items", now.items}, {"item-s", std::floor(finite(now.item_s))}, {"coming", now.coming},
         {"visit", now.visit}, {"caption", now.caption}, {"frames-per-s", std::round(finite(now.frames_per_s) * 10) / 10},
         {"frame-ms", std::round(finite(now.frame_ms) * 10) / 10}, {"uptime-s", std::floor(finite(now.uptime_s))}};
     for (const EffectEntry& one : all_effects)
@@ -195,9 +209,9 @@ std::string hello_text(Role role, const std::string& version)
     return dump({{"hello", {{"role", role_names[std::size_t(role)]}, {"version", version}}}});
 }
 
-std::string lists_text(const std::vector<std::string>& patterns)
+std::string lists_text(const std::vector<std::string>& patterns, const std::optional<Programme>& programme)
 {
-    constexpr std::array<const char*, 5> values{"none", "on", "number", "name", "text"};
+    constexpr std::array<const char*, 6> values{"none", "on", "number", "name", "text", "place"};
     json commands = json::object();
     for (const bool effects : {true, false}) // the page shows switches in this order
         for (const CommandRule& rule : command_rules())
@@ -212,19 +226,20 @@ std::string lists_text(const std::vector<std::string>& patterns)
     names["comparison"] = comparison_names;
     names["information"] = names_of(informations);
     names["pattern"] = patterns;
-    return dump({{"commands", commands}, {"names", names}});
+    return dump({{"commands", commands}, {"names", names}, {"speed-limits", offered_limits},
+        {"programme", programme ? items_of(*programme) : json::array()}});
 }
 
 std::string words_text()
 {
-    constexpr std::string_view prefix = "remote.";
+    constexpr std::array<std::string_view, 3> prefixes{"remote.", "does.", "name."};
     json all = json::object();
     for (const std::string& language : shipped_names("words"))
         try {
             const Words words = words_in(language);
             json& texts = all[language] = json::object();
             for (const auto& [key, text] : words.texts)
-                if (key.starts_with(prefix))
+                if (std::ranges::any_of(prefixes, [&](std::string_view prefix) { return key.starts_with(prefix); }))
                     texts[key] = text;
         } catch (const InputError& error) {
             write_log(LogKind::words_unreadable, std::string(error.what()) + "; the page leaves this language out");

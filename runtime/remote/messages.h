@@ -1,4 +1,5 @@
 #pragma once
+#include "config/model/programme_file.h"
 #include "config/model/remote_file.h"
 #include "input/command.h"
 #include "snapshot.h"
@@ -50,8 +51,8 @@ std::string status_text(const Snapshot& snapshot, bool engineer);
 std::string log_text(const std::vector<std::string>& lines);
 std::string answer_text(int id, const std::string& refusal);
 std::string hello_text(Role role, const std::string& version);
-/// The kinds of command with their role and value, and the names that may be chosen.
-std::string lists_text(const std::vector<std::string>& patterns);
+/// The kinds of command with their role and value, the names that may be chosen, and the programme, if there is one.
+std::string lists_text(const std::vector<std::string>& patterns, const std::optional<Programme>& programme);
 /// The page's own words in every language: {"en": {"remote.stop": ...}}.
 std::string words_text();
 

@@ -1,9 +1,13 @@
 #pragma once
 #include "auth.h"
+#include "config/model/programme_file.h"
 #include "config/model/remote_file.h"
 #include "input/command.h"
 #include "snapshot.h"
+#include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +23,10 @@ struct NumberedCommand {
 struct RemoteOptions {
     RemoteSettings settings;
     std::vector<std::string> patterns; ///< names of test patterns that the page offers
+    std::optional<Programme> programme{}; ///< of a guide's show
     std::string version; ///< the program's
+    /// Files of small pictures, PNG, by kind and name: "tour/rainbow". They may not be there yet.
+    std::map<std::string, std::filesystem::path> thumbnails{};
 };
 
 /// Tablets, telephones, OSC and `starbow tell` steer the exhibit: one thread serves them all. take, answer and publish are

@@ -370,7 +370,8 @@ std::string Server::put(const Command& command, Role role, const std::string& wh
         return "the exhibit has many commands to do already; the same one a little later is right";
     }
     pending_[++last_number_] = {client, id, words, std::chrono::steady_clock::now()};
-    write_log(LogKind::command_taken, std::string(role_names[std::size_t(role)]) + " at " + who + ": " + words);
+    if (rule.value != CommandValue::place) // ten a second while a finger moves
+        write_log(LogKind::command_taken, std::string(role_names[std::size_t(role)]) + " at " + who + ": " + words);
     return "";
 }
 

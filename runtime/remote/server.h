@@ -86,6 +86,7 @@ private:
     void refuse_osc(const std::string& who, const std::string& why);
     std::optional<HttpAnswer> refused(lws* wsi, bool socket) const;
     HttpAnswer get(lws* wsi, const std::string& path);
+    HttpAnswer thumbnail(const std::string& name) const;
     HttpAnswer log_in(lws* wsi, const std::string& body);
     HttpAnswer log_out(lws* wsi);
     std::string metrics();

@@ -10,7 +10,6 @@ namespace starbow {
 struct Snapshot : ExhibitState {
     std::string layout, quality; ///< names of files; empty: none
     std::string pattern; ///< one of pattern_names; "none" or empty: the world
-    int step = 0, steps = 0; ///< of the tour, the first one 1; 0: no tour
     std::string visit; ///< one of visit_phase_names
     double frames_per_s = 0, frame_ms = 0;
     std::string error; ///< the last one, as a sentence; empty: none

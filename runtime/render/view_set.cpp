@@ -238,11 +238,16 @@ PanelPass::Place ViewSet::place_over_middle(const glm::dvec2& half) const
     return {moved(panel_from_cockpit(there, compiled_views()), {0, half.y}), half};
 }
 
-PanelPass::Place ViewSet::place_above(const glm::dvec3& towards, const glm::dvec2& half, double below) const
+PanelPass::Place ViewSet::place_at(const glm::dvec3& towards, const glm::dvec2& half) const
 {
     const HudPlacement there{.azimuth_deg = std::atan2(towards.x, -towards.z) / degree,
         .elevation_deg = std::asin(std::clamp(towards.y, -1.0, 1.0)) / degree};
-    return {moved(panel_from_cockpit(there, compiled_views()), {0, half.y - below}), half};
+    return {panel_from_cockpit(there, compiled_views()), half};
+}
+
+PanelPass::Place ViewSet::place_above(const glm::dvec3& towards, const glm::dvec2& half, double below) const
+{
+    return {moved(place_at(towards, half).panel_from_cockpit, {0, half.y - below}), half};
 }
 
 bool ViewSet::shows_whole(const PanelPass::Place& place) const

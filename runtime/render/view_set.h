@@ -79,11 +79,12 @@ public:
     /// The place of the instruments' panel, and the width in pixels that makes it sharp. aspect: height over width.
     PanelPass::Place lab_place(double aspect) const;
     int lab_panel_width(double aspect) const;
-    /// Right above the middle of the picture, straight above the head-up display: where it is seen whole, so is a panel
-    /// there that is no wider.
+    /// The place of a panel right above the middle of the picture, straight above the head-up display: where that is seen
+    /// whole, so is a panel there that is no wider. half: its extent.
     PanelPass::Place place_over_middle(const glm::dvec2& half) const;
-    /// The place of a panel at a direction of the cockpit, which is in the middle of its width and `below` above its lower
-    /// edge, on its plane. half: its extent.
+    /// The place of a panel whose middle is in a direction of the cockpit.
+    PanelPass::Place place_at(const glm::dvec3& towards, const glm::dvec2& half) const;
+    /// The same above a direction: it is in the middle of the panel's width and `below` above its lower edge, on its plane.
     PanelPass::Place place_above(const glm::dvec3& towards, const glm::dvec2& half, double below = 0) const;
     bool shows_whole(const PanelPass::Place& place) const; ///< is_seen_whole()
     /// The place of a panel at the head-up display's right end, across from the picture's nearer edge. off, aside: from

@@ -5,6 +5,11 @@ namespace starbow {
 
 constexpr double fade_s = 1.5, prompt_s = 12;
 
+std::string announced(const Step& step)
+{
+    return filled(step.question ? step.question->ask : step.caption, {{"measured", "…"}});
+}
+
 const Flight& TourPlayer::advance(const Controls& controls, std::int64_t dt_ns)
 {
     const std::uint32_t begun = touring_.flight.leaps.begun;

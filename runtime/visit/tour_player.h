@@ -9,6 +9,9 @@
 
 namespace starbow {
 
+/// The text of a step before it is shown: its question, or its caption, with … where a number is still to be measured.
+std::string announced(const Step& step);
+
 /// A tour as the source of an exhibit's flight.
 class TourPlayer : public FlightSource {
 public:

@@ -10,7 +10,7 @@ export STARBOW_VALIDATION=1 XDG_STATE_HOME=$folder/state
 prepare_remote
 patience=20
 cat >"$folder/exhibit.json" <<END
-{ "layout": "./small.json", "scene": "avenue", "quality": "draft", "presenter": {}, "tutorial": false,
+{ "layout": "./small.json", "scene": "avenue", "quality": "draft", "presenter": {}, "programme": "evening", "tutorial": false,
   "remote": { "port": $port, "pins": "pins" } }
 END
 sed 's/"presenter": {}/"presenter": { "monitr": {} }/' "$folder/exhibit.json" >"$folder/wrong.json"
@@ -58,6 +58,10 @@ at_guides p && is paused off
 at_guides g 2 && is max-gamma 2.2942
 at_guides k && xdotool type 'Hi h' && xdotool key Return
 is caption 'Hi h' && is hold off
+# The programme's items.
+at_guides period && is item 1 60 && is shot start
+at_guides period && is item 2 && is tour first-minute 60
+at_guides comma && is item 1 && is shot start 60
 at_guides l 1 && is language de
 at_guides l 2 && is language en
 ok
@@ -66,11 +70,16 @@ click() { # OF 1280 x 800 pixels
     eval "$(xdotool getwindowgeometry --shell "$guide" | grep -E 'X|Y|WIDTH|HEIGHT')"
     xdotool mousemove $((X + $1 * WIDTH / 1280)) $((Y + $2 * HEIGHT / 800)) click 1
 }
-click 890 535 && is hold on
+click 890 520 && is hold on
 xdotool windowsize "$guide" 900 620
 "$rig/wait_flown.py" "$folder/guided.jsonl" 0.5 || fail "the flight stands still" # a picture is due every tenth of a second
-click 890 535 && is hold off
+click 890 520 && is hold off
 until_true 20 drawn || fail "no picture after a change of the size"
+ok
+# The mouse on the visitors' picture points at what is seen there; the record has the direction.
+pointed() { click 190 130; grep -q '\["pointer","' "$folder/guided.jsonl"; }
+until_true 20 pointed || fail "the mouse does not point"
+is hold off
 ok
 
 # Hold takes the stick away gently: a ship that speeds up comes to coasting while W stays down, and W counts again afterwards.
@@ -100,7 +109,7 @@ ok
 wait $exhibit || fail "exit $? (an error of the validation layers, or a crash)"
 grep -q validation "$folder/log" && fail "the validation layers report an error"
 ok
-for command in '"hold","on"' '"tour","rainbow"' '"next"' '"back"' '"scene","clocks"' '"exposure","1"' '"caption","Hi h"'; do
+for command in '"hold","on"' '"tour","rainbow"' '"next"' '"back"' '"scene","clocks"' '"exposure","1"' '"caption","Hi h"' '"item","2"'; do
     grep -q "\[$command\]" "$folder/guided.jsonl" || fail "the record lacks $command"
 done
 ok

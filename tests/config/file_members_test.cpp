@@ -2,6 +2,7 @@
 #include "config/model/exhibit_file.h"
 #include "config/model/layout.h"
 #include "config/model/profile.h"
+#include "config/model/programme_file.h"
 #include "config/model/quality.h"
 #include "config/model/scene_file.h"
 #include "config/model/schemas.h"
@@ -38,6 +39,7 @@ const std::map<std::string, Kind>& kinds()
         {"ladder", {"qualities", [](const auto& file) { load_ladder(file); }}},
         {"layout", {"layouts", [](const auto& file) { load_layout(file); }}},
         {"profile", {"profiles", [](const auto& file) { load_profile(file); }}},
+        {"programme", {"programmes", [](const auto& file) { load_programme(file); }}},
         {"quality", {"qualities", [](const auto& file) { load_quality(file); }}},
         {"scene", {"scenes", [](const auto& file) { load_scene_file(file); }}},
         {"shot", {"shots", [](const auto& file) { load_shot(file); }}},

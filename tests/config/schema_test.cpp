@@ -74,7 +74,7 @@ std::set<std::string> quoted_in(const std::string& text, std::size_t from)
 TEST(SchemaTest, EveryShippedFileNamesItsSchemaAndIsValid)
 {
     std::set<std::string> named;
-    for (const char* folder : {"exhibits", "layouts", "profiles", "qualities", "scenes", "shots", "tours"})
+    for (const char* folder : {"exhibits", "layouts", "profiles", "programmes", "qualities", "scenes", "shots", "tours"})
         for (const auto& file : shipped(std::string("config/") + folder)) {
             SCOPED_TRACE(file);
             const json content = parsed(read_text(file));

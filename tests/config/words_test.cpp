@@ -1,8 +1,12 @@
 // Every language has the same texts with the same placeholders, and no text is unused.
 #include "config/model/effects.h"
+#include "config/model/shipped.h"
 #include "config/model/words.h"
 #include "input/command.h"
+#include "input/exhibit_state.h"
 #include "tests/support/files.h"
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -61,13 +65,53 @@ TEST(Words, EveryKeyIsUsedInTheSources)
                 sources += read_text(entry.path());
     for (const auto& [key, text] : words().texts) {
         const bool elsewhere = key.starts_with("tour.") || key.starts_with("goal.") || key.starts_with("inset.")
-            || key.starts_with("flight.") || key.starts_with("menu.scene.") || key.starts_with("menu.tour.")
-            || key == "decimal_sign";
+            || key.starts_with("flight.") || key.starts_with("name.") || key == "decimal_sign"
+            || std::ranges::any_of(doing_names, [&](const char* doing) { return key == std::string("does.") + doing; });
         const bool of_effect = std::ranges::any_of(
             all_effects, [&](const EffectEntry& one) { return key.substr(key.find('.') + 1) == one.name; });
         EXPECT_TRUE(elsewhere || of_effect || sources.find(std::string("\"").append(key).append("\"")) != sources.npos)
             << key;
     }
+}
+
+/// Worlds, tours and views have one name each in every language, and no two of a kind have the same.
+TEST(Words, EveryWorldTourAndViewHasAName)
+{
+    for (const std::string& language : shipped_names("words")) {
+        const Words all = words_in(language);
+        std::size_t named = 0;
+        for (const auto& [kind, folder] : {std::pair{"scene", "scenes"}, {"tour", "tours"}, {"shot", "shots"}}) {
+            std::set<std::string> names;
+            for (const std::string& name : shipped_names(folder)) {
+                EXPECT_TRUE(all.texts.contains(std::string("name.") + kind + "." + name))
+                    << language << ": " << kind << " " << name;
+                EXPECT_TRUE(names.insert(all.title(kind, name)).second) << all.title(kind, name) << " is the name of two";
+            }
+            named += names.size();
+        }
+        const auto known = std::ranges::count_if(all.texts, [](const auto& one) { return one.first.starts_with("name."); });
+        EXPECT_EQ(std::size_t(known), named) << language << " names files that are not there";
+    }
+    EXPECT_EQ(words().title("scene", "a-sites-own"), "a-sites-own");
+}
+
+/// A speed in a view's name is its shot's, to the digits that the name gives.
+TEST(Words, TheSpeedInAViewsNameIsItsShots)
+{
+    int speeds = 0;
+    for (const std::string& language : shipped_names("words"))
+        for (const std::string& name : shipped_names("shots")) {
+            const std::string title = words_in(language).title("shot", name);
+            std::smatch found;
+            if (!std::regex_search(title, found, std::regex("0[.,]([0-9]+) c")))
+                continue;
+            ++speeds;
+            const glm::dvec3 u = load_shot(shipped_file("shots", name)).u;
+            const double beta = glm::length(u) / std::sqrt(1 + glm::dot(u, u)),
+                         unit = std::pow(10, -double(found[1].length()));
+            EXPECT_NEAR(std::stod(found[1]) * unit, beta, 0.5 * unit + 1e-9) << title;
+        }
+    EXPECT_GE(speeds, 20);
 }
 
 /// Every key that the sources name exists: that is, every text of the form of a key with a known first part.

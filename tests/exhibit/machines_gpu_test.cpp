@@ -99,6 +99,7 @@ std::vector<PictureState> states(const Shot& start)
     fast.head = {{0.1, 0.05, -0.02}, glm::dquat(0.995, 0.0, 0.0998, 0.0)};
     fast.hud = HudText{2, readings(Ship(), avenue().world.scene, {})};
     fast.sign = ShownSign{{"behind you"}, glm::normalize(dvec3(0.2, 0.1, -1))};
+    fast.pointer = ShownPointer{glm::normalize(dvec3(-0.2, 0.1, -1)), 0.75};
     PictureState& faster = all.emplace_back(at(100));
     faster.inset = InsetPicture{.kind = InsetView::at_rest, .name = "at rest"};
     faster.shot.exposure_ev = -3, faster.fade = 0.25;

@@ -1,4 +1,5 @@
 // The head-up display is parallel to a flat screen that shows it, and faces the visitor on all other screens.
+#include "config/model/shipped.h"
 #include "displays/projections/views.h"
 #include "runtime/hud/hud_place.h"
 #include "tests/support/view.h"
@@ -157,10 +158,10 @@ TEST(HudPlaceTest, ALayoutWithoutAPlacementShowsTheWholeDisplayOnAnyShape)
             const double middle = std::tan(glm::radians(hud.elevation_deg)),
                          half = std::tan(glm::radians(hud.width_deg / 2));
             EXPECT_EQ(hud.azimuth_deg, 0);
-            EXPECT_LE(half, wide);
-            EXPECT_GE(middle - 0.2 * half, -high);
+            EXPECT_LE(half, 0.9 * wide) << "5 % of the width at either edge stay free";
+            EXPECT_GE(middle - 0.2 * half, -0.9 * high);
             EXPECT_LE(middle + 0.2 * half, 0) << "below the middle, where the flight leads";
-            EXPECT_GE(half, 0.9 * std::min({wide, std::tan(glm::radians(24.0)), 0.28 * high / 0.2}))
+            EXPECT_GE(half, 0.9 * std::min({0.9 * wide, std::tan(glm::radians(24.0)), 0.28 * high / 0.2}))
                 << "as wide as it may be";
             EXPECT_EQ(hud_warning(layout, hud, compiled(layout, size)), "");
         }
@@ -190,8 +191,8 @@ TEST(HudPlaceTest, OnADividedWallTheDisplayIsWholeOnOneScreenAndForBothEyes)
         {300, 150});
     const HudPlacement hud = placed_hud(three, {}, compiled(three, {300, 150}));
     EXPECT_EQ(hud.azimuth_deg, 0);
-    EXPECT_LT(std::tan(glm::radians(hud.width_deg / 2)), 0.3);
-    EXPECT_GT(std::tan(glm::radians(hud.width_deg / 2)), 0.26);
+    EXPECT_LT(std::tan(glm::radians(hud.width_deg / 2)), 0.9 * 0.3);
+    EXPECT_GT(std::tan(glm::radians(hud.width_deg / 2)), 0.9 * 0.26);
     // A screen to the right alone.
     const Layout right = one_output({{.projection = Planar{40, {}, {70, 0, 0}}}}, {160, 120});
     EXPECT_NEAR(placed_hud(right, {}, compiled(right, {160, 120})).azimuth_deg, 70, 27);
@@ -208,6 +209,47 @@ TEST(HudPlaceTest, OnADividedWallTheDisplayIsWholeOnOneScreenAndForBothEyes)
         {160, 120});
     const HudPlacement above = placed_hud(covered, {}, compiled(covered, {160, 120}));
     EXPECT_GT(std::tan(glm::radians(above.elevation_deg)), 0.2 * std::tan(glm::radians(above.width_deg / 2)));
+}
+
+// A pixel's direction and the display by its definition: no matrix, no search for a pixel.
+TEST(HudPlaceTest, NoShippedWindowOrWallHasTheDisplayInItsOutermostTwentieth)
+{
+    int outputs = 0;
+    for (const std::string& name : shipped_names("layouts")) {
+        const Layout layout = load_layout(shipped_file("layouts", name));
+        MapStore store{std::filesystem::path()};
+        std::vector<std::vector<CompiledView>> views;
+        std::vector<glm::ivec2> sizes;
+        for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
+            sizes.push_back(glm::max(layout.outputs[i].size / 8, 1));
+            views.push_back(compile_output(store, layout, i, sizes[i]));
+        }
+        const HudPlacement hud = placed_hud(layout, sizes, views);
+        const glm::dmat3 panel = panel_from_cockpit(hud, views);
+        const glm::dvec2 half = std::tan(glm::radians(hud.width_deg / 2)) * glm::dvec2(1, 0.2);
+        for (std::size_t output = 0; output < views.size(); ++output)
+            for (const CompiledView& view : views[output]) {
+                if (!view.matrix || layout.outputs[output].preview)
+                    continue; // domes and lenses have bands of their own
+                ++outputs;
+                const glm::dvec2 size(view.view.size);
+                for (int i = 0; i <= 400; ++i)
+                    for (const bool far : {false, true}) {
+                        const double along = i / 400.0, across = far ? 0.951 : 0.049;
+                        for (const glm::dvec2& at : {glm::dvec2(along, across), {across, along}}) {
+                            const dvec3 way
+                                = panel * *direction(view.view.picture, at * size * view.view.picture_from_pixel);
+                            const bool inside
+                                = way.z > 0 && std::abs(way.x) < half.x * way.z && std::abs(way.y) < half.y * way.z;
+                            EXPECT_FALSE(inside)
+                                << name << " " << layout.outputs[output].name << " at " << at.x << ", " << at.y;
+                            if (inside)
+                                i = 400;
+                        }
+                    }
+            }
+    }
+    EXPECT_GT(outputs, 15);
 }
 
 TEST(HudPlaceTest, ALayoutsOwnPlacementIsKeptAndItsCutIsSaid)

@@ -1,10 +1,12 @@
 // The guide's window as data: its keys, its lists, and whether its texts fit their places.
+#include "config/model/programme_file.h"
 #include "config/model/shipped.h"
 #include "config/model/tour_file.h"
 #include "runtime/hud/hud.h"
 #include "runtime/hud/presenter_picture.h"
 #include "tests/support/files.h"
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -14,25 +16,19 @@ using namespace starbow;
 
 namespace {
 
-std::string title_in(const Words& words, const std::string& kind, const std::string& name)
-{
-    const auto found = words.texts.find("menu." + kind + "." + name);
-    return found == words.texts.end() ? name : found->second;
-}
-
 PresenterState some_state(const Words& words = words_in("en"))
 {
     PresenterState state;
     state.information = Information::visitor;
-    state.visitors = words("presenter.somebody");
-    state.scene = "avenue", state.world = title_in(words, "scene", "avenue"), state.language = words.language;
+    state.doing = Doing::flies;
+    state.scene = "avenue", state.language = words.language;
     state.speed = 0.96825, state.gamma = 4, state.max_gamma = 7.0888;
     for (const std::string& name : shipped_names("scenes"))
-        state.scenes.emplace_back(name, title_in(words, "scene", name));
+        state.scenes.emplace_back(name, words.title("scene", name));
     for (const std::string& name : shipped_names("tours"))
-        state.tours.emplace_back(name, title_in(words, "tour", name));
+        state.tours.emplace_back(name, words.title("tour", name));
     for (const std::string& name : shipped_names("shots"))
-        state.shots.emplace_back(name, name);
+        state.shots.emplace_back(name, words.title("shot", name));
     for (const std::string& name : shipped_names("words"))
         state.languages.emplace_back(name, words_in(name)("remote.this_language"));
     return state;
@@ -42,9 +38,21 @@ PresenterState some_state(const Words& words = words_in("en"))
 PresenterState toured(const Words& words, const std::string& name, std::size_t step)
 {
     PresenterState state = some_state(words);
-    state.tour = name, state.tour_title = title_in(words, "tour", name), state.step = step, state.left_s = 7.2;
+    state.doing = Doing::tour, state.tour = name, state.step = int(step) + 1, state.left_s = 7.2;
     for (const Step& one : tour_in(name, words).steps)
         state.cues.push_back({one.caption.empty() ? "–" : one.caption, one.seconds});
+    state.steps = int(state.cues.size());
+    return state;
+}
+
+/// The same in the shipped programme's item, counted from 1.
+PresenterState with_programme(PresenterState state, const Words& words, int item)
+{
+    for (const ProgrammeItem& one : load_programme(shipped_file("programmes", "evening")).items) {
+        const auto& [kind, name] = shown_by(one);
+        state.programme.push_back({words.title(kind, name), said(one.notes, words), one.minutes});
+    }
+    state.item = item, state.items = int(state.programme.size()), state.item_s = 83.9;
     return state;
 }
 
@@ -63,6 +71,7 @@ std::set<CommandKind> given_by(const PresenterState& state)
                 else if (std::holds_alternative<TypeCaption>(key.deed))
                     kinds.insert(CommandKind::caption);
     }
+    kinds.insert({CommandKind::pointer, CommandKind::touch}); // the mouse's, on the visitors' picture
     return kinds;
 }
 
@@ -138,6 +147,8 @@ TEST(Presenter, KeysGiveTheCommandsThatTheyName)
     EXPECT_EQ(after(state, hands, {keys::page_down}), Command{.kind = next}); // a clicker's key
     EXPECT_EQ(after(state, hands, {keys::left}), Command{.kind = back});
     EXPECT_EQ(after(state, hands, {'C'}), (Command{.kind = comparison, .text = "galilean"}));
+    EXPECT_EQ(after(with_programme(state, words_in("en"), 2), hands, {'.'}), (Command{.kind = item, .number = 3}));
+    EXPECT_EQ(after(with_programme(state, words_in("en"), 2), hands, {','}), (Command{.kind = item, .number = 1}));
     EXPECT_EQ(after(state, hands, {'G', '2'}), (Command{.kind = speed_limit, .number = 2.2942}));
     EXPECT_EQ(after(state, hands, {'L', '1'}), (Command{.kind = language, .text = "de"}));
     EXPECT_EQ(after(state, hands, {keys::up}), (Command{.kind = exposure, .number = 0.5}));
@@ -223,7 +234,7 @@ TEST(Presenter, TheCueSheetSaysWhereTheTourIs)
 {
     const Words words = words_in("en");
     const PresenterSheet sheet = sheet_of(toured(words, "rainbow", 2), {}, words);
-    EXPECT_EQ(sheet.cue_title, "The rainbow · step 3 of " + std::to_string(sheet.cues.size()) + " · 8 s left");
+    EXPECT_EQ(sheet.cue_title, "The rainbow · step 3 of " + std::to_string(sheet.cues.size()) + " · 0:08 left");
     EXPECT_EQ(sheet.step, 2u);
     EXPECT_TRUE(sheet.cues[3].text.starts_with("A rainbow!")) << sheet.cues[3].text;
     const auto usable
@@ -233,12 +244,60 @@ TEST(Presenter, TheCueSheetSaysWhereTheTourIs)
     EXPECT_EQ(sheet_of(some_state(), {}, words).cue_title, "No tour is shown");
 }
 
+TEST(Presenter, ItSaysWhatTheVisitDoesAndWhatElseIsSo)
+{
+    const Words words = words_in("en");
+    PresenterState state = some_state(words);
+    EXPECT_EQ(sheet_of(state, {}, words).facts[0].second, "A visitor is flying");
+    state.doing = Doing::attract_tour, state.calm = true, state.hold = true;
+    const PresenterSheet sheet = sheet_of(state, {}, words);
+    EXPECT_EQ(sheet.facts[0].second, "An attract tour is running");
+    EXPECT_EQ(sheet.facts[1].second, "the stick is locked, calm");
+    state.coming = "twins";
+    EXPECT_EQ(sheet_of(state, {}, words).facts[2].second, "on the way: The twins");
+}
+
+/// gamma^2 (1 - beta^2) = 1 with the read number, to its last digit.
+TEST(Presenter, SpeedLimitsAreReadAsPartsOfLightsSpeed)
+{
+    for (const std::string language : {"en", "de"}) {
+        const Words words = words_in(language);
+        const PresenterSheet sheet = sheet_of(some_state(words), {.list = PresenterList::limits}, words);
+        ASSERT_EQ(sheet.choices.size(), offered_limits.size());
+        for (std::size_t i = 0; i + 1 < offered_limits.size(); ++i) {
+            std::string text = sheet.choices[i].label;
+            ASSERT_TRUE(text.ends_with(" c")) << text;
+            std::ranges::replace(text, ',', '.');
+            const double beta = std::stod(text), gamma = 1 / std::sqrt(1 - beta * beta);
+            EXPECT_NEAR(gamma / offered_limits[i], 1, 1e-3) << text;
+            EXPECT_LT(beta, 1);
+        }
+    }
+}
+
+TEST(Presenter, TheProgrammeShowsItsItemNotesTimeAndTheNext)
+{
+    const Words words = words_in("en");
+    const PresenterSheet sheet = sheet_of(with_programme(some_state(words), words, 2), {}, words);
+    EXPECT_EQ(sheet.item_title, "item 2 of 6 · The first minute · 1:23 of 3 min");
+    EXPECT_EQ(sheet.item_notes, "The tour asks a question. Let the audience vote before you press next.");
+    EXPECT_EQ(sheet.item_then, "Then: A ride through the street");
+    EXPECT_EQ(sheet_of(with_programme(some_state(words), words, 6), {}, words).item_then, "");
+    const PresenterSheet before = sheet_of(with_programme(some_state(words), words, 0), {}, words);
+    EXPECT_EQ(before.item_title, "The programme has not begun.");
+    EXPECT_EQ(before.item_then, "Then: The avenue, as visits begin");
+    EXPECT_EQ(sheet_of(some_state(words), {}, words).item_title, "");
+    EXPECT_EQ(places_of(sheet_of(some_state(words), {}, words), {1280, 800}).programme.size.x, 0);
+}
+
 TEST(Presenter, PlacesLieInTheWindowAndDoNotOverlap)
 {
     for (const glm::ivec2 size : {glm::ivec2(1280, 800), {800, 600}, {1920, 1080}, {3840, 2160}, {640, 480}}) {
-        const PresenterSheet sheet = sheet_of(some_state(), {.list = PresenterList::views}, words_in("de"));
+        const Words words = words_in("de");
+        const PresenterSheet sheet
+            = sheet_of(with_programme(some_state(words), words, 1), {.list = PresenterList::views}, words);
         const PresenterPlaces places = places_of(sheet, size);
-        std::vector<PresenterBox> all{places.picture, places.facts, places.cues, places.said};
+        std::vector<PresenterBox> all{places.picture, places.facts, places.programme, places.cues, places.said};
         all.insert(all.end(), places.keys.begin(), places.keys.end());
         all.insert(all.end(), places.choices.begin(), places.choices.end());
         ASSERT_EQ(places.choices.size(), 11u);
@@ -270,18 +329,50 @@ TEST(Presenter, BothLanguagesFitTheirPlaces)
             for (const PresenterList list : {PresenterList::worlds, PresenterList::tours, PresenterList::views,
                      PresenterList::limits, PresenterList::languages}) {
                 const Words words = words_in(language);
-                PresenterState state = toured(words, "simultaneity", 4);
+                PresenterState state = with_programme(toured(words, "simultaneity", 4), words, 5);
                 state.paused = state.hold = true, state.exposure_ev = -9.5, state.effects.comparison = Comparison::galilean;
                 paint(sheet_of(state, {.list = list}, words), {}, typesetter, size, false, picture);
                 EXPECT_GE(picture.tightest, 0.75) << language << " " << size.x << "x" << size.y << " list " << int(list);
             }
 }
 
+TEST(Presenter, NoButtonsLettersLeaveIt)
+{
+    const Typesetter typesetter;
+    PresenterPicture picture;
+    for (const std::string& language : shipped_names("words"))
+        for (const glm::ivec2 size : {glm::ivec2(1280, 800), {1920, 1080}, {1024, 768}, {800, 600}}) {
+            const Words words = words_in(language);
+            PresenterState state = with_programme(toured(words, "simultaneity", 4), words, 5);
+            state.exposure_ev = -9.5, state.effects.comparison = Comparison::galilean;
+            const PresenterSheet sheet = sheet_of(state, {}, words);
+            paint(sheet, {}, typesetter, size, false, picture);
+            const PresenterPlaces places = places_of(sheet, size);
+            const auto brightest = [&](const PresenterBox& box) {
+                int most = 0;
+                for (int y = box.corner.y; y < std::min(size.y, box.corner.y + box.size.y); ++y)
+                    for (int x = box.corner.x; x < box.corner.x + box.size.x; ++x)
+                        most = std::max(most, int(picture.texels[4 * std::size_t(y * size.x + x) + 1]));
+                return most;
+            };
+            for (std::size_t i = 0; i < places.keys.size(); ++i) {
+                const auto& [corner, extent] = places.keys[i];
+                const int gap = std::max(2, extent.y / 10);
+                EXPECT_LE(corner.y + extent.y, size.y);
+                // The button's lowest rows are its ground, and below it is the window's.
+                EXPECT_LT(brightest({{corner.x + 60, corner.y + extent.y - 1}, {extent.x - 60, 1}}), 90)
+                    << language << " " << size.x << " " << sheet.keys[i].label;
+                EXPECT_LT(brightest({{corner.x, corner.y + extent.y}, {extent.x, gap}}), 40)
+                    << language << " " << size.x << " " << sheet.keys[i].label;
+            }
+        }
+}
+
 TEST(Presenter, ItsPictureHasLettersTheVisitorsViewAndTheMarkedStep)
 {
     const Typesetter typesetter;
     const Words words = words_in("en");
-    const PresenterSheet sheet = sheet_of(toured(words, "rainbow", 2), {}, words);
+    const PresenterSheet sheet = sheet_of(with_programme(toured(words, "rainbow", 2), words, 2), {}, words);
     VisitorsView view{.size = {4, 2}, .rgb = std::vector<std::uint8_t>(24, 0)};
     for (std::size_t i = 0; i < view.rgb.size(); i += 3)
         view.rgb[i] = 200, view.rgb[i + 1] = 10, view.rgb[i + 2] = 20;

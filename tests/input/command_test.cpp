@@ -41,6 +41,9 @@ TEST(Command, EveryKindComesBackFromItsWords)
         {{"language", "de"}, {CommandKind::language, false, 0, "de"}},
         {{"caption", "Grüße an alle: γ = 4"}, {CommandKind::caption, false, 0, "Grüße an alle: γ = 4"}},
         {{"caption", ""}, {CommandKind::caption}}, {{"hold", "on"}, {CommandKind::hold, true}},
+        {{"pointer", "-120.5", "30"}, {.kind = CommandKind::pointer, .number = -120.5, .second = 30}},
+        {{"touch", "0.25", "1"}, {.kind = CommandKind::touch, .number = 0.25, .second = 1}},
+        {{"item", "3"}, {.kind = CommandKind::item, .number = 3}},
         {{"layout", "dome"}, {CommandKind::layout, false, 0, "dome"}},
         {{"pattern", "grid"}, {CommandKind::pattern, false, 0, "grid"}},
         {{"quality", "fine"}, {CommandKind::quality, false, 0, "fine"}}, {{"restart"}, {CommandKind::restart}}};
@@ -65,11 +68,25 @@ TEST(Command, WrongWordsAreRefusedWithTheRightForm)
         {{"speed-limit", "2,5"}, "a number above 1"}, {{"scene", "../../etc/passwd"}, "scene and a name is right"},
         {{"scene", "/etc/passwd"}, "is not a name"}, {{"layout", "..."}, "is not a name"},
         {{"layout", ".json"}, "is not a name"}, {{"scene", std::string(65, 'a')}, "is not a name"},
-        {{"caption", std::string(401, 'a')}, "at most 400 bytes"}};
+        {{"caption", std::string(401, 'a')}, "at most 400 bytes"},
+        {{"pointer", "30"}, "and a number from -90 to 90 is right"}, {{"pointer", "181", "0"}, "a number from -180 to 180"},
+        {{"pointer", "0", "nan"}, "has the values 0 and nan"}, {{"touch", "0.5", "-0.1"}, "a number from 0 to 1"},
+        {{"item", "0"}, "a number from 1 to 1000"}, {{"speed-limit", "1c"}, "such as 0.97c, is right"},
+        {{"speed-limit", "0c"}, "such as 0.97c"}, {{"speed-limit", "0.97 c"}, "such as 0.97c"},
+        {{"exposure", "0.5c"}, "exposure and a number from -10 to 10"}};
     for (const auto& [words, says] : wrong) {
         const std::string message = complaint([&] { read(words); });
         EXPECT_NE(message.find(says), std::string::npos) << message;
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+}
+
+/// beta = 3/5, 4/5 and 12/13 have the rational gammas 5/4, 5/3 and 13/5.
+TEST(Command, ASpeedLimitMayBeAPartOfLightsSpeed)
+{
+    for (const auto& [text, gamma] : {std::pair{"0.6c", 5.0 / 4}, {"0.8c", 5.0 / 3}, {"0.9230769230769231c", 13.0 / 5}}) {
+        EXPECT_NEAR(read({"speed-limit", text}).number, gamma, 1e-12);
+        EXPECT_NEAR(speed_of(gamma), std::stod(text), 1e-12);
     }
 }
 

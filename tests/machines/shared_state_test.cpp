@@ -51,6 +51,7 @@ SharedState full()
     now.highlights = {{"Uhr zu Hause", {0, 0.6, -0.8}, 0.1, 8}, {"Erde", {0, 0, -1}, 0, 0}};
     now.figures = true, now.sky_labels = {{"Großer Bär", {0, 0.6, -0.8}}};
     now.sign = {{"hinter Ihnen", "3 s alt"}, {0, 0.6, 0.8}};
+    now.pointer = {{0.6, 0, -0.8}, 0.25};
     now.inset = {InsetView::telescope, -1, 1.5, "Fernrohr 1,5°"};
     Instruments& on = now.instruments.emplace();
     on.overlay = Overlay::ring;

@@ -1,4 +1,5 @@
 // Messages from the network, whole and damaged.
+#include "config/model/shipped.h"
 #include "runtime/remote/messages.h"
 #include "tests/support/files.h"
 #include <gtest/gtest.h>
@@ -90,9 +91,10 @@ TEST(Messages, WrongRequestsAreRefusedInOneSentence)
              R"({"id":1,"command":[]})", R"({"id":1,"command":"stop"})", R"({"id":1,"command":["stop","now"]})",
              R"({"id":1,"command":[1]})", R"({"id":1,"command":["scene","../../etc/passwd"]})",
              R"({"id":1,"command":["scene","own.json"]})", R"({"id":1,"command":["scene","a","b"]})",
-             R"({"id":1,"command":["speed-limit","nan"]})", R"({"id":1,"command":["speed-limit","1e999"]})",
-             R"({"id":1,"command":["stop"],"picture":true})", R"({"id":1,"command":["stop"],"more":1})",
-             R"({"id":1,"picture":1})", "{\"id\":1,\"command\":[\"caption\",\"\xff\"]}"}) {
+             R"({"id":1,"command":["pointer","1","2","3"]})", R"({"id":1,"command":["speed-limit","nan"]})",
+             R"({"id":1,"command":["speed-limit","1e999"]})", R"({"id":1,"command":["stop"],"picture":true})",
+             R"({"id":1,"command":["stop"],"more":1})", R"({"id":1,"picture":1})",
+             "{\"id\":1,\"command\":[\"caption\",\"\xff\"]}"}) {
         const std::string message = complaint([&] { request_of(wrong); });
         EXPECT_TRUE(message.ends_with("right") || message.find(" is right: ") != message.npos) << wrong << ": " << message;
     }
@@ -148,12 +150,21 @@ TEST(Messages, StatusesAndAnswersAreJson)
     now.effects.comparison = Comparison::no_light_delay;
     now.caption = "\xff\"</script>";
     now.gamma = std::numeric_limits<double>::infinity();
+    now.doing = Doing::attract_tour, now.left_s = 41.2, now.calm = true, now.max_gamma = 5.0 / 3;
+    now.item = 2, now.items = 6, now.item_s = 83.9, now.next_caption = "Next.";
     now.error = "A sentence.";
     const json docent = json::parse(status_text(now, false))["status"],
                engineer = json::parse(status_text(now, true))["status"];
     EXPECT_EQ(docent["scene"], "avenue");
     EXPECT_EQ(docent["step"], 2);
     EXPECT_EQ(docent["doppler"], false);
+    EXPECT_EQ(docent["doing"], "attract_tour");
+    EXPECT_EQ(docent["left-s"], 42);
+    EXPECT_EQ(docent["calm"], true);
+    EXPECT_NEAR(docent["max-speed"].get<double>(), 0.8, 1e-12);
+    EXPECT_EQ(docent["item"], 2);
+    EXPECT_EQ(docent["item-s"], 83);
+    EXPECT_EQ(docent["next-caption"], "Next.");
     EXPECT_EQ(docent["comparison"], "no-light-delay");
     EXPECT_EQ(docent["gamma"], 0);
     EXPECT_FALSE(docent.contains("error"));
@@ -165,15 +176,25 @@ TEST(Messages, StatusesAndAnswersAreJson)
 
 TEST(Messages, ListsNameTheShippedFilesAndRoles)
 {
-    const json lists = json::parse(lists_text({"none", "grid"}));
+    const json lists = json::parse(lists_text({"none", "grid"}, load_programme(shipped_file("programmes", "evening"))));
     for (const auto& [command, folder] :
         {std::pair{"tour", "tours"}, {"scene", "scenes"}, {"layout", "layouts"}, {"shot", "shots"}, {"language", "words"}})
         EXPECT_EQ(lists["names"][command].size(), shipped(std::string("config/") + folder).size()) << command;
     EXPECT_EQ(lists["names"]["quality"], (json{"balanced", "draft", "fine"})); // and not the ladder
     EXPECT_EQ(lists["names"]["pattern"], (json{"none", "grid"}));
+    EXPECT_EQ(lists["programme"].size(), 6u);
+    EXPECT_EQ(lists["programme"][1]["kind"], "tour");
+    EXPECT_EQ(lists["programme"][1]["name"], "first-minute");
+    EXPECT_EQ(lists["programme"][1]["minutes"], 3);
+    EXPECT_TRUE(lists["programme"][1]["notes"].contains("de"));
+    EXPECT_TRUE(json::parse(lists_text({}, {}))["programme"].empty());
+    EXPECT_EQ(lists["speed-limits"][4], 100);
     EXPECT_EQ(lists["commands"]["restart"], (json{{"role", "engineer"}, {"value", "none"}}));
     const json words = json::parse(words_text());
     EXPECT_EQ(words["de"]["remote.no"], "Nein");
+    EXPECT_EQ(words["de"]["name.scene.avenue"], "Die Allee");
+    for (const char* doing : doing_names)
+        EXPECT_TRUE(words["de"].contains(std::string("does.") + doing)) << doing;
     EXPECT_FALSE(words["en"].contains("hud.speed"));
 }
 
@@ -189,6 +210,8 @@ TEST(Osc, MessagesAndBundlesAreRead)
     EXPECT_EQ(commands(osc("/starbow/doppler", "f", word_value(0x3f800000)))[0].on, true);
     EXPECT_EQ(commands(osc("/starbow/doppler", "s", text_value("on")))[0].on, true);
     EXPECT_EQ(commands(osc("/starbow/stop", "i", word_value(1))).size(), 1u);
+    EXPECT_EQ(commands(osc("/starbow/pointer", "ff", word_value(0x41f00000) + word_value(0x41a00000))),
+        (std::vector<Command>{{.kind = CommandKind::pointer, .number = 30, .second = 20}}));
     EXPECT_TRUE(commands(bundle({})).empty());
     EXPECT_EQ(commands(bundle({bundle({osc("/starbow/stop", "")}), osc("/starbow/reset", "")})).size(), 2u);
 }

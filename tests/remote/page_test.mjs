@@ -178,20 +178,21 @@ async function testCommands(browser) {
         document.querySelector(`[data-show="${name}"]`).textContent.includes(text), [name, text], { timeout: 3000 })
         .then(() => check(true, ""), () => check(false, `${name} does not show ${text}`));
     await page.click('[data-switch="fade"]');
-    await shows("visitors", "see a dark picture");
+    await shows("does", "the picture is dark");
     check(await page.getAttribute('[data-switch="fade"]', "aria-pressed") === "true", "fade is pressed");
     await page.click('[data-switch="fade"]');
     await page.selectOption("#tour", "rainbow");
     await page.click('[data-choose="tour"]');
-    await shows("tour", "Rainbow, step 1 of 12");
-    await page.waitForFunction(() => document.getElementById("said").textContent === "Rainbow: done");
+    await shows("does", "A tour is running · The rainbow · step 1 of 12 · 0:42 left");
+    await shows("next-caption", "Soon we fly past it");
+    await page.waitForFunction(() => document.getElementById("said").textContent === "The rainbow: done");
     await page.click('[data-do="next"]');
-    await shows("tour", "step 2");
+    await shows("does", "step 2");
     await page.click('[data-switch="pause"]');
-    await shows("tour", "paused");
+    await shows("does", "paused");
     await page.selectOption("#scene", "twins");
     await page.click('[data-choose="scene"]');
-    await shows("scene", "Twins");
+    await shows("scene", "The twins");
     await page.selectOption("#language", "de");
     await page.waitForFunction(() => document.getElementById("said").textContent.includes("done"));
     await page.fill("#caption", "Grüße ☺");
@@ -201,7 +202,7 @@ async function testCommands(browser) {
     await page.click("#caption-show");
     await page.waitForFunction(() => document.getElementById("said").textContent.includes(" refused: "));
     await page.click('[data-do="reset"]');
-    await shows("scene", "Avenue");
+    await shows("scene", "The avenue");
     const bright = await page.evaluate(() => {
         const canvas = document.getElementById("picture");
         return [canvas.width, canvas.getContext("2d").getImageData(240, 200, 1, 1).data[2] > 60];
@@ -209,6 +210,25 @@ async function testCommands(browser) {
     check(bright[0] === 480 && bright[1], `a live picture is drawn: ${bright}`);
     const box = await page.locator("#picture").boundingBox();
     check(Math.abs(box.width / box.height - 480 / 270) < 0.01, "the live picture has its own shape");
+    check(await page.isDisabled("#item-back"), "before the first item there is none");
+    await page.click("#item-next");
+    await shows("item", "item 1 of 6 · The avenue, as visits begin");
+    await page.click("#item-next");
+    await shows("item", "item 2 of 6 · The first minute");
+    await shows("notes", "Let the audience vote");
+    await shows("then", "Then: A ride through the street");
+    await page.evaluate(() => scrollTo(0, 0)); // else the first row of buttons lies over the picture
+    const pad = await page.locator("#point").boundingBox();
+    await page.mouse.move(pad.x + 0.25 * pad.width, pad.y + 0.5 * pad.height);
+    await page.mouse.down();
+    await page.mouse.move(pad.x + 0.75 * pad.width, pad.y + 0.5 * pad.height, { steps: 40 });
+    await page.mouse.up();
+    const spot = await page.evaluate(() => [document.getElementById("spot").hidden, parseFloat(document.getElementById("spot").style.left)]);
+    check(!spot[0] && Math.abs(spot[1] - 75) < 1, `the pointer follows the finger: ${spot}`);
+    check(!await page.evaluate(() => document.getElementById("said").classList.contains("bad")), "no message of a drag is refused");
+    await page.focus("#point");
+    await page.keyboard.press("ArrowLeft");
+    check(Math.abs(await page.evaluate(() => parseFloat(document.getElementById("spot").style.left)) - 73) < 1, "arrow keys point, too");
     await page.click("#restart");
     await page.click("#sure-no");
     check(!await page.isVisible("#sure"), "a restart can be thought over");
@@ -245,12 +265,12 @@ async function testKeyboard(browser) {
         if (at.name === "go-scene")
             await page.keyboard.press("Enter");
     }
-    for (const name of ["fade", "stop", "reset", "tour", "go-tour", "back", "pause", "next", "scene", "go-scene", "shot", "go-shot",
+    for (const name of ["fade", "stop", "reset", "point", "item-next", "tour", "go-tour", "back", "pause", "next", "scene", "go-scene", "shot", "go-shot",
         "hold", "speed-limit", "exposure", "language", "aberration", "doppler", "headlight", "false-colours", "range", "slow-motion", "one-button", "left-handed", "information", "comparison", "caption",
         "caption-show", "log-out"])
         check(visited.includes(name), `Tab reaches ${name}`);
     check(visited.indexOf("fade") < visited.indexOf("tour") && visited.indexOf("fade") >= 0, "fade comes before the tours");
-    await page.waitForFunction(() => document.querySelector('[data-show="scene"]').textContent === "Warm wall", undefined, { timeout: 3000 })
+    await page.waitForFunction(() => document.querySelector('[data-show="scene"]').textContent === "Der warme Hof", undefined, { timeout: 3000 })
         .then(() => check(true, ""), () => check(false, "Enter goes to a world"));
     await context.close();
 }

@@ -9,7 +9,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp "$here/package.json" "$here/page_test.mjs" "$folder/"
 npm install --prefix "$folder" --no-audit --no-fund --silent
-printf '{ "remote": { "port": 18080, "pins": "pins" } }\n' > "$folder/exhibit.json"
+printf '{ "programme": "evening", "remote": { "port": 18080, "pins": "pins" } }\n' > "$folder/exhibit.json"
 (umask 027 && printf 'look 111111\ndocent 222222\nengineer 333333\n' > "$folder/pins")
 [ -z "$shots" ] || { mkdir -p "$shots" && shots=$(realpath "$shots"); }
 cd "$here/../.." # the page's files lie above the current folder

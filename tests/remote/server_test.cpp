@@ -153,8 +153,11 @@ public:
         settings.osc = {.port = free_port(SOCK_DGRAM), .from = {"127.0.0.1"}};
         if (change)
             change(settings);
-        remote = std::make_unique<Remote>(
-            RemoteOptions{.settings = settings, .patterns = {"none", "grid"}, .version = "1.2.3"});
+        remote = std::make_unique<Remote>(RemoteOptions{.settings = settings,
+            .patterns = {"none", "grid"},
+            .programme = Programme{{{.tour = "rainbow", .minutes = 3, .notes = {.texts = {{"en", "Say hello."}}}}}},
+            .version = "1.2.3",
+            .thumbnails = {{"tour/rainbow", thumbnail}}});
         frames_ = std::thread([this] {
             NumberedCommand command;
             for (int frame = 0; !ends_; ++frame) {
@@ -185,6 +188,7 @@ public:
         remote.reset();
     }
 
+    std::filesystem::path thumbnail = scratch("thumbnail") / "rainbow.png"; ///< the file may be written later
     std::string host() const { return "127.0.0.1:" + std::to_string(settings.port); }
     /// The whole answer to a request; headers end with \r\n each.
     std::string http(const std::string& line, const std::string& headers = "", const std::string& body = "",
@@ -331,6 +335,29 @@ TEST(Server, ATokenEndsWithItsLogoutAndSoDoItsPages)
     EXPECT_EQ(running.status("POST /logout", running.origin() + cookie, "x"), 200);
     EXPECT_EQ(running.status("GET /lists", cookie), 401);
     EXPECT_NE(page.read_close(), -1);
+}
+
+TEST(Server, AProgrammesNotesAreForDocents)
+{
+    Running running;
+    EXPECT_EQ(running.http("GET /lists", running.cookie("111111")).find("Say hello."), std::string::npos);
+    EXPECT_NE(running.http("GET /lists", running.cookie("222222")).find("Say hello."), std::string::npos);
+}
+
+TEST(Server, SmallPicturesAreThereWithALoginOnceTheyAreDrawn)
+{
+    Running running;
+    const std::string cookie = running.cookie("111111");
+    EXPECT_EQ(running.status("GET /thumbnail/tour/rainbow"), 401);
+    EXPECT_EQ(running.status("GET /thumbnail/tour/rainbow", cookie), 404);
+    std::filesystem::create_directories(running.thumbnail.parent_path());
+    write_bytes(running.thumbnail, "\x89PNG and more");
+    const std::string answer = running.http("GET /thumbnail/tour/rainbow", cookie);
+    EXPECT_NE(answer.find("image/png"), std::string::npos);
+    EXPECT_TRUE(answer.ends_with("\x89PNG and more"));
+    for (const char* wrong : {"tour/none", "../rainbow.png", ""})
+        EXPECT_EQ(running.status(std::string("GET /thumbnail/") + wrong, cookie), 404) << wrong;
+    std::filesystem::remove(running.thumbnail);
 }
 
 TEST(Server, FiveWrongPinsLockLoginsButNotPages)

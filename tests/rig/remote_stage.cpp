@@ -4,6 +4,8 @@
 // "caption sent NS", NS on the monotonic clock, to the frame thread: "NAME P50 P99 MAX COUNT".
 #include "config/json/error.h"
 #include "config/model/exhibit_file.h"
+#include "config/model/programme_file.h"
+#include "config/model/shipped.h"
 #include "runtime/remote/remote.h"
 #include <algorithm>
 #include <atomic>
@@ -26,7 +28,7 @@ std::atomic<bool> ends{false}, prints{false};
 double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
 /// Applies a command. Returns a refusal, or "".
-std::string apply(const Command& command, Snapshot& now)
+std::string apply(const Command& command, Snapshot& now, int items)
 {
     using enum CommandKind;
     switch (command.kind) {
@@ -35,10 +37,12 @@ std::string apply(const Command& command, Snapshot& now)
         break;
     case reset:
         now = {};
+        now.items = items;
         now.scene = "avenue", now.language = "en", now.layout = "desk", now.quality = "balanced", now.max_gamma = 1e6;
         break;
     case tour:
-        now.tour = command.text, now.step = 1, now.steps = 12, now.shot.clear();
+        now.doing = Doing::tour, now.tour = command.text, now.step = 1, now.steps = 12, now.left_s = 42, now.shot.clear();
+        now.next_caption = "Soon we fly past it, to the left. Watch its colour.";
         break;
     case next:
         now.step = std::min(now.step + 1, now.steps);
@@ -49,7 +53,7 @@ std::string apply(const Command& command, Snapshot& now)
     case scene:
         if (command.text == "gone")
             return "There is no gone.json in config/scenes";
-        now.scene = command.text, now.shot.clear(), now.tour.clear();
+        now.scene = command.text, now.shot.clear(), now.tour.clear(), now.steps = 0, now.doing = Doing::flies;
         break;
     case shot:
         now.shot = command.text, now.tour.clear();
@@ -143,9 +147,13 @@ double clock_ms(clockid_t clock)
 int play(const char* exhibit, double work_ms, const char* file)
 {
     const LivePicture picture = read_picture(file);
-    Remote remote({.settings = load_exhibit(exhibit).remote,
-        .patterns = {"none", "grid", "rings", "names", "wedges", "overlap"},
-        .version = "0.9.0"});
+    const Exhibit parts = load_exhibit(exhibit);
+    RemoteOptions options{
+        .settings = parts.remote, .patterns = {"none", "grid", "rings", "names", "wedges", "overlap"}, .version = "0.9.0"};
+    if (!parts.programme.empty())
+        options.programme = load_programme(shipped_file("programmes", parts.programme));
+    const int items = options.programme ? int(options.programme->items.size()) : 0;
+    Remote remote(std::move(options));
     for (std::size_t i = 0; i < remote.drawn_pins().size(); ++i)
         std::printf("%s %s\n", role_names[i], remote.drawn_pins()[i].c_str());
     std::printf("page %s\n", remote.page().c_str());
@@ -155,7 +163,7 @@ int play(const char* exhibit, double work_ms, const char* file)
     const long rounds = long(2000000 * work_ms / ms_since(start));
     Times times;
     Snapshot now;
-    apply({.kind = CommandKind::reset}, now);
+    apply({.kind = CommandKind::reset}, now, items);
     NumberedCommand command;
     int published_second = -1;
     start = Clock::now();
@@ -166,7 +174,7 @@ int play(const char* exhibit, double work_ms, const char* file)
         while (remote.take(command)) {
             if (command.command.text.starts_with("sent "))
                 times.commands.push_back(begin - std::atof(command.command.text.c_str() + 5) / 1e6);
-            remote.answer(command.number, apply(command.command, now));
+            remote.answer(command.number, apply(command.command, now, items));
         }
         work(rounds);
         const double time = ms_since(start) / 1000;

@@ -329,7 +329,8 @@ TEST_F(OpenSceneTest, QuantizedBoundsAreThoseOfThePositions)
 TEST_F(OpenSceneTest, EveryShippedFileIsOfItsKind)
 {
     const std::vector<std::pair<std::string, FileKind>> kinds{{"scenes", FileKind::scene}, {"layouts", FileKind::layout},
-        {"tours", FileKind::tour}, {"shots", FileKind::shot}, {"exhibits", FileKind::exhibit}, {"words", FileKind::words}};
+        {"tours", FileKind::tour}, {"shots", FileKind::shot}, {"exhibits", FileKind::exhibit}, {"words", FileKind::words},
+        {"programmes", FileKind::programme}};
     for (const auto& [kind, right] : kinds)
         for (const std::string& name : shipped_names(kind)) {
             const std::filesystem::path file = shipped_file(kind, name);

@@ -16,6 +16,7 @@
 #include "runtime/exhibit/still_measurement.h"
 #include "runtime/render/offscreen.h"
 #include "runtime/render/render_context.h"
+#include "thumbnails.h"
 #include "tour.h"
 #include <algorithm>
 #include <cstdio>
@@ -32,7 +33,7 @@ struct RenderOptions {
     long frames_per_s = 30;
     long every = 1, samples = 16;
     double bloom = 0;
-    bool exr = false, hud = false, sky_names = false, reference = false, join = false, by_eye = false;
+    bool exr = false, hud = false, sky_names = false, reference = false, join = false, by_eye = false, thumbnails = false;
 };
 
 std::vector<std::string> reference_arguments(const RenderOptions& options)
@@ -51,6 +52,8 @@ std::vector<std::string> reference_arguments(const RenderOptions& options)
 
 int render(const RenderOptions& options)
 {
+    if (options.thumbnails)
+        return render_thumbnails();
     if (!options.movie.empty() && options.tour.empty() && options.replay.empty())
         throw InputError("--movie is given without --tour and --replay; one of them is right");
     if (options.tour.empty() && options.movie.empty() && options.out.empty())
@@ -240,9 +243,15 @@ static void add_render(Subcommand& app, std::function<int()>& chosen)
     tour->needs(movie);
     for (Option* other : {shot, scene, out, exr, pattern, replay, points, names, overlay, why, mode, by_eye, effects})
         tour->excludes(other);
+    Option* thumbnails = command->add_flag("--thumbnails", options->thumbnails,
+        "Instead: draw the small pictures of all worlds, tours and views for the remote's page into the cache, as far as it "
+        "lacks them");
+    for (Option* other : {shot, scene, out, exr, pattern, replay, tour, points, names, overlay, why, mode, by_eye, effects})
+        thumbnails->excludes(other);
     Option* reference = command->add_flag("--reference", options->reference,
         "Trace rays in double precision and with whole spectra, without a GPU: slow, the reference for the other pictures");
-    for (Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, names, overlay, why, mode, by_eye, effects})
+    for (Option* other :
+        {replay, tour, hud, pattern, bloom, spectra, quality, points, names, overlay, why, mode, by_eye, effects})
         reference->excludes(other);
     command->add_option("--samples", options->samples, "With --reference: rays of each pixel")
         ->check(whole_number(1, 4096))
@@ -258,6 +267,7 @@ static void add_render(Subcommand& app, std::function<int()>& chosen)
         "  starbow render --tour first-minute --movie out/first-minute.mp4 --fps 30 --size 1280x720 --language de\n"
         "  starbow render --tour voyage --movie out/voyage.mp4 --part 3/8\n"
         "  starbow render --tour voyage --movie out/voyage.mp4 --join\n"
+        "  starbow render --thumbnails\n"
         "  starbow render --shot orion --out out/orion --sky-names --language de\n"
         "  starbow render --shot clocks-passing --out out/clocks --measure \"400,300; 12deg,0deg\" --overlay ring\n"
         "  starbow render --shot clocks-passing --out out/clocks --measure 0deg,0deg --overlay spectrum --by-eye\n"
