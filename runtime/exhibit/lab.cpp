@@ -78,8 +78,10 @@ void Lab::read(const FrameRenderer& frame, Switches pressed, const GpuWorld& wor
     measured_ = measured_of(frame.head(), ship_, world.scene, world.world, effects_, aimed, probed[0].light, marks_);
     measured_->mark_numbers = mark_numbers_;
     waited_s_ += dt_s;
-    if (every_s_ > 0 && waited_s_ >= every_s_)
-        lines_due_ = std::max(lines_due_, 1); // a press in the same frame writes this line
+    if (every_s_ > 0 && waited_s_ >= every_s_ && (lines_due_ == 0 || by_eye_)) { // otherwise the press writes this line
+        waited_s_ = 0;
+        keep_line(*measured_, {}, say);
+    }
     for (; lines_due_ > 0; --lines_due_) {
         waited_s_ = 0;
         keep(say);
@@ -98,7 +100,7 @@ void Lab::keep(const std::function<void(std::string)>& say)
 {
     if (!log_)
         say(words_("lab.no_log"));
-    else if (by_eye_ && every_s_ == 0)
+    else if (by_eye_)
         entry_.emplace(*measured_), said_.clear(), drawn_ = {};
     else
         keep_line(*measured_, {}, say);

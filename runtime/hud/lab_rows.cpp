@@ -66,6 +66,11 @@ const LabSection& section_of(const LabRow& row)
     std::abort();
 }
 
+bool has_still(const LabRow& row, bool by_eye)
+{
+    return !row.points.empty() && !(by_eye && row.of == LabQuantity::unshifted_angle);
+}
+
 std::string still_command(const LabRow& row, bool by_eye)
 {
     std::string command = "starbow render --shot " + std::string(row.shot);

@@ -35,9 +35,9 @@ std::string row_of(const LabRow& row, SheetFor reader, const Words& words)
         html += "<td class=\"blank\"></td><td class=\"blank\"></td>";
     }
     html += "</tr>\n";
-    if (!row.points.empty())
-        html += "<tr class=\"still\"><td></td><td colspan=\"6\"><code>"
-            + escaped_html(still_command(row, reader == SheetFor::student)) + "</code></td></tr>\n";
+    if (const bool by_eye = reader == SheetFor::student; has_still(row, by_eye))
+        html += "<tr class=\"still\"><td></td><td colspan=\"6\"><code>" + escaped_html(still_command(row, by_eye))
+            + "</code></td></tr>\n";
     return html;
 }
 

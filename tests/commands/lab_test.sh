@@ -58,6 +58,8 @@ refused 'neither --sheet nor --readings' lab
 refused 'does not end in .html' lab --sheet student --out sheet.pdf
 refused 'does not end in .csv' lab --readings list.ods
 refused '--sheet' lab --sheet pupil
+refused 'the effect brightness is not known; "aberration"' render --shot clocks-rest --effects aberration,brightness --out still
+refused '--by-eye' render --reference --by-eye --shot clocks-rest --out still
 refused 'list.csv: has no reading' class newton.csv list.csv
 printf 'no,quantity,reading,uncertainty\r\nA1,,35.7,0\r\n' >"$folder/sure.csv"
 refused 'sure.csv:2: uncertainty: "0" is out of range' class sure.csv

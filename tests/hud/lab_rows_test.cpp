@@ -84,6 +84,10 @@ TEST(LabRows, TheTeachersSheetAloneHasTheTheory)
             EXPECT_EQ(student.find(theory), student.npos) << theory;
         EXPECT_NE(teacher.find(words(language).number("35.757")), teacher.npos);
         EXPECT_NE(student.find("--by-eye"), student.npos);
+        // The direction where D is 1 is found by a turn, which no single still has.
+        EXPECT_EQ(student.find("out/D5<"), student.npos);
+        EXPECT_NE(teacher.find("out/D5<"), teacher.npos);
+        EXPECT_NE(student.find("out/D7<"), student.npos);
     }
 }
 
