@@ -71,11 +71,7 @@ GlobeRay globe_ray(GlobeEntry g, vec3 n, float angle)
     ray.pixel = max(angle * ray.ahead, 1e-12);
     return ray;
 }
-// radius: where its edge is taken to be, radii.
-float covered(GlobeRay ray, float radius)
-{
-    return ray.ahead > 0.0 ? clamp(0.5 + (radius - sqrt(ray.square)) / ray.pixel, 0.0, 1.0) : 0.0;
-}
+float covered(GlobeRay ray) { return ray.ahead > 0.0 ? clamp(0.5 + (1.0 - sqrt(ray.square)) / ray.pixel, 0.0, 1.0) : 0.0; }
 
 // The part of a globe's light that is shown as a star's. radius: its radius in the picture, pixels.
 float point_part(float radius) { return 1.0 - smoothstep(0.8, 1.6, radius); }
@@ -141,17 +137,18 @@ struct Ground {
     float water, cloud, lamps, wind; // wind: m/s
     float land_sun, cloud_sun; // the part of sunlight that slopes catch
 };
-// The maps' parts at a normal, and where they are coarser than a pixel their detail. octaves: of detail that a pixel shows; with
-// none, all is as the maps have it.
-Ground detailed(GlobeEntry g, vec3 normal, vec4 map, vec2 sky, float octaves)
+// The maps' parts at a normal, and where a pixel is finer than they their detail. place: in the maps; level: of the pixel.
+Ground detailed(GlobeEntry g, vec3 normal, vec2 place, float level)
 {
     float cells = g.map.y / 3.14159265, cosine = dot(normal, g.light.xyz);
-    Detail detail = detail_at(normal * cells, g.light.xyz - normal * cosine, octaves);
+    Detail detail = detail_at(normal * cells, g.light.xyz - normal * cosine, -level);
+    vec4 map = textureLod(fine_globe_maps, vec3(place, 0.0), level);
+    vec2 sky = textureLod(fine_globe_maps, vec3(place, 1.0), level).rg;
     Ground here;
     here.cloud = detail_cover(sky.r, detail.value.x, detail.variance);
     here.water = detail_cover(map.a, detail.value.y, detail.variance);
     float light = max(1.0 + GLOBE_LAND_CONTRAST * detail.value.y, 0.2);
-    here.kinds = map.rgb * ((1.0 - here.water) / max(1.0 - map.a, 1e-3) * light);
+    here.kinds = map.rgb * (g.shape.x * (1.0 - here.water) / max(1.0 - map.a, 1e-3) * light);
     here.wind = 7.0 * clamp(1.0 + GLOBE_WIND_CONTRAST * detail.value.y, 0.2, 1.8);
     here.lamps = sky.g * sky.g * detail_spots(detail.value.y, detail.variance, GLOBE_LAMP_CONTRAST);
     here.land_sun = max(cosine - detail_slope(detail.slope.y, GLOBE_LAND_RELIEF * cells), 0.0);
@@ -164,10 +161,10 @@ Ground detailed(GlobeEntry g, vec3 normal, vec4 map, vec2 sky, float octaves)
 void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column, inout vec3 light)
 {
     GlobeRay ray = globe_ray(g, n, angle);
-    // Edges as soft as a pixel make a small disc too large, by a twelfth of a square pixel. Within them it must cover all: behind it may
-    // be the Sun.
+    // Edges as soft as a pixel make a small disc too large, by a twelfth of a square pixel. Its light lacks as much, but it hides all
+    // that is behind it, which may be the Sun.
     float pixels = g.shape.z / angle;
-    float cover = covered(ray, sqrt(1.0 - 1.0 / max(12.0 * pixels * pixels, 1.5))) * disc;
+    float hides = covered(ray) * disc, cover = hides / (1.0 + 1.0 / max(12.0 * pixels * pixels, 1.0));
     vec3 own = vec3(1.0, 1.0, g.shape.y); // from the scaled axes to those of one unit
     vec3 sun_scaled = normalize(g.light.xyz / own);
     float half_chord = sqrt(max(1.0 - ray.square, 0.0)), t = ray.ahead - half_chord;
@@ -252,10 +249,7 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
         if (g.shape.w == GLOBE_SUN) {
             shown = globe_colour(column, g.kinds.x, mu * (float(GLOBE_LEVELS) - 1.001));
         } else if (g.air.x > 0.0) {
-            vec4 ground = textureLod(fine_globe_maps, vec3(place, 0.0), level);
-            vec2 sky = textureLod(fine_globe_maps, vec3(place, 1.0), level).rg;
-            ground.rgb *= g.shape.x;
-            Ground here = detailed(g, normal, ground, sky, -level);
+            Ground here = detailed(g, normal, place, level);
             float way_down = mu_sun > 0.0 ? air_above(1.0, 1.0 / g.air.x, mu_sun) : 0.0;
             float clear = 1.0 - here.cloud, mass = air + way_down;
             // Half of the light that air takes from a wide field comes back to it; half of the air lies below the clouds.
@@ -290,7 +284,7 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
                 shown = globe_colour(column, g.kinds.w, 0.0);
             shown *= lit * (g.shape.w == GLOBE_DUSTY ? 2.0 * mu_sun / max(mu + mu_sun, 1e-6) : 1.5 * mu_sun);
         }
-        light = mix(light, shown, cover);
+        light = light * (1.0 - hides) + shown * cover;
     }
     light += scattered;
     if (ring_before)
@@ -332,7 +326,7 @@ void add_globes(vec3 n, float angle, float D, inout vec3 light, inout float dist
             sum += light;
         }
         GlobeRay middle = globe_ray(g, n, angle);
-        if (covered(middle, 1.0) > 0.5)
+        if (covered(middle) > 0.5)
             distance = (middle.ahead - sqrt(max(1.0 - middle.square, 0.0)))
                 / length(vec3(dot(g.row0.xyz, n), dot(g.row1.xyz, n), dot(g.row2.xyz, n)));
         light = sum / float(rays);
@@ -350,7 +344,7 @@ float left_by_globes(vec3 n, int own)
         if (dot(off, off) >= g.near.w * g.near.w)
             continue;
         GlobeRay ray = globe_ray(g, n, 0.0);
-        left *= 1.0 - covered(ray, 1.0);
+        left *= 1.0 - covered(ray);
         if (g.ring.y > 0.0) {
             float t, radius, width, mu = abs(normalize(ray.way * vec3(1.0, 1.0, g.shape.y)).z);
             if (ring_hit(g, ray, t, radius, width))

@@ -2,8 +2,9 @@
 #ifdef WITH_GLOBES
 #include "physics/glare.glsl"
 const bool WITH_SUN_GLARE = true;
-// n: the ship's direction, motion axes. The same law as a star's glare, but without an end at 3 degrees, because the Sun's shows
-// there. It fades instead: farther out it is an even veil, to which an eye adapts and which a picture would show as grey haze.
+// n: the ship's direction, motion axes. The same law as a star's glare, but without an end at 3 degrees, because the Sun's
+// shows there. It fades instead: farther out it is an even veil, to which an eye adapts and which a picture would show as grey
+// haze.
 vec3 sun_glare(vec3 n)
 {
     if (globes.sunlight.xyz == vec3(0.0))

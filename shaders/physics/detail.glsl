@@ -54,20 +54,20 @@ FN rvec3 detail_turned(rvec3 p)
     return rvec3(real(1.6) * p.y - real(1.2) * p.z, real(1.2) * p.y + real(1.6) * p.z, real(2.0) * p.x);
 }
 
-// The fields at a place. p: in cells of the first octave; along: a vector in the same axes and unit; octaves: how many are wider
-// than a pixel; the last one counts in part.
+// The fields at a place. p: in cells of the first octave; along: a vector in the same axes and unit; octaves: how many are
+// wider than a pixel; the last one counts in part.
 FN Detail detail_at(rvec3 p, rvec3 along, real octaves)
 {
     Detail all;
     all.value = rvec2(real(0.0)), all.slope = rvec2(real(0.0)), all.variance = real(0.0);
-    real strength = real(1.0), left = min(octaves, real(DETAIL_MOST));
-    for (int i = 0; i < DETAIL_MOST && left > real(0.0); ++i) {
+    real strength = real(1.0);
+    for (real left = min(octaves, real(DETAIL_MOST)); left > real(0.0); left -= real(1.0)) {
         real part = strength * min(left, real(1.0));
         rvec4 here = detail_octave(p, along);
         all.value += part * rvec2(here.x, here.y);
         all.slope += part * rvec2(here.z, here.w);
         all.variance += part * part;
-        strength *= DETAIL_GAIN, left -= real(1.0);
+        strength *= DETAIL_GAIN;
         // Twice as fine, and turned, so that the cells' sides lie elsewhere.
         rvec3 q = detail_turned(p);
         p = rvec3(q.x + real(17.3), q.y + real(5.9), q.z + real(9.7));
@@ -78,9 +78,9 @@ FN Detail detail_at(rvec3 p, rvec3 along, real octaves)
     return all;
 }
 
-// The part of a pixel that is covered, where a map says that `part` of the place around is. A place is covered where a field is
-// above a level; the octaves that are too fine for the pixel are a normal distribution around those that are seen. Its integral is
-// taken as a logistic curve (within 0.01; Bowling and others 2009).
+// The part of a pixel that is covered, where a map says that `part` of the place around is. A place is covered where a field
+// is above a level; the octaves that are too fine for the pixel are a normal distribution around those that are seen. Its
+// integral is taken as a logistic curve (within 0.01; Bowling and others 2009).
 FN real detail_cover(real part, real value, real variance)
 {
     real inside = min(max(part, real(1e-4)), real(1.0 - 1e-4));
