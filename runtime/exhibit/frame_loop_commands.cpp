@@ -129,7 +129,7 @@ void FrameLoop::apply_command(const Command& command, Requests& requests)
         case CommandKind::item:
             show_content(content_after(session_, command));
             if (command.kind == CommandKind::item)
-                session_.item = int(command.number), session_.item_s = 0;
+                session_.item = int(command.number), session_.item_began = Clock::now();
             if (!session_.attendance.in_hand())
                 session_.attendance.begin(); // by the docent
             break;

@@ -86,7 +86,7 @@ void describe(const Session& session, ExhibitState& out)
     out.left_s = runs ? tour->left_s() : 0;
     out.next_caption = runs && tour->step() + 1 < tour->steps().size() ? announced(tour->steps()[tour->step() + 1]) : "";
     out.item = session.item, out.items = session.options.programme ? int(session.options.programme->items.size()) : 0;
-    out.item_s = session.item_s;
+    out.item_s = session.item > 0 ? seconds(Session::Clock::now() - session.item_began) : 0;
     out.calm = session.options.exposure.calm;
     out.paused = session.source->paused();
     out.fade = session.docent.fades(), out.hold = session.docent.holds();
@@ -369,7 +369,6 @@ void step(Session& session, RecordEntry& entry, const Metered& metered)
     entry.ranged = session.choices.range;
     session.docent.advance(dt_s);
     session.pointer.advance(dt_s);
-    session.item_s += session.item > 0 ? dt_s : 0;
     session.light.advance(entry,
         {.source = *session.source,
             .metered = metered,

@@ -49,7 +49,7 @@ struct Session {
 
     SessionContent content; ///< the shown one
     int item = 0; ///< of the programme, begun last, the first one 1; 0: none yet
-    double item_s = 0; ///< since then
+    Clock::time_point item_began{}; ///< by the guide's clock: frames that come late do not stop it
     Flying rules; ///< of the visitors' flight in it
     std::unique_ptr<FlightSource> source; ///< of its flight
     GoalState goals{}; ///< the visitor's, in this world

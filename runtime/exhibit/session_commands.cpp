@@ -185,7 +185,7 @@ void forget_directions(Session& session)
     forget_visitor(session);
     session.docent.forget();
     session.pointer = {};
-    session.item = 0, session.item_s = 0;
+    session.item = 0;
     session.qualities.forget();
 }
 
