@@ -97,6 +97,7 @@ bool FrameLoop::fly_frame()
     remote_.read(entry.commands);
     presenter_.read(entry.commands);
     aim_pointer(entry.commands);
+    add_items_content(entry.commands);
     if (entry.controls[Switch::full_screen])
         screens_.switch_full_screen();
     if (session_.record_replay.replays() && !visible)

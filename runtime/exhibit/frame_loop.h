@@ -57,6 +57,8 @@ private:
     void apply(LayoutLoader::Loaded loaded);
     /// Makes touches of the live picture into the directions that it shows there. So a record does not depend on the layout.
     void aim_pointer(std::vector<Command>& commands) const;
+    /// Adds what a programme's item shows as a command of its own, last. So a replay needs no programme.
+    void add_items_content(std::vector<Command>& commands) const;
     /// Advances the visitors' menu; its choice is a command of this frame.
     void choose_in_menu(RecordEntry& entry, Requests& requests);
     /// Takes those of the frame's commands out that lead to another world, until it is read, and brings them back then. So a

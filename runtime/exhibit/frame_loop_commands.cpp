@@ -28,6 +28,18 @@ void FrameLoop::aim_pointer(std::vector<Command>& commands) const
     }
 }
 
+void FrameLoop::add_items_content(std::vector<Command>& commands) const
+{
+    const std::optional<Programme>& programme = session_.options.programme;
+    for (std::size_t i = 0, count = commands.size(); i < count; ++i) {
+        const double number = commands[i].number;
+        if (commands[i].kind != CommandKind::item || !is_item(programme, number))
+            continue; // it is refused where it is carried out
+        const auto& [kind, name] = shown_by(programme->items[std::size_t(number) - 1]);
+        commands.push_back(command_of(std::vector{kind, name}));
+    }
+}
+
 void FrameLoop::choose_in_menu(RecordEntry& entry, Requests& requests)
 {
     if (!session_.attendance.in_hand()) {
@@ -46,8 +58,8 @@ void FrameLoop::await_worlds(std::vector<Command>& commands)
     // Frames that follow no clock have nobody who watches meanwhile.
     for (std::size_t i = 0; session_.options.paced && i < commands.size();) {
         const Command& command = commands[i];
-        const bool leads = command.kind == CommandKind::scene || command.kind == CommandKind::shot
-            || command.kind == CommandKind::tour || command.kind == CommandKind::item;
+        const bool leads
+            = command.kind == CommandKind::scene || command.kind == CommandKind::shot || command.kind == CommandKind::tour;
         std::filesystem::path scene;
         try {
             scene = leads ? content_after(session_, command).scene : "";
@@ -126,10 +138,7 @@ void FrameLoop::apply_command(const Command& command, Requests& requests)
         case CommandKind::scene:
         case CommandKind::shot:
         case CommandKind::tour:
-        case CommandKind::item:
             show_content(content_after(session_, command));
-            if (command.kind == CommandKind::item)
-                session_.item = int(command.number), session_.item_began = Clock::now();
             if (!session_.attendance.in_hand())
                 session_.attendance.begin(); // by the docent
             break;

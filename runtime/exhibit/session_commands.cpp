@@ -40,18 +40,15 @@ void step_tour(const Session& session, Requests& requests, Switch by)
 /// The shown tour in its own motion; null where hands fly.
 TourPlayer* moving_tour(Session& session) { return session.source->by_hand() ? nullptr : session.source->tour(); }
 
-SessionContent content_of_item(const Session& session, double number)
+void begin_item(Session& session, double number)
 {
     const std::optional<Programme>& programme = session.options.programme;
     if (!programme)
         throw InputError("the exhibit has no programme; \"programme\" in its file is right");
-    const std::size_t count = programme->items.size();
-    if (number != std::floor(number) || number > double(count))
-        throw InputError("the programme has no such item; a whole number from 1 to " + std::to_string(count) + " is right");
-    const auto& [kind, name] = shown_by(programme->items[std::size_t(number) - 1]);
-    return kind == "tour" ? content_of_tour(name, session.words)
-        : kind == "shot"  ? content_of_shot(name)
-                          : content_of_scene(name);
+    if (!is_item(programme, number))
+        throw InputError("the programme has no such item; a whole number from 1 to "
+            + std::to_string(programme->items.size()) + " is right");
+    session.item = int(number), session.item_began = Session::Clock::now();
 }
 
 } // namespace
@@ -68,6 +65,9 @@ void apply_command(Session& session, const Command& command, Requests& requests)
         break;
     case CommandKind::pointer:
         session.pointer.touch(command.number, command.second);
+        break;
+    case CommandKind::item: // what it shows is a command of its own
+        begin_item(session, command.number);
         break;
     case CommandKind::touch:
         throw InputError("the live picture shows no direction there; a place within the picture is right");
@@ -121,11 +121,15 @@ void apply_command(Session& session, const Command& command, Requests& requests)
     case CommandKind::tour:
     case CommandKind::scene:
     case CommandKind::shot:
-    case CommandKind::item:
     case CommandKind::layout:
     case CommandKind::quality:
         break; // the frame loop's
     }
+}
+
+bool is_item(const std::optional<Programme>& programme, double number)
+{
+    return programme && number == std::floor(number) && number >= 1 && number <= double(programme->items.size());
 }
 
 SessionContent content_after(const Session& session, const Command& command)
@@ -137,8 +141,6 @@ SessionContent content_after(const Session& session, const Command& command)
         return content_of_shot(command.text);
     case CommandKind::tour:
         return content_of_tour(command.text, session.words);
-    case CommandKind::item:
-        return content_of_item(session, command.number);
     default:
         return session.options.content;
     }

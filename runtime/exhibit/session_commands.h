@@ -9,6 +9,9 @@ namespace starbow {
 /// device, belong to FrameLoop.
 void apply_command(Session& session, const Command& command, Requests& requests);
 
+/// True if the programme has an item of this number, the first one 1.
+bool is_item(const std::optional<Programme>& programme, double number);
+
 /// The content that a command leads to: scene, shot, tour, or reset to the exhibit's own. Throws InputError.
 SessionContent content_after(const Session& session, const Command& command);
 

@@ -125,7 +125,7 @@ std::vector<double> RangeGoal::read(const Place& place, const Folder&) const
 Command CommandWords::read(const Place& place, const Folder&) const
 {
     std::vector<std::string> words;
-    for (const Place& word : items(place, 1, 2, "words")) {
+    for (const Place& word : items(place, 1, 3, "words")) {
         if (!word.json->is_string())
             fail_at(word, "is not a text; a list of texts such as [\"doppler\", \"off\"] is right");
         words.push_back(word.json->get<std::string>());

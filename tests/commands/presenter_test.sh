@@ -83,7 +83,7 @@ is hold off
 ok
 
 # Hold takes the stick away gently: a ship that speeds up comes to coasting while W stays down, and W counts again afterwards.
-at_guides r && is tour -
+at_guides r && is item 0
 is gamma 1
 xdotool windowfocus "$visitors" keydown w
 fast() { awk -v g="$(now gamma)" -v least="$1" 'BEGIN { exit !(g > least) }'; }

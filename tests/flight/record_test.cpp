@@ -91,6 +91,7 @@ RecordEntry some_entry(std::mt19937_64& random)
     if (random() % 4 == 0)
         entry.commands = {{.kind = CommandKind::scene, .text = "train"},
             {.kind = CommandKind::effect, .on = random() % 2 == 0, .effect = Effect::doppler},
+            {.kind = CommandKind::pointer, .number = -12.25, .second = 4.5},
             {.kind = CommandKind::speed_limit, .number = 1 + std::uniform_real_distribution<double>(0, 9)(random)},
             {.kind = CommandKind::caption, .text = "\"Grüße\" \\ γ"}, {.kind = CommandKind::stop}};
     maybe3(c.head.moved_m, 10);
