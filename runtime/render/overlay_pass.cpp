@@ -25,6 +25,7 @@ OverlayPass::OverlayPass(
     name_object(device, figures_, "overlay pass: figures");
     copy_to(figures_, table);
     figures_view_ = device.device.createBufferView({{}, *figures_.buffer, exact_format, 0, VK_WHOLE_SIZE});
+    name_object(device, figures_view_, "overlay pass: figures");
     const std::uint32_t count = std::uint32_t(views);
     const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, count),
         vk::DescriptorPoolSize(vk::DescriptorType::eUniformTexelBuffer, count)};

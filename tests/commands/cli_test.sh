@@ -261,7 +261,7 @@ done
 
 # Every kind of file is described on one screen or two.
 if "$program" help quality | grep -q '^  clip_levels: a whole number from 0 to 42; usual: 42$'; then passed=$((passed + 1)); else fail 'help quality does not say clip_levels'; fi
-begins_with 'the kind of file stick is not known; "exhibit", "layout", "profile", "quality", "ladder", "scene", "shot" or "tour" is right' help stick
+begins_with 'the kind of file stick is not known; "exhibit", "layout", "profile", "programme", "quality", "ladder", "scene", "shot" or "tour" is right' help stick
 
 # Lengths are printed to the millimetre.
 printf '{ "outputs": [ { "name": "a", "viewports": [ { "projection": { "type": "wall", "lower_left_m": [-1, 0, -2], "lower_right_m": [1, 0, -2], "upper_left_m": [-1, 1.125, -2] } } ] } ] }' > "$folder/wall.json"

@@ -100,6 +100,20 @@ const std::map<std::string, Facts>& facts()
     const std::vector<Seen> ring{gold}, ships{home_dial, {"the traveller", place(1.3, 0, 0), 0, ship_dial, read_deg}};
     const dvec3 whole_earth(0, earth_s, 0);
     static const std::map<std::string, Facts> all{
+        // Names above rings: tests/hud/highlights_test.cpp has their places.
+        {"first-minute.mark", {}},
+        {"simultaneity.left", {}},
+        {"simultaneity.middle", {}},
+        {"simultaneity.right", {}},
+        {"solar-system.earth_mark", {}},
+        {"solar-system.saturn_mark", {}},
+        {"street.mark", {}},
+        {"twins.home", {}},
+        {"twins.traveller", {}},
+        {"voyage.alpha_mark", {}},
+        {"voyage.centre_mark", {}},
+        {"voyage.proxima_mark", {}},
+        {"voyage.sisters_mark", {}},
         {"first-minute.title", {{}, straight(column)}},
         {"first-minute.end", {}},
         {"rainbow.title", {}},

@@ -96,7 +96,7 @@ TEST(InvocationCounter, ShadersRunAsOftenAsTheirDrawsSay)
     }
 }
 
-/// The avenue as an exhibit draws it, on llvmpipe with its default quality.
+/// The avenue as an exhibit draws it (one of the draws is that of its Sun's glare), on llvmpipe with its default quality.
 TEST(CommandCounts, AFrameHasItsCeilings)
 {
     count_commands(device());
@@ -109,7 +109,7 @@ TEST(CommandCounts, AFrameHasItsCeilings)
     struct {
         double gamma;
         std::uint64_t draws, binds, others;
-    } const ceilings[] = {{1, 23, 18, 44}, {4, 34, 43, 135}, {100, 128, 88, 333}};
+    } const ceilings[] = {{1, 24, 18, 44}, {4, 34, 43, 135}, {100, 128, 88, 333}};
     for (const auto& most : ceilings) {
         shot.u = {0, 0, -std::sqrt((most.gamma - 1) * (most.gamma + 1))};
         timer.counts(shot); // makes room and pipelines
