@@ -40,6 +40,17 @@ convert "$work/dome/domemaster.png" -resize 512x512 -quality 88 docs/dome.jpg
 still class --shot gamow-walking --size 800x500 --overlay ring --measure "0deg,2deg; 17deg,8deg" --why doppler
 convert "$work/class/desk.png" -quality 88 docs/class.jpg
 
+# The names of Orion's neighbourhood at rest, and flying towards it.
+still names-rest --shot orion --size 640x480 --sky-names
+cat >"$work/names-flight.json" <<'END'
+{
+    "scene": "avenue", "position": [0, 12, 20], "look": [0, 0.2, -1], "velocity": { "direction": [0, 0.2, -1], "gamma": 2 },
+    "effects": { "aberration": true, "doppler": false, "headlight": false }
+}
+END
+still names-flight --shot "$work/names-flight.json" --size 640x480 --sky-names
+convert "$work/names-rest/desk.png" "$work/names-flight/desk.png" -splice 4x0+0+0 +append -chop 4x0 -quality 85 docs/sky-names.jpg
+
 # The worlds.
 while read -r world shot; do
     still "world-$world" --shot "$shot" --size 640x400
@@ -47,7 +58,7 @@ while read -r world shot; do
 done <<'END'
 avenue avenue-rest
 rainbow rainbow-line
-solar-system earth
+solar-system earth-400km
 warm-wall warm-wall-1.5
 clocks clocks-rest
 chart chart-rest
