@@ -367,6 +367,8 @@ TEST(CaptionTruth, EveryNumberAndThingIsThatOfTheFrame)
                         patterns.push_back(choice.text);
             if (1e-9 * double(touring.into_ns) <= title_s)
                 patterns.push_back(step.title);
+            for (const Highlight& highlight : step.highlights)
+                patterns.push_back(highlight.name);
             for (std::size_t i = 0; i < patterns.size(); ++i) {
                 if (patterns[i].empty())
                     continue;
