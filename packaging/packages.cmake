@@ -70,7 +70,8 @@ set(CPACK_DEBIAN_STARBOW_PACKAGE_NAME starbow)
 set(CPACK_DEBIAN_STARBOW_FILE_NAME starbow.deb)
 set(CPACK_DEBIAN_STARBOW_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_STARBOW_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_STARBOW_PACKAGE_DEPENDS "fonts-dejavu-core, mesa-vulkan-drivers | vulkan-icd")
+# The program opens the Vulkan loader itself, so dpkg-shlibdeps does not find it.
+set(CPACK_DEBIAN_STARBOW_PACKAGE_DEPENDS "fonts-dejavu-core, libvulkan1, mesa-vulkan-drivers | vulkan-icd")
 set(CPACK_DEBIAN_STARBOW_PACKAGE_RECOMMENDS "ffmpeg")
 set(CPACK_COMPONENT_STARBOW_DESCRIPTION "flight near the speed of light
 Starbow shows what physics says you would see near the speed of light:

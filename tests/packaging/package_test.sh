@@ -43,7 +43,7 @@ has starbow-exhibit /lib/systemd/system/starbow.service /lib/systemd/system/star
     /usr/lib/tmpfiles.d/starbow.conf /lib/udev/rules.d/71-starbow-exhibit.rules /etc/starbow/exhibit.json /etc/starbow/hours /etc/starbow/layouts/site.json \
     /usr/lib/starbow/hours /usr/lib/starbow/display-ready /usr/lib/systemd/catalog/starbow.catalog
 grep -E '\.(cpp|h|py)$|/(build|tests|\.git)' "$folder"/starbow*.list && fail "files that nobody needs there"
-for file in $(cd "$(dirname "$0")/../.." && git ls-files 'config/*.json' 'scenes/*.glb' 'scenes/stars/*.txt'); do
+for file in $(cd "$(dirname "$0")/../.." && git ls-files 'config/*.json' 'scenes/*.glb' 'scenes/stars/*.txt' 'scenes/stars/*.json'); do
     grep -q " /usr/share/starbow/$file$" "$folder/starbow.list" || fail "starbow lacks $file"
 done
 grep -q '^Depends: .*libvulkan1.*' "$folder/starbow.control" && grep -q '^Depends: .*fonts-dejavu-core' "$folder/starbow.control" \
