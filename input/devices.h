@@ -33,7 +33,7 @@ public:
     }
     /// True once after these characters were typed in a row.
     bool typed(std::string_view code) { return keyboard_.typed(code); }
-    /// As Keyboard's.
+    /// Keyboard::write and Keyboard::take_written.
     void write(bool writes) { keyboard_.write(writes); }
     std::string take_written() { return keyboard_.take_written(); }
     /// Another visitor's hands come: what the last ones have left tilted, open or held counts once it has reported again.

@@ -44,9 +44,9 @@ public:
     /// True once after these characters were typed in a row.
     bool typed(std::string_view code);
 
-    /// Whether the keys are somebody's handwriting, from now on: they then steer nothing and are no switches.
+    /// From now on keys are text (true), and then neither steer nor press switches, or controls again (false).
     void write(bool writes);
-    /// The keys since the last call, while they are handwriting: characters of ASCII, '\b', '\n' for Enter, '\x1b' for Esc.
+    /// The keys since the last call, while they are text: characters of ASCII, '\b', '\n' for Enter, '\x1b' for Esc.
     std::string take_written() { return std::exchange(written_, {}); }
 
 private:

@@ -17,6 +17,13 @@ void check_measured(const Place& place, const std::string& text, bool is_measure
                     + (is_measured ? "{measured} alone is right" : "{measured} beside a \"measure\" is right"));
 }
 
+/// Throws if a text that stands without a number has a placeholder.
+void check_plain(const Place& place, const std::string& text)
+{
+    if (!placeholders(text).empty())
+        fail_at(place, "has a number's place in its text, which the caption alone has; words without { } are right");
+}
+
 /// The schema of a file's name, or of an object instead.
 Json name_or(const Json& object) { return {{"oneOf", {{{"type", "string"}, {"minLength", 1}}, object}}}; }
 
@@ -64,7 +71,7 @@ void check(const Place& place, const Question& question, const Folder&)
 
 void check(const Place& place, const Highlight& highlight, const Folder&)
 {
-    check_measured(member(place, "name"), highlight.name, false);
+    check_plain(member(place, "name"), highlight.name);
     const bool is_globe = find_member(place, "globe").has_value();
     for (const char* name : {"at", "across"})
         if (find_member(place, name).has_value() == is_globe)
@@ -125,9 +132,8 @@ void check(const Place& place, const Step& step, const Folder&)
 {
     if (const auto caption = find_member(place, "caption"))
         check_measured(*caption, step.caption, step.measure.has_value());
-    if (!placeholders(step.title).empty())
-        fail_at(member(place, "title"),
-            "has a number's place in its text, which the caption alone has; words without { } are right");
+    if (const auto title = find_member(place, "title"))
+        check_plain(*title, step.title);
     if (const auto ease = find_member(place, "ease_s")) {
         if (step.ease_s.x + step.ease_s.y > step.seconds)
             fail_at(*ease, "is longer than the step, " + shown(step.seconds) + " s; two times that fit are right");

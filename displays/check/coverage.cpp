@@ -1,4 +1,5 @@
 #include "coverage.h"
+#include "config/model/angles.h"
 #include "displays/projections/picture.h"
 #include <algorithm>
 #include <array>
@@ -322,17 +323,6 @@ Coverage cover(const Layout& layout, int o, int v, Eye eye, const ViewRegion& gi
 glm::dvec2 lattice_point(int column, int row)
 {
     return glm::dvec2(column + 0.5, row + 0.5) / double(lattice) - glm::dvec2(180, 90);
-}
-
-glm::dvec3 direction_of(glm::dvec2 azimuth_elevation_deg)
-{
-    const glm::dvec2 at = glm::radians(azimuth_elevation_deg);
-    return {std::cos(at.y) * std::sin(at.x), std::sin(at.y), -std::cos(at.y) * std::cos(at.x)};
-}
-
-glm::dvec2 azimuth_elevation_deg(const glm::dvec3& d)
-{
-    return glm::degrees(glm::dvec2(std::atan2(d.x, -d.z), std::atan2(d.y, std::hypot(d.x, d.z))));
 }
 
 std::vector<Coverage> coverages(const Layout& layout, const ViewRegion& sight)

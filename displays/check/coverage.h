@@ -45,8 +45,4 @@ std::vector<Coverage> coverages(const Layout& layout, const ViewRegion& sight = 
 /// The part of the first coverage that the second shows too; 0 where the first shows nothing.
 double shared_part(const Coverage& first, const Coverage& second);
 
-/// The unit direction at an azimuth to the right and then an elevation up.
-glm::dvec3 direction_of(glm::dvec2 azimuth_elevation_deg);
-glm::dvec2 azimuth_elevation_deg(const glm::dvec3& direction);
-
 } // namespace starbow

@@ -1,5 +1,6 @@
 #include "floor_plan.h"
 #include "config/markup/svg.h"
+#include "config/model/angles.h"
 #include "config/model/turn.h"
 #include "displays/projections/views.h"
 #include "floor_plan_table.h"

@@ -1,8 +1,6 @@
 #include "callouts.h"
 #include "config/json/error.h"
-#include "config/json/reader.h"
 #include "config/model/named_words.h"
-#include "runtime/operation/log.h"
 #include "runtime/world/surroundings.h"
 #include <cstdio>
 
@@ -39,7 +37,7 @@ void Callouts::choose(const Session& session, const GpuWorld& world, PictureStat
     if (const TourPlayer* tour = session.tour(); tour && session.flight().hud && !session.menu.open)
         show_step(*tour, world, now);
     if (session.choices.sky_names)
-        name_sky(session, world, now);
+        name_sky(world, session.choices.language, now);
     if (session.choices.inset != InsetView::none)
         now.inset = inset_picture(
             session.choices.inset, now.shot, session.content.start.exposure_ev, telescope_deg_, session.words);
@@ -53,24 +51,10 @@ void Callouts::show_step(const TourPlayer& tour, const GpuWorld& world, PictureS
             = shown_highlights(tour.steps()[tour.step()].highlights, now.shot, world.world, world.scene, enlarged_deg_);
 }
 
-void Callouts::name_sky(const Session& session, const GpuWorld& world, PictureState& now)
-{
-    if (!sky_names_) {
-        const std::filesystem::path file = sky_names_of(world.scene);
-        try {
-            sky_names_ = file.empty() ? SkyNames() : load_sky_names(file);
-        } catch (const InputError& error) {
-            sky_names_.emplace();
-            write_log(LogKind::world_note, one_line(error.what()) + "; the sky has no names");
-        }
-    }
-    starbow::name_sky(*sky_names_, world, session.choices.language, now);
-}
-
-void name_sky(const SkyNames& names, const GpuWorld& world, const std::string& language, PictureState& now)
+void name_sky(const GpuWorld& world, const std::string& language, PictureState& now)
 {
     now.figures = figures_fit(now.shot, world.scene);
-    now.sky_labels = sky_labels(names, now.shot, world.world, world.scene, language);
+    now.sky_labels = sky_labels(world.sky_names, now.shot, world.world, world.scene, language);
 }
 
 /// The boxes of the world's things. The rules of a flight with a pace hold them; without one they are read at their first

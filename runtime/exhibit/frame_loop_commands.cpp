@@ -21,10 +21,10 @@ void FrameLoop::aim_pointer(std::vector<Command>& commands) const
         if (command.kind != CommandKind::touch || live_output_ >= views.outputs.size())
             continue;
         const glm::dvec2 pixel = glm::dvec2(command.number, command.second) * glm::dvec2(views.outputs[live_output_].size);
-        if (const std::optional<glm::dvec3> towards = views.direction(live_output_, pixel)) // else it is refused
-            command = {.kind = CommandKind::pointer,
-                .number = std::atan2(towards->x, -towards->z) / degree,
-                .second = std::asin(std::clamp(towards->y, -1.0, 1.0)) / degree};
+        if (const std::optional<glm::dvec3> towards = views.direction(live_output_, pixel)) { // else it is refused
+            const glm::dvec2 angles = azimuth_elevation_deg(*towards);
+            command = {.kind = CommandKind::pointer, .number = angles.x, .second = angles.y};
+        }
     }
 }
 

@@ -41,11 +41,8 @@ Point parse_point(std::string part, glm::ivec2 size)
     if (!text.empty() || x_degrees != y_degrees)
         refuse(part,
             "is not a point; X,Y in pixels or Adeg,Bdeg from straight ahead, such as 400,300 or 12deg,-3.5deg, is right");
-    if (x_degrees) {
-        const double azimuth = x * degree, elevation = y * degree;
-        return glm::dvec3(
-            std::sin(azimuth) * std::cos(elevation), std::sin(elevation), -std::cos(azimuth) * std::cos(elevation));
-    }
+    if (x_degrees)
+        return direction_of({x, y});
     if (x < 0 || y < 0 || x >= size.x || y >= size.y)
         refuse(part,
             "lies outside the picture; from 0,0 to below " + std::to_string(size.x) + "," + std::to_string(size.y)

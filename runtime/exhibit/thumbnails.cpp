@@ -33,7 +33,7 @@ Layout layout_of()
     return layout;
 }
 
-/// A digest of all that a world's picture depends on, beside the shot.
+/// A digest of a world's scene and glTF. Its stars, globes and maps are left out: they change with the program.
 std::uint64_t digest_of_world(const fs::path& scene)
 {
     constexpr std::size_t most_bytes = std::size_t(1) << 30;

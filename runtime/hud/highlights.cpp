@@ -4,8 +4,7 @@
 #include "config/model/angles.h"
 #include "config/model/inset_view.h"
 #include "instruments.h"
-#include "runtime/world/ephemeris.h"
-#include "runtime/world/stars.h"
+#include "runtime/world/globes.h"
 #include "runtime/world/worldline.h"
 #include "signs.h"
 #include <algorithm>
@@ -56,10 +55,7 @@ std::optional<SeenHighlight> seen_on(const Body& body, const Highlight& highligh
 std::optional<SeenHighlight> seen_globe(
     const Globes& globes, const std::string& name, const Shot& shot, const SceneFile& scene)
 {
-    const EyeAmongGlobes eye{shot.position, shot.time,
-        world_from_equatorial(scene.stars ? scene.stars->ahead_deg : glm::dvec2(0)), scene.unit_m,
-        scene.seconds_per_time_unit()};
-    for (const SeenGlobe& seen : globes_seen(globes.system, world_origin(globes.system, *scene.globes), eye))
+    for (const SeenGlobe& seen : seen_globes(globes, scene, shot))
         if (const Globe& globe = globes.system.globes[seen.globe]; globe.name == name)
             return seen_at(shot, shot.position + seen.from_eye, globe.radius_m / scene.unit_m);
     return {};

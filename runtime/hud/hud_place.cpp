@@ -12,11 +12,7 @@ namespace {
 
 constexpr std::array<glm::dvec2, 4> sides{glm::dvec2(-1, 0), {1, 0}, {0, -1}, {0, 1}};
 
-glm::dvec3 panel_middle(const HudPlacement& hud)
-{
-    const double a = hud.azimuth_deg * degree, e = hud.elevation_deg * degree;
-    return {std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)};
-}
+glm::dvec3 panel_middle(const HudPlacement& hud) { return direction_of({hud.azimuth_deg, hud.elevation_deg}); }
 
 /// The point in pixels from the view's corner that shows a direction, if any does.
 std::optional<glm::dvec2> pixel_of(const CompiledView& view, const glm::dvec3& direction)

@@ -5,8 +5,8 @@
 namespace starbow {
 namespace {
 
-/// Okabe and Ito, Color Universal Design, 2008: told apart by people with any kind of colour vision. Their yellow is too
-/// pale for a white page.
+/// The palette of Okabe and Ito, Color Universal Design, 2008, whose colours differ for every kind of colour vision. Its
+/// yellow is left out: it is too pale for a white page.
 constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"};
 
 /// The outlines of the marks, as SVG paths around 0, about 5 pixels to each side. Colour and mark differ between neighbours,

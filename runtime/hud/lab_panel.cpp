@@ -62,7 +62,7 @@ std::string overlay_line(Overlay overlay, const Measured& measured, const Overla
     return unshifted ? words("overlay.aim", {{"unshifted", angle}}) : words("overlay.aim_rest");
 }
 
-/// Whether an overlay's line says where D is 1, which is a figure of the theory.
+/// True if an overlay's line shows where D is 1, which is a figure of the theory.
 bool line_has_figure(Overlay overlay)
 {
     return overlay != Overlay::grid && overlay != Overlay::protractor && !has_scale(overlay);

@@ -45,13 +45,16 @@ const LabQuantityEntry& entry_of(LabQuantity which);
 /// The quantities whose theory is known at an instant: those that the entry of the laboratory offers.
 std::vector<LabQuantity> quantities_at(const Measured& measured);
 
-/// A student's number of an instant, and the theory's of the same instant.
-struct WrittenReading {
-    LabQuantity of = LabQuantity::wavelength;
-    double value = 0, uncertainty = 1, theory = 0; ///< uncertainty: a standard deviation, above 0
+/// A student's number beside the theory's, in one unit. uncertainty: a standard deviation, above 0.
+struct ReadNumber {
+    double value = 0, uncertainty = 1, theory = 0;
 
     /// The deviation from the theory in uncertainties.
     double sigmas() const { return (value - theory) / uncertainty; }
+};
+/// The same of an instant.
+struct WrittenReading : ReadNumber {
+    LabQuantity of = LabQuantity::wavelength;
 };
 
 } // namespace starbow

@@ -85,7 +85,7 @@ StudentReading read_list_line(const ListLine& line)
     const double value = line.number_in(2), uncertainty = line.number_in(3);
     if (uncertainty < 1e-12)
         line.refuse(3, "is out of range; a number above 0 is right");
-    return {std::string(row->no), value, uncertainty, row->theory, line.number};
+    return {{value, uncertainty, row->theory}, std::string(row->no), line.number};
 }
 
 std::string_view first_line(std::string_view bytes)
@@ -118,8 +118,8 @@ std::optional<StudentReading> reading_of(const LabLine& line)
     const double of = line["reading_of"];
     if (!std::isfinite(of))
         return {};
-    return StudentReading{std::string(all_lab_quantities[std::size_t(of)].name), line["reading"],
-        line["reading_uncertainty"], line["reading_theory"], line.line};
+    return StudentReading{{line["reading"], line["reading_uncertainty"], line["reading_theory"]},
+        std::string(all_lab_quantities[std::size_t(of)].name), line.line};
 }
 
 bool is_reading_list(std::string_view bytes)

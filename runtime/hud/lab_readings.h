@@ -8,14 +8,10 @@
 
 namespace starbow {
 
-/// A student's number beside the theory's.
-struct StudentReading {
+/// A reading of a log or a list.
+struct StudentReading : ReadNumber {
     std::string of; ///< a row of the worksheet, such as A1, or a quantity's name in the log
-    double value = 0, uncertainty = 1, theory = 0; ///< in one unit; uncertainty: a standard deviation, above 0
     long line = 0; ///< of its file
-
-    /// The deviation from the theory in uncertainties.
-    double sigmas() const { return (value - theory) / uncertainty; }
 };
 
 /// The text of a reading's quantity: "A1: ○–◇ / deg".
@@ -36,8 +32,8 @@ std::vector<StudentReading> read_reading_list(std::string_view bytes, const std:
 /// An empty list of readings with a line for every row of the worksheet.
 std::string reading_list(const Words& words);
 
-/// What a series of readings says, by the usual formulas of a first-year laboratory. The theory has no free number, so there
-/// are as many degrees of freedom as readings.
+/// The statistics of a series of readings, by the usual formulas of a first-year laboratory. The theory has no free number,
+/// so there are as many degrees of freedom as readings.
 struct ReadingStatistics {
     long count = 0;
     double mean = 0; ///< of reading minus theory

@@ -27,7 +27,8 @@ struct LabSection {
 };
 const LabSection& section_of(const LabRow& row);
 
-/// Whether a row can be done from one still. By eye the direction where D is 1 needs a turn, with the spectrum's line in view.
+/// True if one still shows a row's quantity. By eye the direction where D is 1 needs a turn, with the spectrum's line in
+/// view.
 bool has_still(const LabRow& row, bool by_eye);
 /// The command that draws a row's still. by_eye: with the instrument that is read, and without figures; otherwise it prints
 /// the figures.

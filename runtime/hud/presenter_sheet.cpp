@@ -30,7 +30,7 @@ std::string speed_text(const PresenterState& state, const Words& words)
     return shown_number(state.speed, state.speed > 0.999 ? 7 : 3, words) + " c    γ " + shown_number(state.gamma, words);
 }
 
-/// What is so beside the visit itself, in a few words; or "".
+/// The states beside the visit itself, such as calm, in a few words; or "".
 std::string also_text(const ExhibitState& state, const Words& words)
 {
     std::string text;

@@ -1,7 +1,7 @@
 #include "sky_labels.h"
 #include "config/model/angles.h"
 #include "instruments.h"
-#include "runtime/world/ephemeris.h"
+#include "runtime/world/globes.h"
 #include "runtime/world/stars.h"
 #include <algorithm>
 #include <cmath>
@@ -13,19 +13,14 @@ constexpr double farthest_deg = 80; ///< of names, from the look's direction
 constexpr double largest_globe_deg = 12; ///< the radius of one with a name
 constexpr double horizon_deg = 8; ///< in a world with a horizon, hills hide what is lower
 
-double angle_deg(const glm::dvec3& a, const glm::dvec3& b)
-{
-    return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0)) / degree;
-}
+double angle_deg(const glm::dvec3& a, const glm::dvec3& b) { return angle_between(a, b) / degree; }
 
 /// True if the plates of two names would touch: of letters that are 1.6 degrees high, and half as wide.
 bool touches(const SkyLabel& a, const SkyLabel& b)
 {
-    const double elevation = std::asin(a.towards.y) - std::asin(b.towards.y);
-    const double azimuth
-        = std::remainder(std::atan2(a.towards.x, -a.towards.z) - std::atan2(b.towards.x, -b.towards.z), 2 * pi);
-    const double across = std::abs(azimuth) * std::sqrt(std::max(0.0, 1 - a.towards.y * a.towards.y)) / degree;
-    return std::abs(elevation) / degree < 2.8 && across < 0.45 * double(a.name.size() + b.name.size()) + 1.5;
+    const glm::dvec2 at = azimuth_elevation_deg(a.towards), apart = at - azimuth_elevation_deg(b.towards);
+    const double across = std::abs(std::remainder(apart.x, 360)) * std::cos(at.y * degree);
+    return std::abs(apart.y) < 2.8 && across < 0.45 * double(a.name.size() + b.name.size()) + 1.5;
 }
 
 /// A globe's disc in the world's directions.
@@ -35,13 +30,12 @@ struct Disc {
     double radius_deg, distance;
 };
 
-std::vector<Disc> discs(const Shot& shot, const World& world, const SceneFile& scene, const glm::dmat3& turn)
+std::vector<Disc> discs(const Shot& shot, const World& world, const SceneFile& scene)
 {
     std::vector<Disc> all;
     if (!world.globes)
         return all;
-    const EyeAmongGlobes eye{shot.position, shot.time, turn, scene.unit_m, scene.seconds_per_time_unit()};
-    for (const SeenGlobe& seen : globes_seen(world.globes->system, world_origin(world.globes->system, *scene.globes), eye)) {
+    for (const SeenGlobe& seen : seen_globes(*world.globes, scene, shot)) {
         const Globe& globe = world.globes->system.globes[seen.globe];
         const double sine = globe.radius_m / scene.unit_m / seen.distance;
         all.push_back({globe.name, seen.from_eye / seen.distance, std::asin(std::min(sine, 1.0)) / degree, seen.distance});
@@ -84,7 +78,7 @@ std::vector<SkyLabel> sky_labels(
     const SkyNames& names, const Shot& shot, const World& world, const SceneFile& scene, const std::string& language)
 {
     const glm::dmat3 turn = world_from_equatorial(scene.stars ? scene.stars->ahead_deg : glm::dvec2(0));
-    const std::vector<Disc> globes = discs(shot, world, scene, turn);
+    const std::vector<Disc> globes = discs(shot, world, scene);
     Chosen chosen{shot, scene, globes};
     for (const Disc& disc : globes)
         if (const auto named = names.globes.find(disc.name);

@@ -79,7 +79,7 @@ public:
     /// then there is none.
     void show_inset(const Shot& shot, int width, double fov_deg = inset_fov_deg, std::size_t which = 0);
     void drop_insets(std::size_t from = 0); ///< all but the first `from`; the device must have finished the frame before
-    /// Of the last frame; only while there is one.
+    /// The inset's picture in the last frame; only while there is that inset.
     const Image& inset_picture(std::size_t which = 0) const { return views_.insets[which]->picture; }
     /// Sets the overlay of all views and the probes from the next frame on; none: at no cost. In a world whose depth is
     /// not kept, the first call takes as long as a change of the layout.

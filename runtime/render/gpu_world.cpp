@@ -404,6 +404,7 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
     sort_instances(world);
     add_blended_triangles(world);
     gpu.scene = scene;
+    gpu.sky_names = sky_names_of(scene);
     gpu.brightest = brightest(world, scene);
     gpu.vertices
         = make_static_buffer(device, std::as_bytes(std::span(world.vertices)), vk::BufferUsageFlagBits::eVertexBuffer);

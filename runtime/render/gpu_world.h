@@ -3,6 +3,7 @@
 #include "gpu_globes.h"
 #include "pipelines.h"
 #include "runtime/light/light_bound.h"
+#include "runtime/world/sky_names.h"
 #include "runtime/world/spectra.h"
 #include "runtime/world/stars.h"
 #include "runtime/world/world.h"
@@ -53,6 +54,7 @@ struct GpuWorld {
     vk::raii::Sampler nearest_sampler = nullptr, sky_sampler = nullptr; ///< theirs
 
     StarField stars; ///< empty without stars
+    SkyNames sky_names;
     std::unique_ptr<GpuGlobes> globes; ///< null: none
 
     Spectra spectra;

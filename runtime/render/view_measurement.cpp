@@ -70,7 +70,7 @@ void ViewMeasurement::prepare()
 
 void ViewMeasurement::prepare_overlay()
 {
-    const bool figures_on = what_.over.figures && !figures().empty();
+    const bool figures_on = what_.over.figures && !world_.sky_names.constellations.empty();
     if (!overlay_ || (figures_on && !overlay_->has_figures()))
         overlay_ = std::make_unique<OverlayPass>(
             device_, pipelines_, views_.all.size(), figures_on ? figures() : std::vector<glm::vec4>());
@@ -79,14 +79,11 @@ void ViewMeasurement::prepare_overlay()
             measuring_observer_at(views_.all[i], eyes_.all[views_.all[i].eye].now_m + views_.all[i].beside_m), world_);
 }
 
-/// The table of the constellations' lines, which takes a few hundredths of a second once; empty where no file has them.
+/// The table of the constellations' lines, which takes a few hundredths of a second once.
 const std::vector<glm::vec4>& ViewMeasurement::figures()
 {
-    if (!figures_) {
-        figures_.emplace();
-        if (const std::filesystem::path file = sky_names_of(world_.scene); !file.empty())
-            figures_ = figure_table(load_sky_names(file), world_from_equatorial(world_.scene.stars->ahead_deg));
-    }
+    if (!figures_)
+        figures_ = figure_table(world_.sky_names, world_from_equatorial(world_.scene.stars->ahead_deg));
     return *figures_;
 }
 

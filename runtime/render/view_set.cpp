@@ -240,8 +240,8 @@ PanelPass::Place ViewSet::place_over_middle(const glm::dvec2& half) const
 
 PanelPass::Place ViewSet::place_at(const glm::dvec3& towards, const glm::dvec2& half) const
 {
-    const HudPlacement there{.azimuth_deg = std::atan2(towards.x, -towards.z) / degree,
-        .elevation_deg = std::asin(std::clamp(towards.y, -1.0, 1.0)) / degree};
+    const glm::dvec2 angles = azimuth_elevation_deg(towards);
+    const HudPlacement there{.azimuth_deg = angles.x, .elevation_deg = angles.y};
     return {panel_from_cockpit(there, compiled_views()), half};
 }
 

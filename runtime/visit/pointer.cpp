@@ -9,8 +9,7 @@ namespace {
 /// From one unit direction towards another along the great circle, by an angle at most.
 glm::dvec3 turned(const glm::dvec3& from, const glm::dvec3& to, double most_rad)
 {
-    const double angle = std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
-    if (angle <= most_rad)
+    if (angle_between(from, to) <= most_rad)
         return to;
     glm::dvec3 across = to - glm::dot(from, to) * from;
     if (glm::length(across) < 1e-9) // right behind: any way is as short
@@ -22,8 +21,7 @@ glm::dvec3 turned(const glm::dvec3& from, const glm::dvec3& to, double most_rad)
 
 void Pointer::touch(double azimuth_deg, double elevation_deg)
 {
-    const double a = azimuth_deg * degree, e = elevation_deg * degree;
-    target_ = {std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)};
+    target_ = direction_of({azimuth_deg, elevation_deg});
     left_s_ = stays_s;
     if (strength_ == 0)
         towards_ = target_;

@@ -4,6 +4,7 @@
 #include "config/json/whole_file.h"
 #include "config/model/angles.h"
 #include "gltf/parts.h"
+#include "stars.h"
 #include <algorithm>
 #include <cmath>
 
@@ -106,6 +107,13 @@ std::shared_ptr<const Globes> load_globes(const std::filesystem::path& file)
         globes->parts.push_back(means.parts);
     }
     return globes;
+}
+
+std::vector<SeenGlobe> seen_globes(const Globes& globes, const SceneFile& scene, const Shot& shot)
+{
+    const glm::dmat3 turn = world_from_equatorial(scene.stars ? scene.stars->ahead_deg : glm::dvec2(0));
+    return globes_seen(globes.system, world_origin(globes.system, scene.globes.value()),
+        {shot.position, shot.time, turn, scene.unit_m, scene.seconds_per_time_unit()});
 }
 
 } // namespace starbow

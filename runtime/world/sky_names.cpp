@@ -76,13 +76,13 @@ SkyNames load_sky_names(const std::filesystem::path& file)
     return all;
 }
 
-std::filesystem::path sky_names_of(const SceneFile& scene)
+SkyNames sky_names_of(const SceneFile& scene)
 {
     if (!scene.stars)
         return {};
     const std::filesystem::path file = scene.stars->catalogue.parent_path() / "names.json";
     std::error_code ignored;
-    return std::filesystem::exists(file, ignored) ? file : std::filesystem::path();
+    return std::filesystem::exists(file, ignored) ? load_sky_names(file) : SkyNames();
 }
 
 const std::string& name_in(const NameByLanguage& names, const std::string& language)

@@ -32,8 +32,8 @@ struct SkyNames {
 
 /// Reads a file of names; scenes/stars/README.md describes it. Throws InputError.
 SkyNames load_sky_names(const std::filesystem::path& file);
-/// The file of a scene with stars: names.json beside its catalogue; empty where there is none.
-std::filesystem::path sky_names_of(const SceneFile& scene);
+/// A scene's names: of names.json beside its catalogue of stars; nothing where there is no such file.
+SkyNames sky_names_of(const SceneFile& scene);
 
 /// The name in a language, or else in English.
 const std::string& name_in(const NameByLanguage& names, const std::string& language);

@@ -181,6 +181,11 @@ TEST(TourFile, WrongToursAreRefusedByReaderAndSchema)
                 "/steps/1/measure/at: [0,0,0] is a place too many"},
             {with(R"("cut": "start", "thrust": { "rapidity_per_s": 1 })"), "/steps/1/thrust: "},
             {with(R"("glide": { "effects": {} })"), "/steps/1/glide/effects"},
+            {with(R"("highlights": [{ "name": { "en": "x" }, "at": [0, 0, 0], "across": 1, "globe": "Earth" }])"),
+                "has a globe, whose place and size are known, and \"at\""},
+            {with(R"("highlights": [{ "name": { "en": "x" }, "body": "train" }])"), "/steps/1/highlights/0: "},
+            {with(R"("highlights": [{ "name": { "en": "x" }, "globe": "Earth", "body": "train" }])"),
+                "/steps/1/highlights/0/body: \"train\" conflicts with"},
             {with(
                  R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "quantity": "gamma" } })"),
                 "needs one way to answer"}}) {
@@ -197,6 +202,8 @@ TEST(TourFile, WrongToursAreRefusedByReaderAndSchema)
             {with(R"("caption": "tour.first-minute.back")"), "has {measured} in its text"},
             {with(R"("measure": { "quantity": "gamma" }, "title": { "en": "{measured}" })"),
                 "/steps/1/title: {\"en\":\"{measured}\"} has a number's place"},
+            {with(R"("highlights": [{ "name": { "en": "{measured}" }, "at": [0, 0, 0], "across": 1 }])"),
+                "/steps/1/highlights/0/name: {\"en\":\"{measured}\"} has a number's place"},
             {with(R"("ease_s": [1, 1.1])"), "/steps/1/ease_s: [1,1.1] is longer than the step"},
             {with(R"("ease_s": [1, 1], "glide": {})"), "/steps/1/ease_s: "},
             {with(R"("thrust": { "rapidity_per_s": 1, "towards": [0, 0, 0] })"), "points nowhere"},

@@ -47,7 +47,7 @@ dvec3 star(double distance, double ra_deg, double dec_deg, const dvec2& ahead_de
     return distance * dvec3(glm::dot(n, west), glm::dot(n, north), -glm::dot(n, ahead));
 }
 
-/// Where the things of the shipped tours' highlights are when they are seen, and the greatest error of the ring, degrees.
+/// The place of a shipped tour's highlighted thing when its light left, and the greatest error of the ring, degrees.
 struct Thing {
     std::function<dvec3(const Frame&)> at;
     double within_deg = 0.05;

@@ -98,7 +98,7 @@ TEST(LabClass, ThePageHasEveryGroupInAColourAndAMarkOfItsOwn)
 {
     for (const char* language : {"en", "de"}) {
         const std::string page = class_page(shipped_class(), words(language));
-        // What was seen alone: ticks of two groups, lengths of one. The clocks on board are all computed.
+        // Points by eye alone: ticks of two groups, lengths of one. The clocks on board are all computed.
         EXPECT_EQ(count_of(page, "<table class=\"seen"), 2);
         EXPECT_EQ(count_of(page, "role=\"img\""), 3);
         EXPECT_GE(count_of(page, "class=\"theory\""), 4); // D at its speeds, length, clock, and the legend

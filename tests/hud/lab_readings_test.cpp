@@ -20,7 +20,7 @@ std::string refusal(const std::string& bytes)
 }
 StudentReading reading(double value, double uncertainty, double theory, long line = 2)
 {
-    return {"A1", value, uncertainty, theory, line};
+    return {{value, uncertainty, theory}, "A1", line};
 }
 
 /// The upper tail of chi-square's density by the trapezoidal rule over the root of chi-square, where it is smooth.
@@ -148,7 +148,7 @@ TEST(LabReadings, ALogsLineHasAReadingOrNone)
     lab.log();
     EXPECT_FALSE(reading_of(lab.lines()[0]));
     const std::string without = lab.bytes;
-    lab.log({{LabQuantity::wavelength, 630, 4, 635.1}});
+    lab.log(WrittenReading{{630, 4, 635.1}, LabQuantity::wavelength});
     const std::vector<LabLine> lines = lab.lines();
     const std::optional<StudentReading> reading = reading_of(lines[1]);
     ASSERT_TRUE(reading);

@@ -566,7 +566,7 @@ TEST(Overlay, ConstellationsAreLinesFromStarToStarBehindEverything)
     const GpuWorld world = constellations_world();
     const glm::dmat3 turn = world_from_equatorial({84, -5});
     std::vector<std::pair<dvec3, dvec3>> lines;
-    for (const Constellation& one : load_sky_names(sky_names_of(world.scene)).constellations)
+    for (const Constellation& one : world.sky_names.constellations)
         for (const auto& line : one.lines)
             for (std::size_t i = 0; i + 1 < line.size(); ++i)
                 lines.emplace_back(turn * line[i], turn * line[i + 1]);

@@ -17,7 +17,7 @@
 #include "runtime/images/capture.h"
 #include "runtime/shadow/still_things.h"
 #include "runtime/world/blended.h"
-#include "runtime/world/ephemeris.h"
+#include "runtime/world/globes.h"
 #include "runtime/world/open_scene.h"
 #include "runtime/world/spectral_errors.h"
 #include "runtime/world/stars.h"
@@ -110,13 +110,12 @@ void print_globes(const SceneFile& scene, const Globes& globes)
 {
     const WorldOrigin origin = world_origin(globes.system, scene.globes.value());
     const glm::dmat3 turn = world_from_equatorial(scene.stars ? scene.stars->ahead_deg : glm::dvec2(0));
-    EyeAmongGlobes eye{glm::dvec3(0), 0, turn, scene.unit_m, scene.seconds_per_time_unit()};
     const std::vector<glm::dvec3> places = globe_places_m(globes.system, origin.days);
     std::printf(
         "globes at %s's date from %s: place (x, y, z) at that time and radius, scene units; as %s sees it: light travel "
         "time in minutes, right ascension and declination (J2000)\n",
         scene.name.c_str(), scene.globes->origin.c_str(), scene.globes->origin.c_str());
-    for (const SeenGlobe& one : globes_seen(globes.system, origin, eye)) {
+    for (const SeenGlobe& one : seen_globes(globes, scene, {})) {
         const Globe& globe = globes.system.globes[one.globe];
         const glm::dvec3 n = glm::transpose(turn) * (one.from_eye / one.distance);
         const glm::dvec3 place = turn * (places[one.globe] - origin.place_m) / scene.unit_m;

@@ -124,8 +124,7 @@ int render(const RenderOptions& options)
     PictureSetup names;
     if (options.sky_names) {
         PictureState now{.shot = shot, .range = curve, .bloom = options.bloom};
-        if (const std::filesystem::path file = sky_names_of(context.world.scene); !file.empty())
-            name_sky(load_sky_names(file), context.world, options.language, now);
+        name_sky(context.world, options.language, now);
         names.set_up(now, words, renderer.frame());
     }
     render_still(options.out, renderer, shot, options.exr, panel ? &*panel : nullptr);
