@@ -90,7 +90,10 @@
     CONSTANT(46, bool, WORLD_ALONE, world_alone, false) /* of several rest frames only the world's is seen here */ \
     CONSTANT(47, int, REST_FRAMES, rest_frames, 1) /* of the world; MAX_REST_FRAMES: more than a few */
 #define PANORAMA_CONSTANTS(CONSTANT) CONSTANT(48, bool, MILKY_WAY, milky_way, false) /* the sky has a panorama */
-#define GLOBE_CONSTANTS(CONSTANT) CONSTANT(49, int, GLOBES, globes, 0) /* of the world */
+#define GLOBE_CONSTANTS(CONSTANT) \
+    CONSTANT(49, int, GLOBES, globes, 0) /* of the world */ \
+    CONSTANT(54, bool, EACH_GLOBE, each_globe, false) /* in turn for all pixels of a group, which then share its numbers: \
+                                                        faster on a GPU; otherwise those alone that a pixel meets */
 #define RANGE_CONSTANTS(CONSTANT) CONSTANT(50, bool, RANGE, range, false) /* through the curve that shows all at once */
 #define PART_CONSTANTS(CONSTANT) CONSTANT(51, bool, LAYERED, layered, false) /* by the view's part of each pixel */
 // Light for the glow, before the tone curve; alpha 0: shows nothing.

@@ -291,6 +291,30 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
         light = light * mix(1.0, through_ring, disc) + ring_light * disc;
 }
 
+// The light of a direction with globe number i before it. distance: the nearest globe's along n, on return.
+void add_disc(int i, vec3 n, float angle, ShiftColumn column, inout vec3 light, inout float distance)
+{
+    GlobeEntry g = globe(i);
+    float pixels = g.shape.z / angle, disc = 1.0 - point_part(pixels);
+    if (disc <= 0.0)
+        return;
+    // A small disc changes within a pixel: four rays.
+    int rays = pixels < 8.0 ? 4 : 1;
+    vec3 side = normalize(cross(n, abs(n.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0))), up = cross(side, n);
+    vec3 sum = vec3(0.0), behind = light;
+    for (int k = 0; k < rays; ++k) {
+        vec2 off = rays == 1 ? vec2(0.0) : (vec2(k & 1, k >> 1) - 0.5) * (0.5 * angle);
+        light = behind;
+        add_globe(g, normalize(n + side * off.x + up * off.y), angle / sqrt(float(rays)), disc, column, light);
+        sum += light;
+    }
+    GlobeRay middle = globe_ray(g, n, angle);
+    if (covered(middle) > 0.5)
+        distance = (middle.ahead - sqrt(max(1.0 - middle.square, 0.0)))
+            / length(vec3(dot(g.row0.xyz, n), dot(g.row1.xyz, n), dot(g.row2.xyz, n)));
+    light = sum / float(rays);
+}
+
 // The light of a direction with all globes before it; they are sorted, the farthest first. Without the headlight effect.
 // light: the sky's, as light_seen has it.
 void add_globes(vec3 n, float angle, float D, inout vec3 light, inout float distance)
@@ -308,28 +332,11 @@ void add_globes(vec3 n, float angle, float D, inout vec3 light, inout float dist
     gain *= globes.first.x;
     ShiftColumn column = shift_column(D);
     light /= max(gain, 1e-37);
-    while (hits != 0) {
-        int i = findLSB(hits);
-        hits &= hits - 1;
-        GlobeEntry g = globe(i);
-        float pixels = g.shape.z / angle, disc = 1.0 - point_part(pixels);
-        if (disc <= 0.0)
-            continue;
-        // A small disc changes within a pixel: four rays.
-        int rays = pixels < 8.0 ? 4 : 1;
-        vec3 side = normalize(cross(n, abs(n.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0))), up = cross(side, n);
-        vec3 sum = vec3(0.0), behind = light;
-        for (int k = 0; k < rays; ++k) {
-            vec2 off = rays == 1 ? vec2(0.0) : (vec2(k & 1, k >> 1) - 0.5) * (0.5 * angle);
-            light = behind;
-            add_globe(g, normalize(n + side * off.x + up * off.y), angle / sqrt(float(rays)), disc, column, light);
-            sum += light;
-        }
-        GlobeRay middle = globe_ray(g, n, angle);
-        if (covered(middle) > 0.5)
-            distance = (middle.ahead - sqrt(max(1.0 - middle.square, 0.0)))
-                / length(vec3(dot(g.row0.xyz, n), dot(g.row1.xyz, n), dot(g.row2.xyz, n)));
-        light = sum / float(rays);
+    for (int k = 0; EACH_GLOBE ? k < GLOBES : hits != 0; ++k) {
+        int i = EACH_GLOBE ? k : findLSB(hits);
+        if ((hits >> i & 1) != 0)
+            add_disc(i, n, angle, column, light, distance);
+        hits &= ~(1 << i);
     }
     light *= gain;
 }

@@ -60,7 +60,8 @@ WarpVariant ViewConstants::variant(const ViewState& view) const
     const std::vector<RestFrameView>& read = eyes_.observer_of(view).rest_frames;
     variant.unaligned = !std::all_of(read.begin(), variant.several_rest_frames ? read.end() : read.begin() + 1,
         [](const RestFrameView& one) { return one.aligned(); });
-    variant.globes = world_.globes ? world_.globes->count() : 0;
+    if (world_.globes)
+        variant.globes = world_.globes->count(), variant.each_globe = world_.globes->in_turn;
     variant.galilean = on.comparison == Comparison::galilean;
     variant.by_table = variant.doppler || needs_table(on, light);
     return variant;

@@ -362,6 +362,43 @@ TEST(Globes, LightIsThatOfTheRaysForBothEyes)
     expect_all_close("stereo: ", 4, [&](double) { return layout; });
 }
 
+/// On a GPU the shaders take each globe in turn, in software those alone that a pixel meets.
+TEST(Globes, AreTheSameTakenInTurn)
+{
+    const Solar& s = solar();
+    LoadedScene loaded = load_scene(scene_file());
+    device().draws_as_gpu = true;
+    const GpuWorld gpu = upload(device(), pipelines(), std::move(loaded.world), loaded.scene, {});
+    device().draws_as_gpu = false;
+    std::vector<Subject> all;
+    for (const Subject& one : subjects())
+        if (std::string_view(one.name) == "the limb from 400 km" || std::string_view(one.name) == "Saturn's dark rings"
+            || std::string_view(one.name) == "a small Mars of 3 pixels")
+            all.push_back(one);
+    EXPECT_EQ(all.size(), 3U);
+    const dvec3 beyond = tilted(glm::normalize(s.place("Moon") - s.place("Earth")), s.pole("Earth"), 10);
+    all.push_back({"the Moon before a part of the Earth", s.place("Moon") + beyond * (6 * s.radius("Moon")), -beyond, 30});
+    for (const Subject& one : all)
+        for (const Speed& speed : {speeds[0], speeds[3]}) {
+            const auto [shot, D] = shot_of(one, speed);
+            const Layout layout = one_view(Planar{.fov_y_deg = shrunk(one.fov_deg, D)}, {96, 72});
+            OffscreenRenderer met(device(), pipelines(), s.gpu, layout, test_quality(), true);
+            OffscreenRenderer in_turn(device(), pipelines(), gpu, layout, test_quality(), true);
+            const Numbers a(met, shot), b(in_turn, shot);
+            int lit = 0, differ = 0;
+            for (int i = 0; i < a.count(); ++i) {
+                const bool same_depth = a.depth(i) == b.depth(i) || (std::isinf(a.depth(i)) && std::isinf(b.depth(i)));
+                lit += a.light(i) != dvec3(0), differ += a.light(i) != b.light(i) || !same_depth;
+            }
+            EXPECT_GT(lit, 20) << one.name << ", " << speed.name;
+            EXPECT_EQ(differ, 0) << one.name << ", " << speed.name;
+            EXPECT_EQ(met.picture(shot)[0], in_turn.picture(shot)[0]) << one.name << ", " << speed.name;
+        }
+    const auto made = pipelines().made();
+    EXPECT_TRUE(std::ranges::any_of(
+        made, [](const auto& one) { return describe(one.first).find("each_globe") != std::string::npos; }));
+}
+
 /// The two wrong pictures, and the right one without each effect.
 TEST(Globes, LightIsThatOfTheRaysWithOtherEffects)
 {
