@@ -179,8 +179,13 @@ std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings
         const double size = fitting(typesetter, text, room, largest);
         lines.push_back({text, x - 0.5 * width_of(typesetter, text, size), baseline, size});
     };
-    middle(shown_percent(readings.beta_deficit, words), gauge_middle.x, gauge_middle.y + 0.09, 0.52, 0.24);
-    middle(words("say.of_light"), gauge_middle.x, 0.94, 0.9, least_lettering);
+    middle(shown_percent(readings.beta_deficit, words), gauge_middle.x, gauge_middle.y + 0.04, 0.52, 0.24);
+    // "of" stands within the dial: below it is no room for all.
+    const std::string of_light = words("say.of_light");
+    const std::size_t first = of_light.find(' ');
+    middle(of_light.substr(0, first), gauge_middle.x, 0.72, 0.4, least_lettering);
+    if (first != std::string::npos)
+        middle(of_light.substr(first + 1), gauge_middle.x, 0.94, 0.9, least_lettering);
 
     const double times_s[] = {readings.ship_s, readings.world_s};
     constexpr Key keys[] = {"say.clock_board", "say.clock_world"};
