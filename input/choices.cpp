@@ -17,6 +17,9 @@ bool apply(Choices& choices, const Command& command)
     case CommandKind::range:
         choices.range = command.on;
         return true;
+    case CommandKind::sky_names:
+        choices.sky_names = command.on;
+        return true;
     case CommandKind::one_button:
         choices.one_button = command.on;
         return true;

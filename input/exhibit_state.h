@@ -61,7 +61,7 @@ inline constexpr SwitchedState switched_states[]{{CommandKind::fade, &ExhibitSta
     {CommandKind::slow_motion, &ExhibitState::slow_motion, "slow-motion"},
     {CommandKind::one_button, &ExhibitState::one_button, "one-button"},
     {CommandKind::left_handed, &ExhibitState::left_handed, "left-handed"},
-    {CommandKind::range, &ExhibitState::range, "range"}};
+    {CommandKind::sky_names, &ExhibitState::sky_names, "sky-names"}, {CommandKind::range, &ExhibitState::range, "range"}};
 
 /// Applies a command that switches an effect, or chooses a comparison. Returns false, and changes nothing, for any other.
 /// Throws InputError for an unknown comparison.

@@ -77,6 +77,7 @@ void apply_command(Session& session, const Command& command, Requests& requests)
         session.source->limit(command.number);
         break;
     case CommandKind::range:
+    case CommandKind::sky_names:
     case CommandKind::one_button:
     case CommandKind::left_handed:
     case CommandKind::language:

@@ -12,11 +12,12 @@ namespace {
 constexpr std::size_t longest_line = 1 << 16;
 
 /// True for a command whose effect the record's frames hold (what the hand did that steers, and the curve of brightness), or
-/// that has none on the flight, as the guide's pointer.
+/// that has none on the flight, as names in the sky and the guide's pointer.
 bool kept_in_frames(const Command& command)
 {
     return command.kind == CommandKind::one_button || command.kind == CommandKind::left_handed
-        || command.kind == CommandKind::range || command.kind == CommandKind::pointer;
+        || command.kind == CommandKind::range || command.kind == CommandKind::sky_names
+        || command.kind == CommandKind::pointer;
 }
 
 } // namespace

@@ -266,7 +266,7 @@ async function testKeyboard(browser) {
             await page.keyboard.press("Enter");
     }
     for (const name of ["fade", "stop", "reset", "point", "item-next", "tour", "go-tour", "back", "pause", "next", "scene", "go-scene", "shot", "go-shot",
-        "hold", "speed-limit", "exposure", "language", "aberration", "doppler", "headlight", "false-colours", "range", "slow-motion", "one-button", "left-handed", "information", "comparison", "caption",
+        "hold", "speed-limit", "exposure", "language", "aberration", "doppler", "headlight", "false-colours", "range", "sky-names", "slow-motion", "one-button", "left-handed", "information", "comparison", "caption",
         "caption-show", "log-out"])
         check(visited.includes(name), `Tab reaches ${name}`);
     check(visited.indexOf("fade") < visited.indexOf("tour") && visited.indexOf("fade") >= 0, "fade comes before the tours");
