@@ -34,6 +34,7 @@ bool apply(Choices& choices, const Command& command)
 void apply(Choices& choices, Switches pressed)
 {
     choices.range ^= pressed[Switch::range];
+    choices.filter ^= pressed[Switch::filter];
     choices.sky_names ^= pressed[Switch::sky_names];
     if (pressed[Switch::information])
         choices.information = after(choices.information);

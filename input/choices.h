@@ -15,6 +15,7 @@ struct Choices {
     InsetView inset = InsetView::none;
     bool sky_names = false; ///< of constellations, stars and planets
     bool range = false; ///< everything is visible at once
+    bool filter = false; ///< a dark filter, through which the brightest thing in view is seen well
     bool one_button = false; ///< the visitor flies with one
     bool left_handed = false; ///< keyboard and sticks for a left-handed visitor
     bool operator==(const Choices&) const = default;

@@ -3,6 +3,7 @@
 #include "panorama.glsl"
 #include "physics/detail.glsl"
 #include "physics/eclipse.glsl"
+#include "physics/sun_surface.glsl"
 
 #include "constants.h"
 
@@ -244,10 +245,10 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
         }
         vec3 shown;
         vec2 place = place_in_panorama(normal) + vec2(0.5, 0.0);
-        float texels = g.map.y / 3.14159265 * ray.pixel / max(ray.ahead, 1e-9) * t / max(sqrt(mu), 0.3);
-        float level = log2(max(texels, 1e-9));
+        float pixel = ray.pixel / max(ray.ahead, 1e-9) * t / max(sqrt(mu), 0.3); // on the ground, radii
+        float level = log2(max(g.map.y / 3.14159265 * pixel, 1e-9));
         if (g.shape.w == GLOBE_SUN) {
-            shown = globe_colour(column, g.kinds.x, mu * (float(GLOBE_LEVELS) - 1.001));
+            shown = globe_colour(column, g.kinds.x, mu * (float(GLOBE_LEVELS) - 1.001)) * sun_surface(normal, pixel, mu);
         } else if (g.air.x > 0.0) {
             Ground here = detailed(g, normal, place, level);
             float way_down = mu_sun > 0.0 ? air_above(1.0, 1.0 / g.air.x, mu_sun) : 0.0;

@@ -118,8 +118,10 @@ FAULTS = [
     ("visit", "runtime/visit/docent.cpp", '(fades_ ? dt_s : -dt_s) / to_black_s', '(fades_ ? dt_s : -1) / to_black_s',
      "DocentTest.*"),
     ("visit", "runtime/visit/shown_light.cpp", 'exposure_.locked ^= now.locks;', '', "ShownLightTest.*"),
-    ("visit", "runtime/visit/shown_light.cpp", 'now.source.visitors_ev() : now.source.shown_ev(exposure_, rules_)) + now.directed_ev',
-     'now.source.visitors_ev() + now.directed_ev : now.source.shown_ev(exposure_, rules_))', "ShownLightTest.*"),
+    ("visit", "runtime/visit/shown_light.cpp", 'now.source.shown_ev(eye, rules) + now.directed_ev', 'now.source.shown_ev(eye, rules)',
+     "ShownLightTest.*"),
+    ("visit", "runtime/visit/shown_light.cpp", 'eye.offset_ev = 0, rules.automatic = true', 'rules.automatic = true', "ShownLightTest.*"),
+    ("visit", "runtime/visit/shown_light.cpp", 'now.filter && exposure_.ev', 'now.filter', "ShownLightTest.*"),
     ("visit", "runtime/visit/shown_light.cpp", 'begun_ev_ = source.begun_ev();', '', "ShownLightTest.*"),
 
     ("hud", "runtime/hud/hud_place.cpp", '{0, -1, half.y}', '{0, -1, half.x}', "HudPlaceTest.*"),

@@ -27,6 +27,7 @@ enum class Switch : std::uint8_t {
     comparison, ///< the next comparison, and back to the seen picture
     lock_exposure, ///< locks or unlocks the automatic exposure
     range, ///< shows everything at once by a curve, or with one exposure again
+    filter, ///< a dark filter before the eyes, or none again
     overlay, ///< the next instrument
     mark, ///< at the crosshair
     log, ///< a line of the log
@@ -126,6 +127,8 @@ inline constexpr std::array all_switches{
         "lock the automatic exposure, or release it", {'L'}},
     SwitchEntry{Switch::range, "range", Leap::toggle, Presser::visitor,
         "everything visible at once, with brightness compressed, on and off", {'V'}},
+    SwitchEntry{Switch::filter, "filter", Leap::toggle, Presser::visitor,
+        "a dark filter: the brightest thing in view, such as the Sun, shows its surface, on and off", {'F'}},
     SwitchEntry{Switch::overlay, "overlay", Leap::press, Presser::visitor,
         "instruments: crosshair, grid, ring of D = 1, distance, time of emission, protractor, spectrum, photometer, off",
         {'O'}, PadButton::start},

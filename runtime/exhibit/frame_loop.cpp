@@ -404,7 +404,8 @@ PictureState FrameLoop::next_picture_state(const Head& head)
     PictureState now{.shot = shot_of(flight, session_.content.start.scene, by_hand ? session_.rules.comfort : Comfort()),
         .head = head,
         .range = light.curve(),
-        .meters = session_.options.exposure.automatic || session_.choices.range || session_.options.exposure.calm,
+        .meters = session_.options.exposure.automatic || session_.options.exposure.calm || session_.choices.range
+            || session_.choices.filter,
         .bloom = bloom_of(session_.options.exposure, device_.on_processor()),
         .fade = light.fade(),
         .vignette = session_.rules.comfort.vignette.value_or(Vignette()),

@@ -44,9 +44,11 @@ ReplayRenderer::ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, con
 void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
 {
     RecordEntry now = entry;
+    filter_ ^= entry.controls[Switch::filter];
     light_.advance(now,
         {.source = FlownFlight(flight, start_ev_),
             .range = entry.ranged,
+            .filter = filter_,
             .locks = entry.controls[Switch::lock_exposure],
             .replays = true,
             .dt_s = 1e-9 * double(entry.dt_ns)});

@@ -39,6 +39,7 @@ private:
     Words words_;
     Comfort comfort_;
     InsetView inset_ = InsetView::none; ///< the inset
+    bool filter_ = false; ///< Choices::filter
     double telescope_deg_ = 0; ///< its telescope's field; 0: none
     PictureSetup pictures_;
     PictureState now_;

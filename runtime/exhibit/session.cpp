@@ -134,12 +134,12 @@ SessionContent attraction_of(const ExhibitOptions& options, const Words& words, 
 
 std::uint64_t digest(const Session& session)
 {
-    const auto& [language, information, inset, sky_names, range, one_button, left_handed] = session.choices;
+    const auto& [language, information, inset, sky_names, range, filter, one_button, left_handed] = session.choices;
     std::string text = session.content.scene.string() + '\n' + session.content.tour_name + '\n' + language + '\n'
         + session.words("hud.speed") + '\n';
     for (const int number : {int(session.alignment.pattern()), session.tutorial.lesson, int(session.light.locked()),
              int(session.lab.shows_anything()), int(session.menu.open), int(information), int(inset), int(sky_names),
-             int(range), int(one_button), int(left_handed), int(session.goals.current)})
+             int(range), int(filter), int(one_button), int(left_handed), int(session.goals.current)})
         text += std::to_string(number) + ' ';
     return digest(text, digest(session.flight()));
 }
@@ -373,6 +373,7 @@ void step(Session& session, RecordEntry& entry, const Metered& metered)
         {.source = *session.source,
             .metered = metered,
             .range = session.choices.range,
+            .filter = session.choices.filter,
             .locks = controls[Switch::lock_exposure],
             .replays = replays,
             .fade = std::max(session.docent.fade(), session.attendance.fade()),

@@ -170,8 +170,10 @@ std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r, c
     fields.push_back({words("hud.flight"), words(r.frozen ? "flight.frozen"_key : mode_words[std::size_t(r.mode)])});
     const double ev = std::round(10 * r.exposure_ev) / 10;
     const std::string sign = ev < 0 ? "−" : ev > 0 ? "+" : "";
-    std::string exposure = words(
-        r.exposure_locked ? "hud.ev_locked"_key : "hud.ev"_key, {{"ev", sign + shown_number(std::abs(ev), 1, words)}});
+    std::string exposure = words(r.exposure_locked ? "hud.ev_locked"_key
+            : r.filtered                           ? "hud.ev_filtered"_key
+                                                   : "hud.ev"_key,
+        {{"ev", sign + shown_number(std::abs(ev), 1, words)}});
     if (r.range)
         exposure = words("hud.ev_range",
             {{"stops", text("%.0f", r.range->stops)}, {"shown", text("%.0f", r.range->shown)}, {"ev", exposure}});

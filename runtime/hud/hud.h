@@ -51,6 +51,7 @@ struct Readings {
     bool frozen = false; ///< the world stands still
     double exposure_ev = 0;
     bool exposure_locked = false; ///< the visitor has locked it
+    bool filtered = false; ///< the picture, by a dark filter
     /// Stops of the view's luminance and of the shown one, where a curve shows everything at once.
     struct Range {
         double stops, shown;

@@ -145,6 +145,8 @@ std::string plain_sentence(const Readings& r, const Words& words)
     constexpr double ahead_cosine = 0.5; // within 60 degrees of the motion a visitor looks ahead, beyond 120 back
     const double beta = 1 - r.beta_deficit;
     const Effects& on = r.effects;
+    if (r.filtered)
+        return words("say.filter");
     if (on.comparison != Comparison::none)
         return words(on.comparison == Comparison::galilean ? "say.galilean"_key : "say.no_light_delay"_key);
     if (on[Effect::false_colours])

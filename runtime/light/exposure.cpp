@@ -21,14 +21,19 @@ struct Levels {
     double count; ///< number of lit samples
 };
 
+/// NaN luminances and luminances without light do not count. log: of the sample's luminance, to base 2.
+bool counts(const LuminanceSample& sample, double log)
+{
+    return log >= low_ev && log < high_ev && sample.solid_angle_sr > 0 && std::isfinite(sample.solid_angle_sr);
+}
+
 std::optional<Levels> levels(std::span<const LuminanceSample> view, bool in_space = false)
 {
     std::array<Bin, (high_ev - low_ev) * bins_per_ev> bins{};
     double all = 0, count = 0;
     for (const LuminanceSample& part : view) {
         const double log = std::log2(double(part.luminance));
-        // NaN luminances and luminances without light do not count.
-        if (!(log >= low_ev && log < high_ev && part.solid_angle_sr > 0 && std::isfinite(part.solid_angle_sr)))
+        if (!counts(part, log))
             continue;
         Bin& bin = bins[std::size_t((log - low_ev) * bins_per_ev)];
         bin.weight += part.solid_angle_sr, bin.sum += part.solid_angle_sr * log;
@@ -78,6 +83,16 @@ std::optional<double> metered_ev(
         ev = std::min(ev.value_or(mixed), mixed);
     }
     return ev;
+}
+
+std::optional<double> filtered_ev(std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars)
+{
+    double brightest = -INFINITY;
+    for (const std::span<const LuminanceSample> samples : {view, stars})
+        for (const LuminanceSample& one : samples)
+            if (const double log = std::log2(double(one.luminance)); counts(one, log))
+                brightest = std::max(brightest, log);
+    return std::isfinite(brightest) ? std::optional(std::log2(filtered_to_luminance) - brightest) : std::nullopt;
 }
 
 Exposure adapted_to(Exposure exposure, std::optional<double> ev, const Exposing& rules, double start_ev)

@@ -45,6 +45,11 @@ std::optional<double> metered_ev(
     std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars = {}, bool in_space = false);
 constexpr double bright_in_space = 0.995, dark_in_space = 10; ///< a part of the view; EV
 
+/// The exposure through a dark filter, EV: the brightest sample is at filtered_to_luminance. nullopt for a view without
+/// light, as above.
+std::optional<double> filtered_ev(std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars = {});
+constexpr double filtered_to_luminance = 0.8;
+
 /// Time constants of the adaptation to a brighter and to a darker view.
 constexpr double to_bright_s = 0.5, to_dark_s = 3;
 

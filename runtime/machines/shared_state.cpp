@@ -217,10 +217,10 @@ template <class Part> void transfer(Part& part, Readings::Range& range)
 template <class Part> void transfer(Part& part, Readings& readings)
 {
     auto& [beta_deficit, gamma, doppler_ahead, looked_cosine, ship_s, world_s, distance_m, light_speed_m_s, frames_per_s,
-        effects, mode, frozen, exposure_ev, exposure_locked, range, lever, prompt, caption, notice, information]
+        effects, mode, frozen, exposure_ev, exposure_locked, filtered, range, lever, prompt, caption, notice, information]
         = readings;
     transfer_all(part, beta_deficit, gamma, doppler_ahead, looked_cosine, ship_s, world_s, distance_m, light_speed_m_s,
-        frames_per_s, effects, mode, frozen, exposure_ev, exposure_locked, range, lever, prompt, caption, notice,
+        frames_per_s, effects, mode, frozen, exposure_ev, exposure_locked, filtered, range, lever, prompt, caption, notice,
         information);
 }
 

@@ -480,8 +480,10 @@ void GlobeSight::add_ground(
     const glm::dvec3 normal = glm::normalize(place * glm::dvec3(1, 1, polar * polar));
     const double mu = std::max(-glm::dot(normal, sight.direction), 0.0);
     const double weight = pixel.part * through.grey;
+    /// The pixel's width on the ground, radii.
+    const double width = pixel.rad * way * sight.ball_scale / globe.radius_m / std::max(std::sqrt(mu), 0.3);
     if (globe.scattering == Scattering::sun) {
-        double power = weight;
+        double power = weight * physics::sun_surface(normal, width, mu);
         for (int k = 0; k < 6; ++k, power *= mu) {
             out.terms.push_back({GlobeColours::sun + k, power, through.air});
             out.sun.push_back(out.terms.back());
@@ -515,9 +517,7 @@ void GlobeSight::add_ground(
     }
     const AirAround around{globe.radius_m, globe.air->scale_height_m};
     const glm::dvec4 above = texel(globes_.sky, normal, 1);
-    const double texels
-        = map.size.y / pi * pixel.rad * way * sight.ball_scale / globe.radius_m / std::max(std::sqrt(mu), 0.3);
-    const Detailed here(normal, body.to_sun, map.size.y, parts, glm::dvec2(above), -std::log2(texels));
+    const Detailed here(normal, body.to_sun, map.size.y, parts, glm::dvec2(above), -std::log2(map.size.y / pi * width));
     const double clouds = here.clouds;
     const double sun_size = sun_radius_m_ / body.sun_m;
     const double risen = smooth_step(-sun_size, sun_size, std::asin(std::clamp(mu_sun, -1.0, 1.0)));

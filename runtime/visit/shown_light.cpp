@@ -38,7 +38,7 @@ bool ShownLight::follow_leap(const FlightSource& source)
 /// Steps the curve that shows everything at once. The record's entry holds the view's numbers that it follows.
 void ShownLight::follow_range(RecordEntry& entry, const LightInputs& now, const Metered& metered)
 {
-    if (!now.range) {
+    if (!now.range || now.filter) {
         range_ = {};
         return;
     }
@@ -51,7 +51,13 @@ void ShownLight::follow_range(RecordEntry& entry, const LightInputs& now, const 
 
 double ShownLight::wanted_ev(const LightInputs& now) const
 {
-    return (curve() ? now.source.visitors_ev() : now.source.shown_ev(exposure_, rules_)) + now.directed_ev;
+    if (curve())
+        return now.source.visitors_ev() + now.directed_ev;
+    Exposure eye = exposure_;
+    Exposing rules = rules_;
+    if (now.filter) // whatever the start's exposure says
+        eye.offset_ev = 0, rules.automatic = true;
+    return now.source.shown_ev(eye, rules) + now.directed_ev;
 }
 
 /// Limits the turns of a calm exhibit's exposure and of its way to black.
@@ -75,7 +81,9 @@ void ShownLight::advance(RecordEntry& entry, const LightInputs& now)
     if (rules_.calm)
         guard(entry, now);
     leapt_ = follow_leap(now.source);
-    const Metered metered = leapt_ ? Metered() : now.metered;
+    Metered metered = leapt_ ? Metered() : now.metered;
+    if (now.filter && exposure_.ev) // the first view of a world sets the exposure's offset
+        metered.ev = filtered_ev(metered.surfaces, metered.stars);
     exposure_.locked ^= now.locks;
     exposure_ = now.replays ? adapted_to(exposure_, entry.exposure_ev, rules_, begun_ev_)
                             : adapted(exposure_, metered.ev, now.dt_s, rules_, begun_ev_);

@@ -20,6 +20,7 @@ struct LightInputs {
     const FlightSource& source; ///< after its step
     Metered metered;
     bool range = false; ///< a curve shows everything at once
+    bool filter = false; ///< the exposure is for the brightest thing, and no curve
     bool locks = false; ///< the exposure's lock is turned
     bool replays = false; ///< the entry holds the measurements of the recorded flight
     double fade = 0; ///< the wanted part of black over the picture

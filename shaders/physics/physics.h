@@ -17,6 +17,7 @@ using rvec4 = glm::dvec4;
 #include "galilean.glsl"
 #include "glare.glsl"
 #include "motion.glsl"
+#include "sun_surface.glsl"
 #include "worldline.glsl"
 } // namespace starbow::physics_double
 
@@ -33,6 +34,7 @@ using rvec4 = glm::vec4;
 #include "galilean.glsl"
 #include "glare.glsl"
 #include "motion.glsl"
+#include "sun_surface.glsl"
 #include "worldline.glsl"
 } // namespace starbow::physics_float
 #undef FN

@@ -61,6 +61,17 @@ const std::map<std::string, Thing>& things()
         {"simultaneity.left", still({-10, 0, 0})},
         {"simultaneity.middle", still({0, 0, 0})},
         {"simultaneity.right", still({10, 0, 0})}, // five clocks in a row, five apart
+        // Light that arrives abreast has D = 1 / gamma; the tour's ship flies to -x at half the speed of light.
+        {"rainbow.abreast",
+            {[](const Frame& frame) {
+                 double ahead = 0, behind = 40;
+                 for (int i = 0; i < 60; ++i) {
+                     const double x = 0.5 * (ahead + behind);
+                     (frame.D({x, 0, -3}) > std::sqrt(0.75) ? ahead : behind) = x;
+                 }
+                 return dvec3(ahead, 0, -3);
+             },
+                0.1}},
         {"twins.home", still({-1.3, 0, 0})},
         {"twins.traveller", {travellers_dial, 1}}, // that is astern of the ship's origin by 0.05 of 3.4
         {"street.mark", still({5, 1.7, -2.257})}, // 4 m beside the rider where the step begins

@@ -49,6 +49,8 @@ std::vector<Readings> all_states()
                 r.distance_m = 9.9e15;
                 all.push_back(r);
             }
+    all.push_back(at_rapidity(0.5));
+    all.back().filtered = true;
     return all;
 }
 

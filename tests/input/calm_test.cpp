@@ -391,7 +391,7 @@ TEST(CalmTest, EverySwitchThatChangesThePictureActsOnceASecond)
 TEST(CalmTest, ASecondPressOfATwoWaySwitchUndoesTheFirstWhileItWaitsAndOneOfTheOthersAddsNothing)
 {
     const std::set<std::string> two_ways{
-        "aberration", "doppler", "headlight", "false_colours", "range", "hud", "sky_names", "menu", "full_screen", "freeze"};
+        "aberration", "doppler", "headlight", "false_colours", "range", "filter", "hud", "sky_names", "menu", "full_screen", "freeze"};
     for (const SwitchEntry& one : all_switches) {
         if (of_words.contains(std::string(one.name)))
             continue;

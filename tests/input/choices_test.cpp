@@ -51,7 +51,9 @@ TEST(ChoicesTest, SwitchesLeadThroughAllValuesAndBack)
     EXPECT_TRUE(choices.range);
     apply(choices, Switches{Switch::sky_names});
     EXPECT_TRUE(choices.sky_names);
-    apply(choices, Switches{Switch::range, Switch::doppler, Switch::sky_names});
+    apply(choices, Switches{Switch::filter});
+    EXPECT_TRUE(choices.filter);
+    apply(choices, Switches{Switch::range, Switch::doppler, Switch::filter, Switch::sky_names});
     EXPECT_EQ(choices, Choices());
 }
 

@@ -44,7 +44,7 @@ SharedState full()
     Readings& shown = hud.readings;
     shown = {0.25, 4, 7.8, 0.3, 10, 40, 1e9, 299792458, 59.9,
         {{Effect::aberration, Effect::headlight}, Comparison::no_light_delay}, FlightMode::newtonian, true, 1.5, true};
-    shown.range = {20, 8}, shown.lever = 0.3, shown.prompt = "Schieben Sie den Hebel vor";
+    shown.range = {20, 8}, shown.filtered = true, shown.lever = 0.3, shown.prompt = "Schieben Sie den Hebel vor";
     shown.caption = Caption{"Wohin zuerst?", {"Sonne", "Mond"}, 1, 0, "noch 5 s", true, true};
     shown.notice = "kein Kopf", shown.information = Information::visitor;
     now.title = "Was sehen Sie nahe der Lichtgeschwindigkeit?";

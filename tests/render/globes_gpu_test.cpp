@@ -153,6 +153,7 @@ std::vector<Subject> subjects()
     all.push_back({"the Moon's shadow",
         s.place("Earth", 0) + tilted(glm::normalize(shadow), s.to_sun("Earth", 0), 30) * 2.5 * earth, dvec3(0), 30, 0});
     all.back().look = glm::normalize(s.place("Earth", 0) + shadow * earth - all.back().eye);
+    before("the Sun's surface from near", "Sun", -sun, 1.6, 60);
     for (Subject& one : all) {
         const std::string name = one.name;
         const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };

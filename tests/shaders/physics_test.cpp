@@ -986,6 +986,69 @@ TEST(Physics, DetailKeepsTheMeanOfTheMaps)
     }
 }
 
+/// A unit direction, even over the sphere.
+static dvec3 random_direction(std::mt19937_64& random)
+{
+    std::normal_distribution<double> number;
+    return glm::normalize(dvec3(number(random), number(random), number(random)));
+}
+
+TEST(Physics, TheSunsSurfaceKeepsItsLight)
+{
+    std::mt19937_64 random(5);
+    constexpr int count = 200000;
+    for (const double pixel : {1e-4, 5e-3}) {
+        double mean = 0, calm = 0, square = 0, spots = 0, umbra = 1;
+        int quiet = 0;
+        for (int i = 0; i < count; ++i) {
+            const dvec3 at = random_direction(random);
+            const double light = pd::sun_surface(at, pixel, 1);
+            mean += light / count, umbra = std::min(umbra, light);
+            spots += light < 0.7 * (1 - 3 * 0.14) ? 1.0 / count : 0;
+            if (std::abs(at.z) > 0.75)
+                calm += light, square += light * light, ++quiet;
+            EXPECT_GT(light, 0.1);
+            EXPECT_LT(light, 1.7);
+            // A float knows the place to 3e-5 of a granule's cell, and lanes are as steep as a root.
+            EXPECT_NEAR(
+                pf::sun_surface(glm::vec3(at), float(pixel), 1), pd::sun_surface(dvec3(glm::vec3(at)), pixel, 1), 0.02);
+        }
+        calm /= quiet;
+        const double spread = std::sqrt(square / quiet - calm * calm);
+        std::printf("  pixel %g: mean %.4f, without spots %.4f +- %.3f, umbras %.4f of the ground, darkest %.2f\n", pixel,
+            mean, calm, spread, spots, umbra);
+        EXPECT_NEAR(mean, 1, 0.005); // spots dim the whole Sun by 0.1 to 0.3 %
+        EXPECT_NEAR(calm, 1, 0.003);
+        EXPECT_NEAR(spread, pixel < 1e-3 ? 0.14 : 0, 0.005) << "granules finer than a pixel are not seen";
+        EXPECT_LT(umbra, 0.35);
+        EXPECT_GT(spots, 1e-4);
+        EXPECT_LT(spots, 3e-3);
+    }
+}
+
+// No place of the Sun has an edge that is not a spot's: no sector, no pole and no equator is seen.
+TEST(Physics, TheSunsSurfaceHasNoSeams)
+{
+    const double pixel = 2e-3; // without granules
+    const auto at = [](double latitude, double longitude) {
+        return dvec3(std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude), std::sin(latitude));
+    };
+    for (int i = 0; i < 400; ++i) {
+        const double latitude = (i - 199.5) / 200 * 0.8;
+        for (int sector = 0; sector < 12; ++sector) {
+            const double side = sector * pi / 6;
+            EXPECT_NEAR(pd::sun_surface(at(latitude, side - 1e-6), pixel, 0.2),
+                pd::sun_surface(at(latitude, side + 1e-6), pixel, 0.2), 1e-4)
+                << latitude << ' ' << sector;
+        }
+        const double longitude = i * pi / 200;
+        for (const double edge : {0.0, std::asin(0.7), -std::asin(0.7)})
+            EXPECT_NEAR(pd::sun_surface(at(edge - 1e-6, longitude), pixel, 0.2),
+                pd::sun_surface(at(edge + 1e-6, longitude), pixel, 0.2), 1e-4)
+                << edge << ' ' << longitude;
+    }
+}
+
 TEST(Physics, DetailsSlopeIsItsDifference)
 {
     std::mt19937_64 random(4);

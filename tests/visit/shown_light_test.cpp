@@ -83,6 +83,57 @@ TEST(ShownLightTest, ALockHoldsAndADocentsChangeIsAdded)
     EXPECT_FALSE(flown.light.locked()) << "the next visitor's eye adapts";
 }
 
+// A light of 2^20 beside a grey one. The filter comes as slowly as eyes adapt, shows the brighter one below white, whatever
+// the start's exposure and the rules are, and leaves no trace. A replay has the same exposures.
+TEST(ShownLightTest, AFilterIsForTheBrightest)
+{
+    const std::vector<LuminanceSample> view{{1 << 20, 0.01F}, {0.18F, 1}, {NAN, 1}};
+    for (const bool automatic : {true, false})
+        for (const ExposureMode mode : {ExposureMode::eye, ExposureMode::range}) {
+            const Exposing rules{.mode = mode, .automatic = automatic};
+            HandFlight source(start_at(-3), {}, 1), again(start_at(-3), {}, 1);
+            ShownLight light(rules), replayed(rules);
+            double before = 0;
+            for (int i = 0; i < 4000; ++i) {
+                const bool filter = i >= 1000 && i < 2000;
+                RecordEntry entry{.dt_ns = std::int64_t(1e9 * frame_s)};
+                LightInputs now{.source = source,
+                    .metered = {.ev = 0, .surfaces = view},
+                    .range = mode == ExposureMode::range,
+                    .filter = filter,
+                    .dt_s = frame_s};
+                light.advance(entry, now);
+                if (i % 1000 > 50) { // a curve begins with the numbers of a view
+                    EXPECT_EQ(light.curve().has_value(), now.range && !filter) << i;
+                }
+                if (i == 999)
+                    before = light.ev();
+                if (i == 1999) {
+                    EXPECT_NEAR(light.ev(), std::log2(filtered_to_luminance) - 20, 1e-3);
+                    EXPECT_LT(std::exp2(light.ev()) * (1 << 20), 1) << "white";
+                }
+                RecordEntry kept = entry;
+                replayed.advance(
+                    kept, {.source = again, .range = now.range, .filter = filter, .replays = true, .dt_s = frame_s});
+                EXPECT_EQ(replayed.ev(), light.ev()) << i;
+            }
+            EXPECT_NEAR(light.ev(), before, 1e-3) << "after the filter";
+        }
+}
+
+TEST(ShownLightTest, AWorldThatBeginsBehindAFilterHasItsOwnExposureWithoutIt)
+{
+    const std::vector<LuminanceSample> view{{1 << 20, 0.01F}, {0.18F, 1}};
+    HandFlight source(start_at(-3), {}, 1);
+    ShownLight light({});
+    for (int i = 0; i < 4000; ++i) {
+        RecordEntry entry{.dt_ns = std::int64_t(1e9 * frame_s)};
+        light.advance(
+            entry, {.source = source, .metered = {.ev = 5, .surfaces = view}, .filter = i < 1000, .dt_s = frame_s});
+    }
+    EXPECT_NEAR(light.ev(), -3, 1e-3);
+}
+
 TEST(ShownLightTest, BlackIsSmoothAndKeepsNoLight)
 {
     Flown flown({});
