@@ -95,8 +95,7 @@ constexpr double scale_heights = 10;
 
 GpuGlobes::GpuGlobes(Device& device, std::shared_ptr<const Globes> globes, const GlobeSky& sky, double seconds_per_time_unit,
     double unit_m, const glm::dmat3& world_from_equatorial)
-    : in_turn(device.draws_as_gpu)
-    , globes_(std::move(globes))
+    : globes_(std::move(globes))
     , origin_(world_origin(globes_->system, sky))
     , seconds_(seconds_per_time_unit)
     , unit_m_(unit_m)

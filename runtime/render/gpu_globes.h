@@ -36,7 +36,6 @@ public:
     /// The globes as stars, in the same order: count() entries.
     void as_stars(const Seen& seen, std::span<shared::StarEntry> entries) const;
 
-    const bool in_turn; ///< shaders take each globe in turn
     Image maps, fine_maps, rings;
     Image light, false_light;
     vk::raii::Sampler map_sampler = nullptr, ring_sampler = nullptr;

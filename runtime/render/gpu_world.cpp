@@ -403,7 +403,7 @@ GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFi
     place_bodies(world, scene);
     sort_instances(world);
     add_blended_triangles(world);
-    gpu.scene = scene;
+    gpu.scene = scene, gpu.as_gpu = device.draws_as_gpu;
     gpu.sky_names = sky_names_of(scene);
     gpu.brightest = brightest(world, scene);
     gpu.vertices

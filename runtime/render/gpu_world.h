@@ -55,6 +55,7 @@ struct GpuWorld {
 
     StarField stars; ///< empty without stars
     SkyNames sky_names;
+    bool as_gpu = false; ///< Device::draws_as_gpu when it was uploaded
     std::unique_ptr<GpuGlobes> globes; ///< null: none
 
     Spectra spectra;

@@ -47,11 +47,13 @@ void make_views(Pipelines& pipelines)
     also([](WarpVariant& v) { v.map = v.stars = v.milky_way = v.range = v.mips = true; });
     also([](WarpVariant& v) { v.rays = 2, v.cut = v.linear = v.layered = true; });
     also([](WarpVariant& v) { v.channels = v.map = v.unaligned = true; });
-    also([](WarpVariant& v) { v.several_rest_frames = v.stars = true, v.rest_frames = 4, v.coefficients.reflected = 12; });
+    also([](WarpVariant& v) {
+        v.several_rest_frames = v.stars = true, v.rest_frames = MAX_REST_FRAMES, v.coefficients.reflected = 12;
+    });
     also([](WarpVariant& v) { v.reproject = v.turning = v.stars = true; });
     also([](WarpVariant& v) { v.globes = 9, v.each_globe = v.stars = v.map = true; });
     also([](WarpVariant& v) { v.globes = 9, v.rays = 2, v.each_globe = v.several_rest_frames = v.reproject = true; });
-    also([](WarpVariant& v) { v.several_rest_frames = true, v.rays = 2, v.rest_frames = 4; });
+    also([](WarpVariant& v) { v.several_rest_frames = true, v.rays = 2, v.rest_frames = MAX_REST_FRAMES; });
     also([](WarpVariant& v) { v.reproject = true, v.rays = 2; });
     also([](WarpVariant& v) { v.galilean = true; });
     also([](WarpVariant& v) { v.single = true, v.aberration = v.doppler = v.headlight = v.by_table = false; });
@@ -106,7 +108,7 @@ constexpr Ceiling ceilings[] = {
     {"layer pipeline", 25, 25, 62, 24},
     {"lookup pipeline", 48, 48, 62, 24},
     {"mapped surface pipeline", 238, 8140, 9341, 128},
-    {"measure pipeline", 290, 177825, 62, 160},
+    {"measure pipeline", 290, 177825, 62, 128},
     {"meter pipeline", 74, 27038, 62, 128},
     {"mip pipeline", 35, 35, 62, 24},
     {"overlay pipeline", 707, 780, 62, 24},
