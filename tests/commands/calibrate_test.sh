@@ -109,7 +109,7 @@ echo 'mine' > "$folder/there.json"
     sed 's/"vid"/"serial": "A\/12", "vid"/' "$hid/thrustmaster-t16000m.json" > "$folder/hid/thrustmaster-t16000m.json"
     hid=$folder/hid
     play 0 "$(by_serial)" calibrate --quick
-    check 'a profile by serial number' "HudText to $folder/serial/starbow/profiles/044f-b10a-A_12.json."
+    check 'a profile by serial number' "Written to $folder/serial/starbow/profiles/044f-b10a-A_12.json."
     play 0 $'plug thrustmaster-t16000m 0\nstart' devices
     check 'the profile that devices lists' 'profile: Mine'
     exit $failed
@@ -174,7 +174,7 @@ session=$(
 play 0 "$session" calibrate
 check 'the first step' 'The middle.'
 check 'two axes at once' 'Several moved: Y axis and twist (Rz).'
-check 'the last line' "HudText to $written."
+check 'the last line' "Written to $written."
 [[ $said == *'counts before it'* ]] && fail "another profile goes before it: $said"
 python3 - "$written" << 'END' || fail "the written profile is wrong: $(cat "$written")"
 import json, sys
