@@ -121,7 +121,7 @@ FAULTS = [
     ("visit", "runtime/visit/shown_light.cpp", 'now.source.shown_ev(eye, rules) + now.directed_ev', 'now.source.shown_ev(eye, rules)',
      "ShownLightTest.*"),
     ("visit", "runtime/visit/shown_light.cpp", 'eye.offset_ev = 0, rules.automatic = true', 'rules.automatic = true', "ShownLightTest.*"),
-    ("visit", "runtime/visit/shown_light.cpp", 'now.filter && exposure_.ev', 'now.filter', "ShownLightTest.*"),
+    ("visit", "runtime/visit/shown_light.cpp", 'filtered_ && exposure_.ev', 'filtered_', "ShownLightTest.*"),
     ("visit", "runtime/visit/shown_light.cpp", 'begun_ev_ = source.begun_ev();', '', "ShownLightTest.*"),
 
     ("hud", "runtime/hud/hud_place.cpp", '{0, -1, half.y}', '{0, -1, half.x}', "HudPlaceTest.*"),

@@ -105,7 +105,7 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
     if (shown.caption && !shown.caption->flying)
         shown.lever.reset();
     shown.exposure_ev = exposure_ev, shown.exposure_locked = session.light.locked();
-    shown.filtered = session.choices.filter && by_hand;
+    shown.filtered = session.light.filtered();
     if (const std::optional<RangeCurve>& curve = session.light.curve())
         shown.range = Readings::Range{curve->stops(), curve->shown_stops()};
     shown.notice = notice_of(session);

@@ -59,7 +59,7 @@ MenuPage switches_of(const Session& session)
             effects.push_back(switch_of(words, effect_keys[std::size_t(one.which)],
                 {.kind = CommandKind::effect, .effect = one.which}, on[one.which]));
     page.items.insert(page.items.begin(), effects.begin(), effects.end());
-    if (session.content.has_stars)
+    if (session.sky_has_names)
         page.items.push_back(
             switch_of(words, "menu.sky_names", {.kind = CommandKind::sky_names}, session.choices.sky_names));
     if (session.options.log.empty())

@@ -44,11 +44,11 @@ ReplayRenderer::ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, con
 void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
 {
     RecordEntry now = entry;
-    filter_ ^= entry.controls[Switch::filter];
+    apply(choices_, entry.controls);
     light_.advance(now,
         {.source = FlownFlight(flight, start_ev_),
             .range = entry.ranged,
-            .filter = filter_,
+            .filter = choices_.filter,
             .locks = entry.controls[Switch::lock_exposure],
             .replays = true,
             .dt_s = 1e-9 * double(entry.dt_ns)});
@@ -63,8 +63,6 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
             alignment_.say(one_line(error.what()));
         }
     }
-    if (controls[Switch::inset])
-        inset_ = after(inset_);
     now_.head = controls.head;
     now_.fade = light_.fade();
 }
@@ -78,8 +76,8 @@ std::vector<std::vector<std::uint8_t>> ReplayRenderer::picture(
     now_.vignette_part = flight.vignette;
     now_.pattern = alignment_.pattern();
     now_.inset.reset();
-    if (inset_ != InsetView::none)
-        now_.inset = inset_picture(inset_, now_.shot, start_ev_, telescope_deg_, words_);
+    if (choices_.inset != InsetView::none)
+        now_.inset = inset_picture(choices_.inset, now_.shot, start_ev_, telescope_deg_, words_);
     pictures_.set_up(now_, words_, renderer_.frame());
     return renderer_.picture(now_.shot, hud);
 }

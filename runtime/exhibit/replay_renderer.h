@@ -1,5 +1,6 @@
 #pragma once
 #include "alignment_mode.h"
+#include "input/choices.h"
 #include "picture_setup.h"
 #include "runtime/flight/flight.h"
 #include "runtime/flight/record.h"
@@ -38,8 +39,7 @@ private:
     double start_ev_;
     Words words_;
     Comfort comfort_;
-    InsetView inset_ = InsetView::none; ///< the inset
-    bool filter_ = false; ///< Choices::filter
+    Choices choices_; ///< by the visitor's switches
     double telescope_deg_ = 0; ///< its telescope's field; 0: none
     PictureSetup pictures_;
     PictureState now_;

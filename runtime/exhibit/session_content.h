@@ -12,7 +12,6 @@ namespace starbow {
 struct SessionContent {
     std::filesystem::path scene;
     Shot start; ///< a reset returns here
-    bool has_stars = false; ///< the scene's sky, whose names can be shown
     std::string shot{}; ///< name or path of the start's shot; empty: the scene's own start, or the tour's
     std::string tour_name{}; ///< name or path; empty: no tour
     std::optional<Tour> tour{};

@@ -55,7 +55,7 @@ std::optional<SeenHighlight> seen_on(const Body& body, const Highlight& highligh
 std::optional<SeenHighlight> seen_globe(
     const Globes& globes, const std::string& name, const Shot& shot, const SceneFile& scene)
 {
-    for (const SeenGlobe& seen : seen_globes(globes, scene, shot))
+    for (const SeenGlobe& seen : globes_seen(globes, scene, shot))
         if (const Globe& globe = globes.system.globes[seen.globe]; globe.name == name)
             return seen_at(shot, shot.position + seen.from_eye, globe.radius_m / scene.unit_m);
     return {};

@@ -35,7 +35,7 @@ std::vector<Disc> discs(const Shot& shot, const World& world, const SceneFile& s
     std::vector<Disc> all;
     if (!world.globes)
         return all;
-    for (const SeenGlobe& seen : seen_globes(*world.globes, scene, shot)) {
+    for (const SeenGlobe& seen : globes_seen(*world.globes, scene, shot)) {
         const Globe& globe = world.globes->system.globes[seen.globe];
         const double sine = globe.radius_m / scene.unit_m / seen.distance;
         all.push_back({globe.name, seen.from_eye / seen.distance, std::asin(std::min(sine, 1.0)) / degree, seen.distance});

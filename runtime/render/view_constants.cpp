@@ -88,7 +88,7 @@ WarpVariant ViewConstants::variant_shown(const ViewState& view) const
 {
     WarpVariant all = variant(view);
     all.rays = eyes_.rays_of(view);
-    all.sampled_response = bool(*world_.response(eyes_.observer_of(view).shot.effects).picture.view);
+    all.sampled_response = world_.as_gpu;
     return all;
 }
 

@@ -38,7 +38,7 @@ bool ShownLight::follow_leap(const FlightSource& source)
 /// Steps the curve that shows everything at once. The record's entry holds the view's numbers that it follows.
 void ShownLight::follow_range(RecordEntry& entry, const LightInputs& now, const Metered& metered)
 {
-    if (!now.range || now.filter) {
+    if (!now.range || filtered_) {
         range_ = {};
         return;
     }
@@ -55,7 +55,7 @@ double ShownLight::wanted_ev(const LightInputs& now) const
         return now.source.visitors_ev() + now.directed_ev;
     Exposure eye = exposure_;
     Exposing rules = rules_;
-    if (now.filter) // whatever the start's exposure says
+    if (filtered_) // whatever the start's exposure says
         eye.offset_ev = 0, rules.automatic = true;
     return now.source.shown_ev(eye, rules) + now.directed_ev;
 }
@@ -82,7 +82,8 @@ void ShownLight::advance(RecordEntry& entry, const LightInputs& now)
         guard(entry, now);
     leapt_ = follow_leap(now.source);
     Metered metered = leapt_ ? Metered() : now.metered;
-    if (now.filter && exposure_.ev) // the first view of a world sets the exposure's offset
+    filtered_ = now.filter && now.source.by_hand(); // a tour shows its own exposures
+    if (filtered_ && exposure_.ev) // the first view of a world sets the exposure's offset
         metered.ev = filtered_ev(metered.surfaces, metered.stars);
     exposure_.locked ^= now.locks;
     exposure_ = now.replays ? adapted_to(exposure_, entry.exposure_ev, rules_, begun_ev_)

@@ -20,7 +20,7 @@ struct LightInputs {
     const FlightSource& source; ///< after its step
     Metered metered;
     bool range = false; ///< a curve shows everything at once
-    bool filter = false; ///< the exposure is for the brightest thing, and no curve
+    bool filter = false; ///< where hands fly, the exposure is for the brightest thing, and no curve
     bool locks = false; ///< the exposure's lock is turned
     bool replays = false; ///< the entry holds the measurements of the recorded flight
     double fade = 0; ///< the wanted part of black over the picture
@@ -49,6 +49,7 @@ public:
     /// The curve by which the picture shows everything at once; none: the exposure alone does.
     const std::optional<RangeCurve>& curve() const { return range_.follower.shown; }
     bool locked() const { return exposure_.locked; } ///< the automatic exposure
+    bool filtered() const { return filtered_; } ///< by a dark filter
     /// The part of black, smoothed, with the part of the light that a calm exhibit takes away.
     double fade() const { return 1 - (1 - glm::smoothstep(0.0, 1.0, fade_)) * light_; }
     /// True where the picture has nothing to do with the one before.
@@ -64,6 +65,7 @@ private:
     Exposing rules_;
     Exposure exposure_{};
     double begun_ev_ = 0; ///< the exposure with which the present view began
+    bool filtered_ = false;
     RangeMode range_{};
     std::optional<Leaps> leaps_{}; ///< of the last picture; none before the first one of new content
     bool leapt_ = false;

@@ -109,7 +109,7 @@ std::shared_ptr<const Globes> load_globes(const std::filesystem::path& file)
     return globes;
 }
 
-std::vector<SeenGlobe> seen_globes(const Globes& globes, const SceneFile& scene, const Shot& shot)
+std::vector<SeenGlobe> globes_seen(const Globes& globes, const SceneFile& scene, const Shot& shot)
 {
     const glm::dmat3 turn = world_from_equatorial(scene.stars ? scene.stars->ahead_deg : glm::dvec2(0));
     return globes_seen(globes.system, world_origin(globes.system, scene.globes.value()),

@@ -9,6 +9,6 @@ namespace starbow {
 std::shared_ptr<const Globes> load_globes(const std::filesystem::path& file);
 
 /// The globes as an eye at a shot's event in a scene's world sees them, the farthest first.
-std::vector<SeenGlobe> seen_globes(const Globes& globes, const SceneFile& scene, const Shot& shot);
+std::vector<SeenGlobe> globes_seen(const Globes& globes, const SceneFile& scene, const Shot& shot);
 
 } // namespace starbow

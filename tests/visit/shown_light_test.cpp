@@ -134,6 +134,31 @@ TEST(ShownLightTest, AWorldThatBeginsBehindAFilterHasItsOwnExposureWithoutIt)
     EXPECT_NEAR(light.ev(), -3, 1e-3);
 }
 
+TEST(ShownLightTest, ATourShowsItsOwnExposuresAndItsCurveBehindAFilter)
+{
+    struct Toured : HandFlight {
+        using HandFlight::HandFlight;
+        bool by_hand() const override { return false; }
+    } tour(start_at(-3), {}, 1);
+    const std::vector<LuminanceSample> view{{1 << 20, 0.01F}, {0.18F, 1}};
+    for (const bool range : {false, true}) {
+        ShownLight with({}), without({});
+        for (int i = 0; i < 500; ++i)
+            for (ShownLight* light : {&with, &without}) {
+                RecordEntry entry{.dt_ns = std::int64_t(1e9 * frame_s)};
+                light->advance(entry,
+                    {.source = tour,
+                        .metered = {.ev = 5, .surfaces = view},
+                        .range = range,
+                        .filter = light == &with,
+                        .dt_s = frame_s});
+            }
+        EXPECT_FALSE(with.filtered());
+        EXPECT_EQ(with.ev(), without.ev());
+        EXPECT_EQ(with.curve().has_value(), range);
+    }
+}
+
 TEST(ShownLightTest, BlackIsSmoothAndKeepsNoLight)
 {
     Flown flown({});

@@ -115,7 +115,7 @@ void print_globes(const SceneFile& scene, const Globes& globes)
         "globes at %s's date from %s: place (x, y, z) at that time and radius, scene units; as %s sees it: light travel "
         "time in minutes, right ascension and declination (J2000)\n",
         scene.name.c_str(), scene.globes->origin.c_str(), scene.globes->origin.c_str());
-    for (const SeenGlobe& one : seen_globes(globes, scene, {})) {
+    for (const SeenGlobe& one : globes_seen(globes, scene, {})) {
         const Globe& globe = globes.system.globes[one.globe];
         const glm::dvec3 n = glm::transpose(turn) * (one.from_eye / one.distance);
         const glm::dvec3 place = turn * (places[one.globe] - origin.place_m) / scene.unit_m;
