@@ -143,7 +143,7 @@ physics::AberratedRay TracingEye::world_ray(const glm::dvec3& way) const
 }
 
 GlobeSight::Ray TracingEye::among_globes(const physics::AberratedRay& world, const glm::dvec3& beside,
-    std::span<const double> parts, int only, double* stretch) const
+    std::span<const double> parts, int only, double pixel_rad, double* stretch) const
 {
     const RestFrameView& rest_frame = observer_.rest_frames.front();
     glm::dvec3 stretched = world.n;
@@ -158,11 +158,13 @@ GlobeSight::Ray TracingEye::among_globes(const physics::AberratedRay& world, con
     if (place != glm::dvec3(0))
         from_m = physics::eye_place(rest_frame.shot.u, rest_frame.shot.ship_from_cockpit * place) * scene_.unit_m;
     // A body that is one spot has no detail.
-    const double pixel_rad = only >= 0 ? INFINITY : pixel_rad_ * (observer_.shot.effects[Effect::aberration] ? world.D : 1);
-    return globes_->ray(from_m, glm::transpose(rest_frame.motion_from_frame) * (stretched / length), pixel_rad, parts, only);
+    const double own_rad = pixel_rad > 0 ? pixel_rad : pixel_rad_;
+    const double there_rad = only >= 0 ? INFINITY : own_rad * (observer_.shot.effects[Effect::aberration] ? world.D : 1);
+    return globes_->ray(from_m, glm::transpose(rest_frame.motion_from_frame) * (stretched / length), there_rad, parts, only);
 }
 
-LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside, std::span<const double> parts) const
+LookedAt TracingEye::look(
+    const glm::dvec3& way, const glm::dvec3& beside, std::span<const double> parts, double pixel_rad) const
 {
     const Effects& effects = observer_.shot.effects;
     const RestFrameView& rest_frame = observer_.rest_frames.front();
@@ -181,7 +183,7 @@ LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside, std::
     bool before = false; // a globe stands before the nearest triangle
     if (globes_) {
         double stretch = 1;
-        globes = among_globes(world, beside, parts, -1, &stretch);
+        globes = among_globes(world, beside, parts, -1, pixel_rad, &stretch);
         const double distance = globes.distance_m / scene_.unit_m;
         before = !found.view || distance < found.met.distance;
         if (before && std::isfinite(distance))

@@ -26,8 +26,10 @@ public:
         double beside, double pixel_rad);
 
     /// Looks along a unit direction of the cockpit. beside: the eye's place from the constructor's. parts: for each globe
-    /// the part of it that is drawn as a disc; empty: all.
-    LookedAt look(const glm::dvec3& way, const glm::dvec3& beside = glm::dvec3(0), std::span<const double> parts = {}) const;
+    /// the part of it that is drawn as a disc; empty: all. pixel_rad: the angle of this pixel, finer than which a globe has
+    /// no detail; 0: the constructor's.
+    LookedAt look(const glm::dvec3& way, const glm::dvec3& beside = glm::dvec3(0), std::span<const double> parts = {},
+        double pixel_rad = 0) const;
 
     /// The part of the light from a distance (scene units, in the world) that arrives there: 0 where something stands
     /// before.
@@ -79,7 +81,7 @@ private:
 
     /// The ray of a direction among the globes. stretch: its length in the ship's contracted space over the world's.
     GlobeSight::Ray among_globes(const physics::AberratedRay& world, const glm::dvec3& beside, std::span<const double> parts,
-        int only, double* stretch = nullptr) const;
+        int only, double pixel_rad = 0, double* stretch = nullptr) const;
     physics::AberratedRay world_ray(const glm::dvec3& way) const;
 
     const World& world_;

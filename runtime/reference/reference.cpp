@@ -234,11 +234,12 @@ private:
         for (int channel = 0; channel < channels; ++channel) {
             if (!ways.centre(at.x, channel))
                 continue; // nothing is shown there
+            const double pixel_rad = globe_colours_ ? view.rays.pixel_rad(at, channel) : 0;
             glm::dvec3 sum(0), sun(0);
             int count = 0;
             for (std::size_t i = 0; i < samples_.size(); ++i)
                 if (const auto way = ways.sample(at.x, i, channel)) {
-                    const LookedAt seen = eye.look(*way, beside(view, *way), globes_[view.globes].parts());
+                    const LookedAt seen = eye.look(*way, beside(view, *way), globes_[view.globes].parts(), pixel_rad);
                     sum += seen.light, sun += seen.sun;
                     ++count;
                 }

@@ -89,6 +89,21 @@ std::optional<glm::dvec3> ViewRays::direction(const glm::dvec2& pixel, int chann
     return glm::normalize(way);
 }
 
+double ViewRays::pixel_rad(const glm::ivec2& at, int channel) const
+{
+    glm::dvec3 edges[2];
+    for (int axis = 0; axis < 2; ++axis) {
+        glm::dvec2 half(0), middle = glm::dvec2(at) + 0.5;
+        half[axis] = 0.5;
+        const auto before = direction(middle - half, channel), after = direction(middle + half, channel);
+        if (!before || !after)
+            return 0;
+        edges[axis] = *after - *before;
+    }
+    const double longer = std::max(glm::length(edges[0]), glm::length(edges[1]));
+    return std::max(std::sqrt(glm::length(glm::cross(edges[0], edges[1]))), 0.5 * longer);
+}
+
 ViewRays::Row ViewRays::row(int y) const
 {
     Row row;

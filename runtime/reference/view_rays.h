@@ -35,6 +35,9 @@ public:
     /// through the pixel and its neighbours goes.
     std::optional<glm::dvec3> direction(const glm::dvec2& pixel, int channel) const;
 
+    /// The pixel angle, as DirectionMap has it, from directions at the pixel's edges; 0 where one of them shows nothing.
+    double pixel_rad(const glm::ivec2& at, int channel) const;
+
 private:
     std::optional<glm::dvec3> warped(const WarpSample& sample, int channel) const;
     const CompiledView& view_;

@@ -6,6 +6,10 @@ const real GRANULE_CONTRAST = real(0.14); // standard deviation over the mean, a
 const real SPOT_SECTORS = real(12.0); // of the longitude; each has one group or none on either side of the equator
 const real FACULAE_REACH = real(0.13); // from a group's middle, radians; less than to the sector's edge
 
+// The part of a noise's strength that a pixel shows: none where it is half as wide as a cell, all where it is a quarter as wide.
+// Lanes and bends are narrower than cells. fineness: -1 - log2 of the pixel's width, radii.
+FN real sun_seen(real cells, real fineness) { return min(max(fineness - log2(cells), real(0.0)), real(1.0)); }
+
 // The part of light that a spot leaves. off: from its middle; pixel: both in radii of the Sun.
 FN real sun_spot(rvec2 off, real radius, real pixel)
 {
@@ -21,28 +25,29 @@ FN real sun_spot(rvec2 off, real radius, real pixel)
 FN real sun_surface(rvec3 at, real pixel, real mu)
 {
     const rvec3 still = rvec3(real(0.0));
-    real light = real(1.0), octaves = -log2(GRANULE_CELLS * pixel);
-    if (octaves > real(0.0)) {
+    real light = real(1.0), fineness = real(-1.0) - log2(pixel), granules = sun_seen(GRANULE_CELLS, fineness);
+    if (granules > real(0.0)) {
         // Dark lanes where either field is 0. `bright` has the mean 0.414 and the standard deviation 0.204.
         rvec4 field = detail_octave(at * GRANULE_CELLS, still);
         real least = min(abs(field.x), abs(field.y)), bright = least / (least + real(0.2));
-        light += min(octaves, real(1.0)) * GRANULE_CONTRAST * mu * (bright - real(0.414)) / real(0.204);
+        light += granules * GRANULE_CONTRAST * mu * (bright - real(0.414)) / real(0.204);
     }
     real longitude = atan(at.y, at.x) * (SPOT_SECTORS / real(6.283185307179586)), sector = floor(longitude);
     uint h = detail_mixed(uint(int(sector) + (at.z > real(0.0) ? 97 : 211)));
     if ((h & 7u) > 2u || abs(at.z) > real(0.7))
         return light;
-    real size = real(int(h >> 8u & 255u)) / real(255.0), place = real(int(h >> 16u & 255u)) / real(255.0);
-    real latitude = real(0.16) + real(0.3) * real(int(h >> 24u)) / real(255.0);
-    rvec2 off = rvec2((longitude - sector - real(0.35) - real(0.3) * place) * (real(6.283185307179586) / SPOT_SECTORS)
-            * sqrt(real(1.0) - at.z * at.z),
-        asin(abs(at.z)) - latitude);
-    rvec4 wide = detail_octave(at * real(60.0), still), fine = detail_octave(at * real(240.0), still);
+    // A group's three numbers, from 0 to 255 each. A group is small, so differences of sines are those of latitudes times `across`.
+    real size = real(int(h >> 8u & 255u)), place = real(0.35) + real(0.3 / 255.0) * real(int(h >> 16u & 255u));
+    real sine = real(0.16) + real(0.29 / 255.0) * real(int(h >> 24u)), across = sqrt(real(1.0) - at.z * at.z);
+    rvec2 off = rvec2(
+        (longitude - sector - place) * (real(6.283185307179586) / SPOT_SECTORS) * across, (abs(at.z) - sine) / across);
+    rvec4 wide = sun_seen(real(60.0), fineness) * detail_octave(at * real(60.0), still);
+    rvec4 fine = sun_seen(real(240.0), fineness) * detail_octave(at * real(240.0), still);
     real near = max(real(1.0) - dot(off, off) / (FACULAE_REACH * FACULAE_REACH), real(0.0));
     light += real(0.5) * (real(1.0) - mu) * near * near * max(fine.x + real(0.5) * wide.y, real(0.0)); // bright at the limb
     // The greater spot leads in the rotation's direction, nearer to the equator.
     off += real(0.008) * rvec2(wide.x, wide.y) + real(0.004) * rvec2(fine.x, fine.y);
-    real radius = real(0.012) + real(0.024) * size * size;
+    real radius = real(0.012) + real(0.024 / 65025.0) * size * size;
     light *= sun_spot(off - rvec2(real(0.05), real(-0.01)), radius, pixel);
     light *= sun_spot(off - rvec2(real(-0.045), real(0.012)), real(0.7) * radius, pixel);
     light *= sun_spot(off - rvec2(real(-0.012), real(0.006)), real(0.3) * radius, pixel);
