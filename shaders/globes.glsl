@@ -11,7 +11,7 @@ GLOBE_CONSTANTS(DECLARED)
 
 layout(set = 0, binding = 15) uniform Globes { GlobeConstants globes; };
 layout(set = 0, binding = 16) uniform sampler2DArray globe_maps; // parts of up to three kinds of ground
-layout(set = 0, binding = 17) uniform sampler2DArray fine_globe_maps; // of a globe with air: its ground and water; its clouds and its lamps
+layout(set = 0, binding = 17) uniform sampler2DArray fine_globe_maps; // of a globe with air: its ground and water; its clouds, and its lamps' light through them in two bytes
 layout(set = 0, binding = 18) uniform sampler2D globe_light; // a row for each kind of light at each level, over log2 D:
                                                              // Rec. 709 over a scale, and the scale's binary logarithm
 layout(set = 0, binding = 19) uniform sampler2D ring_profile; // optical depth and brightness, from the inner edge outwards
@@ -135,7 +135,7 @@ float left_by_other(GlobeEntry g, vec3 at)
 // The ground of a globe with air, and what is above it.
 struct Ground {
     vec3 kinds; // the parts of land
-    float water, cloud, lamps, wind; // wind: m/s
+    float water, cloud, lamps, wind; // lamps: as they are seen through the clouds; wind: m/s
     float land_sun, cloud_sun; // the part of sunlight that slopes catch
 };
 // The maps' parts at a normal, and where a pixel is finer than they their detail. place: in the maps; level: of the pixel.
@@ -144,14 +144,15 @@ Ground detailed(GlobeEntry g, vec3 normal, vec2 place, float level)
     float cells = g.map.y / 3.14159265, cosine = dot(normal, g.light.xyz);
     Detail detail = detail_at(normal * cells, g.light.xyz - normal * cosine, -level);
     vec4 map = textureLod(fine_globe_maps, vec3(place, 0.0), level);
-    vec2 sky = textureLod(fine_globe_maps, vec3(place, 1.0), level).rg;
+    vec3 sky = textureLod(fine_globe_maps, vec3(place, 1.0), level).rgb;
     Ground here;
     here.cloud = detail_cover(sky.r, detail.value.x, detail.variance);
     here.water = detail_cover(map.a, detail.value.y, detail.variance);
     float light = max(1.0 + GLOBE_LAND_CONTRAST * detail.value.y, 0.2);
     here.kinds = map.rgb * (g.shape.x * (1.0 - here.water) / max(1.0 - map.a, 1e-3) * light);
     here.wind = 7.0 * clamp(1.0 + GLOBE_WIND_CONTRAST * detail.value.y, 0.2, 1.8);
-    here.lamps = sky.g * sky.g * detail_spots(detail.value.y, detail.variance, GLOBE_LAMP_CONTRAST);
+    here.lamps = (sky.g * (65280.0 / 65535.0) + sky.b * (255.0 / 65535.0)) * ((1.0 - here.cloud) / max(1.0 - sky.r, 1e-3))
+        * detail_spots(detail.value.y, detail.variance, GLOBE_LAMP_CONTRAST);
     here.land_sun = max(cosine - detail_slope(detail.slope.y, GLOBE_LAND_RELIEF * cells), 0.0);
     here.cloud_sun = max(cosine - detail_slope(detail.slope.x, GLOBE_CLOUD_RELIEF * cells), 0.0);
     return here;
@@ -271,7 +272,7 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
             float glint = 0.25 * 3.14159265 * slopes * fresnel * seen * reached / (square * square);
             shown += globe_colour(column, g.map.z, straight) * (glint * here.water * clear * lit);
             // The lamps of cities are seen through the air above them alone.
-            shown += globe_colour(column, g.lamps.x, 0.0) * (g.lamps.y * here.lamps * clear * exp(-GLOBE_AIR_DEPTH * air));
+            shown += globe_colour(column, g.lamps.x, 0.0) * (g.lamps.y * here.lamps * exp(-GLOBE_AIR_DEPTH * air));
         } else {
             vec3 ground = g.map.x < 0.0 ? vec3(0.0) : textureLod(globe_maps, vec3(place, g.map.x), level).rgb * g.shape.x;
             shown = vec3(0.0);

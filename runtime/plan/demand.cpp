@@ -152,7 +152,9 @@ struct Walk {
     const RestFrameRequest& request;
     double E;
     bool galilean;
-    bool aligned; ///< the cube map has the motion axes, so that D is known in each sub-tile
+    /// The cube map has the motion axes, so that D is known in each sub-tile. Not at rest, which would leave out other
+    /// sub-tiles than slow motion, whose cube map has other axes.
+    bool aligned;
     int finest_clip_level;
     const FrameExtent& held;
     Demands& demands;
@@ -310,7 +312,7 @@ double add_demands(Demands& demands, const RestFrameRequest& request, int finest
         int level = 0;
         while (level + 1 < cones.levels() && cones.side(level) > wanted)
             ++level;
-        Walk{view, request, request.E, request.galilean, request.cube_from_motion == glm::dmat3(1), finest_clip_level, held,
+        Walk{view, request, request.E, request.galilean, request.cube_from_motion == glm::dmat3(1) && request.E > 1, finest_clip_level, held,
             demands, spread, level, dark_pixels}
             .block(0, {0, 0});
     }

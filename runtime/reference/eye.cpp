@@ -142,6 +142,17 @@ physics::AberratedRay TracingEye::world_ray(const glm::dvec3& way) const
     return world;
 }
 
+glm::dvec3 TracingEye::among_globes_m(const glm::dvec3& beside) const
+{
+    const RestFrameView& rest_frame = observer_.rest_frames.front();
+    glm::dvec3 place = place_ + beside;
+    if (const double away = glm::length(place); away > farthest_among_globes_)
+        place *= farthest_among_globes_ / away;
+    if (place == glm::dvec3(0))
+        return place;
+    return physics::eye_place(rest_frame.shot.u, rest_frame.shot.ship_from_cockpit * place) * scene_.unit_m;
+}
+
 GlobeSight::Ray TracingEye::among_globes(const physics::AberratedRay& world, const glm::dvec3& beside,
     std::span<const double> parts, int only, double pixel_rad, double* stretch) const
 {
@@ -151,16 +162,11 @@ GlobeSight::Ray TracingEye::among_globes(const physics::AberratedRay& world, con
     const double length = glm::length(stretched);
     if (stretch)
         *stretch = length;
-    glm::dvec3 from_m(0);
-    glm::dvec3 place = place_ + beside;
-    if (const double away = glm::length(place); away > farthest_among_globes_)
-        place *= farthest_among_globes_ / away;
-    if (place != glm::dvec3(0))
-        from_m = physics::eye_place(rest_frame.shot.u, rest_frame.shot.ship_from_cockpit * place) * scene_.unit_m;
     // A body that is one spot has no detail.
     const double own_rad = pixel_rad > 0 ? pixel_rad : pixel_rad_;
     const double there_rad = only >= 0 ? INFINITY : own_rad * (observer_.shot.effects[Effect::aberration] ? world.D : 1);
-    return globes_->ray(from_m, glm::transpose(rest_frame.motion_from_frame) * (stretched / length), there_rad, parts, only);
+    return globes_->ray(
+        among_globes_m(beside), glm::transpose(rest_frame.motion_from_frame) * (stretched / length), there_rad, parts, only);
 }
 
 LookedAt TracingEye::look(

@@ -40,6 +40,8 @@ public:
     const GlobeSight* globes() const { return globes_.get(); }
     /// The light of one of their bodies in a direction of the cockpit, dimmed by those before it.
     glm::dvec3 globe_light(std::size_t body, const glm::dvec3& way, const glm::dvec3& beside) const;
+    /// The eye's place from the ship's event among the globes, metres, the world's axes.
+    glm::dvec3 among_globes_m(const glm::dvec3& beside) const;
     /// The cockpit's direction towards a place of the world, from the eye; with Shot's comparison "now" it is contracted.
     glm::dvec3 towards(const glm::dvec3& from_eye) const;
 

@@ -25,8 +25,10 @@ struct OnShip {
     double mean = 0, most = 0; ///< angular radius of a ball's outline
 };
 
-OnShip on_ship(const TracingEye& eye, const glm::dvec3& middle_m, double radius_m)
+OnShip on_ship(const TracingEye& eye, const std::function<glm::dvec3(const glm::dvec3& way)>& beside,
+    const glm::dvec3& from_ship_m, double radius_m)
 {
+    const glm::dvec3 middle_m = from_ship_m - eye.among_globes_m(beside(eye.towards(from_ship_m)));
     OnShip out{eye.towards(middle_m)};
     const double angle = std::asin(std::min(radius_m / glm::length(middle_m), 1.0));
     constexpr int count = 32;
@@ -78,7 +80,7 @@ GlobeView::GlobeView(const TracingEye& eye, const ViewRays& rays, const glm::ive
     std::vector<Near> all;
     std::size_t most = 0;
     for (const GlobeSight::Body& body : bodies) {
-        all.push_back({on_ship(eye, body.middle_m, body.globe->radius_m)});
+        all.push_back({on_ship(eye, beside, body.middle_m, body.globe->radius_m)});
         most = std::max(most, body.index);
     }
     const int channel = rays.channels() == 3 ? int(Channel::green) : 0;
@@ -108,7 +110,7 @@ GlobeView::GlobeView(const TracingEye& eye, const ViewRays& rays, const glm::ive
         const bool reaches = near.off < 0.2; // a spot far beyond the picture brings no light
         if (!sun && (part >= 1 || !reaches))
             continue;
-        const OnShip outline = on_ship(eye, bodies[i].middle_m, bodies[i].outer_m());
+        const OnShip outline = on_ship(eye, beside, bodies[i].middle_m, bodies[i].outer_m());
         const glm::dvec3 light = sum(lights(eye, i, outline, beside, bodies[i].globe->air ? 4000 : 16000));
         if (light == glm::dvec3(0))
             continue;

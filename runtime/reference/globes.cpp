@@ -541,7 +541,7 @@ void GlobeSight::add_ground(
             add(GlobeColours::white, sunlight * risen * glint * here.parts.w * (1 - clouds), all);
         }
     }
-    add(GlobeColours::lamps, globe.air->brightest_lamps * here.lamps * std::exp(-lamps_depth * air), 0);
+    add(GlobeColours::lamps, globe.air->brightest_lamps * here.lamps * (1 - clouds) * std::exp(-lamps_depth * air), 0);
 }
 
 GlobeSight::Ray GlobeSight::ray(

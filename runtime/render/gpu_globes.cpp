@@ -11,31 +11,51 @@
 namespace starbow {
 namespace {
 
-/// A picture and all its coarser levels, each texel the mean of four.
-/// rooted: a channel that holds roots of light, whose squares have the mean; -1: none.
-std::vector<std::vector<std::uint8_t>> levels_of(const Texture& map, int rooted)
+using Texels = std::vector<glm::vec4>;
+
+/// From 0 to 1. lamps: the map is as Globes::sky, and green becomes light as it is seen through the clouds. A device's
+/// filter is a sum, and a sum of roots or of factors is not that of light: around a single bright texel a sum of roots is
+/// 0.44 of it.
+Texels texels_of(const Texture& map, bool lamps)
 {
-    std::vector<std::vector<std::uint8_t>> levels = {map.rgba};
-    for (glm::ivec2 size = map.size; size.y > 1; size /= 2) {
-        const std::vector<std::uint8_t>& from = levels.back();
-        std::vector<std::uint8_t> to(from.size() / 4);
-        const std::size_t row = 4 * std::size_t(size.x);
-        for (std::size_t y = 0; y < std::size_t(size.y) / 2; ++y)
-            for (std::size_t x = 0; x < std::size_t(size.x) / 2; ++x)
-                for (std::size_t c = 0; c < 4; ++c) {
-                    const std::size_t at = 2 * y * row + 8 * x + c;
-                    const int four[] = {from[at], from[at + 4], from[at + row], from[at + row + 4]};
-                    double sum = 0;
-                    for (const int one : four)
-                        sum += int(c) == rooted ? one * one : one;
-                    to[y * row / 2 + 4 * x + c] = std::uint8_t((int(c) == rooted ? std::sqrt(sum / 4) : sum / 4) + 0.5);
-                }
-        levels.push_back(std::move(to));
+    Texels texels;
+    texels.reserve(map.rgba.size() / 4);
+    for (std::size_t at = 0; at < map.rgba.size(); at += 4) {
+        glm::vec4 one = glm::vec4(map.rgba[at], map.rgba[at + 1], map.rgba[at + 2], map.rgba[at + 3]) / 255.0F;
+        if (lamps)
+            one.g *= one.g * (1 - one.r);
+        texels.push_back(one);
     }
-    return levels;
+    return texels;
 }
 
-/// An array of maps of one size, with coarser levels. second_has_lamps: its green holds roots of light.
+/// Each texel the mean of four.
+Texels coarser(const Texels& from, const glm::uvec2& size)
+{
+    Texels to;
+    to.reserve(from.size() / 4);
+    for (std::size_t y = 0; y + 1 < size.y; y += 2)
+        for (std::size_t x = 0; x + 1 < size.x; x += 2) {
+            const glm::vec4* const at = &from[y * size.x + x];
+            to.push_back(0.25F * (at[0] + at[1] + at[size.x] + at[size.x + 1]));
+        }
+    return to;
+}
+
+/// As 8 bits each. lamps: green with 16 bits, the lower 8 in blue, for most lamps are fainter than a 255th.
+void append(std::vector<std::uint8_t>& bytes, const Texels& texels, bool lamps)
+{
+    for (const glm::vec4& texel : texels) {
+        glm::u8vec4 packed(glm::round(255.0F * texel));
+        if (lamps) {
+            const unsigned light = unsigned(std::lround(65535 * texel.g));
+            packed.g = std::uint8_t(light >> 8), packed.b = std::uint8_t(light & 255);
+        }
+        bytes.insert(bytes.end(), {packed.r, packed.g, packed.b, packed.a});
+    }
+}
+
+/// An array of maps of one size, with coarser levels. second_has_lamps: the second is as Globes::sky.
 Image make_maps(Device& device, const std::vector<const Texture*>& maps, bool second_has_lamps)
 {
     const Texture blank{.size = {2, 1}, .rgba = std::vector<std::uint8_t>(8, 0), .sampler = {}};
@@ -53,14 +73,15 @@ Image make_maps(Device& device, const std::vector<const Texture*>& maps, bool se
     for (std::uint32_t layer = 0; layer < image.layers; ++layer) {
         std::vector<std::uint8_t> all;
         std::vector<vk::BufferImageCopy> copies;
-        glm::uvec2 size(first.size);
-        for (const std::vector<std::uint8_t>& level :
-            levels_of(maps.empty() ? blank : *maps[layer], second_has_lamps && layer == 1 ? 1 : -1)) {
+        const bool lamps = second_has_lamps && layer == 1;
+        Texels texels = texels_of(maps.empty() ? blank : *maps[layer], lamps);
+        for (glm::uvec2 size(first.size); copies.size() < levels; size /= 2u) {
+            if (!copies.empty())
+                texels = coarser(texels, size * 2u);
             copies.emplace_back(all.size(), 0, 0,
                 vk::ImageSubresourceLayers(vk::ImageAspectFlagBits::eColor, std::uint32_t(copies.size()), layer, 1),
                 vk::Offset3D(), vk::Extent3D(size.x, size.y, 1));
-            all.insert(all.end(), level.begin(), level.end());
-            size = glm::max(size / 2u, 1u);
+            append(all, texels, lamps);
         }
         Buffer staging = make_mapped_buffer(device, all.size(), vk::BufferUsageFlagBits::eTransferSrc);
         copy_to(staging, std::as_bytes(std::span(all)));

@@ -90,9 +90,11 @@ GlobeRows globe_rows(const SolarSystem& system, std::span<const glm::dvec4> part
     add(rows, "white", [&](int level) { return through_air(white, air_mass(level)); });
     for (const NamedTable& lamp : system.lamps) {
         const SpectralTable table{lamp.points};
-        const EmissionLaw law = law_of(table);
+        const Spectrum spectrum = law_of(table).spectrum;
+        // Cities are as bright as a part of sunlit white to the eye, not in energy: 0.69 as bright as by that.
+        const double luminance = seen(eye(), spectrum, 1).y;
         add(
-            rows, lamp.name, [&](int) { return [law](double nm) { return law.spectrum(nm) * law.sunlit_part; }; }, 1);
+            rows, lamp.name, [&](int) { return [spectrum, luminance](double nm) { return spectrum(nm) / luminance; }; }, 1);
     }
     for (std::size_t i = 0; i < system.globes.size(); ++i) {
         const Globe& globe = system.globes[i];

@@ -162,7 +162,7 @@ std::vector<Subject> subjects()
                          // not
             one.rough = 0.25;
         if (has("cities")) // each finer than a pixel: the map's levels place its light elsewhere in the pixel
-            one.mean = 0.1, one.psnr_dB = 18;
+            one.mean = 0.05, one.psnr_dB = 18, one.samples = 64;
         if (has("rings")) // ringlets and gaps are finer than a pixel, and the live picture takes eight places of each
             one.mean = 0.03, one.rough = 0.15;
         if (has("Mars")) // a small disc is its edge; in a dome, where pixels are no squares, 3.1 % are seen
