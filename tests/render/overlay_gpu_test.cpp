@@ -13,6 +13,15 @@
 #include <random>
 #include <set>
 
+#define FN inline
+namespace overlay_scale_shader {
+using namespace glm;
+using real = double;
+using rvec3 = glm::dvec3;
+#include "shaders/scale.glsl"
+} // namespace overlay_scale_shader
+#undef FN
+
 namespace starbow::gpu_test::overlay_gpu_test {
 namespace {
 
@@ -321,19 +330,6 @@ dvec3 linear(const dvec3& encoded)
     return out;
 }
 
-/// The colours of the scale, from near to far.
-dvec3 scale_colour_at(double part)
-{
-    constexpr double steps[7][3] = {{0.983, 0.799, 0.018}, {0.411, 0.638, 0.093}, {0.060, 0.462, 0.184},
-        {0.014, 0.280, 0.263}, {0.029, 0.145, 0.268}, {0.059, 0.042, 0.207}, {0.040, 0.001, 0.055}};
-    const double at = 6 * std::clamp(part, 0.0, 1.0);
-    const int i = std::min(int(at), 5);
-    dvec3 colour;
-    for (int c = 0; c < 3; ++c)
-        colour[c] = std::lerp(steps[i][c], steps[i + 1][c], at - i);
-    return colour;
-}
-
 /// How far a pixel's encoded colour is from that of a distance in front of the plain picture. A contour darkens or lightens
 /// the colour by up to four fifths.
 double off_colour(const dvec3& seen, const dvec3& plain, double distance_s, const OverlayScale& scale)
@@ -342,7 +338,7 @@ double off_colour(const dvec3& seen, const dvec3& plain, double distance_s, cons
     if (std::isinf(distance_s))
         return glm::length(encoded(0.65 * linear(plain)) - seen);
     const double part = std::log(distance_s / scale.nearest_s) / std::log(scale.farthest_s / scale.nearest_s);
-    const dvec3 colour = scale_colour_at(part), base = 0.72 * colour + 0.28 * linear(plain);
+    const dvec3 colour = overlay_scale_shader::scale_colour(part), base = 0.72 * colour + 0.28 * linear(plain);
     const dvec3 contour = glm::dot(colour, dvec3(0.2, 0.7, 0.1)) > 0.25 ? dvec3(0) : dvec3(1);
     double least = 9;
     for (int ink = 0; ink <= 40; ++ink)
