@@ -1,16 +1,8 @@
 // The scale of the instruments' false colours, as the shaders have it, to people with another colour vision.
 #include "runtime/light/colour_difference.h"
+#include "tests/support/scale_shader.h"
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
-
-#define FN inline
-namespace scale_shader {
-using namespace glm;
-using real = double;
-using rvec3 = glm::dvec3;
-#include "shaders/scale.glsl"
-} // namespace scale_shader
-#undef FN
 
 namespace false_colours_test {
 
