@@ -1,5 +1,4 @@
 #include "vitals.h"
-#include <filesystem>
 #include <fstream>
 #include <malloc.h>
 #include <unistd.h>
@@ -9,10 +8,8 @@ namespace {
 
 std::size_t entries_of(const char* folder)
 {
-    std::error_code error;
     std::size_t entries = 0;
-    for (std::filesystem::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-        ++entries;
+    each_entry(folder, [&](const char*) { ++entries; });
     return entries;
 }
 

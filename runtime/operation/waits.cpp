@@ -2,6 +2,7 @@
 #include "config/json/whole_file.h"
 #include "log.h"
 #include "messages.h"
+#include "vitals.h"
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -40,16 +41,15 @@ OpenWaits& open_waits()
 std::pair<double, double> thread_times()
 {
     std::pair<double, double> sum{0, 0};
-    std::error_code error;
     try {
-        for (std::filesystem::directory_iterator at("/proc/self/task", error), end; !error && at != end;
-             at.increment(error)) {
+        each_entry("/proc/self/task", [&](const char* task) {
             double computed_ns = 0, starved_ns = 0;
             std::array<char, 100> text{};
-            RegularFile(at->path() / "schedstat").read(std::span(text).first(text.size() - 1));
+            RegularFile(std::filesystem::path("/proc/self/task") / task / "schedstat")
+                .read(std::span(text).first(text.size() - 1));
             if (std::sscanf(text.data(), "%lf %lf", &computed_ns, &starved_ns) == 2)
                 sum.first += 1e-9 * computed_ns, sum.second += 1e-9 * starved_ns;
-        }
+        });
     } catch (const std::bad_alloc&) { // all of the time counts then
     }
     return sum;
