@@ -5,6 +5,7 @@
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include "log.h"
+#include "vitals.h"
 #include <algorithm>
 #include <chrono>
 #include <new>
@@ -103,10 +104,10 @@ UsageDay load_usage_day(const std::filesystem::path& state, const std::string& d
 std::vector<std::string> days_in(const std::filesystem::path& state)
 {
     std::vector<std::string> days;
-    std::error_code error;
-    for (std::filesystem::directory_iterator at(state / "days", error), end; !error && at != end; at.increment(error))
-        if (const std::string name = at->path().stem(); at->path().extension() == ".json" && is_date(name))
+    each_entry((state / "days").c_str(), [&](const std::filesystem::path& file) {
+        if (const std::string name = file.stem(); file.extension() == ".json" && is_date(name))
             days.push_back(name);
+    });
     std::ranges::sort(days);
     return days;
 }
