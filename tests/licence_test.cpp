@@ -319,9 +319,9 @@ std::set<std::string> libraries_of_cmake(const std::string& text)
 std::set<std::string> libraries_of_source(const std::string& text)
 {
     static const std::regex include("(?:^|\n)[ \t]*#[ \t]*include[ \t]*<([^>]+)>");
-    static const std::set<std::string> of_the_system{"arpa", "dlfcn.h", "execinfo.h", "fcntl.h", "ifaddrs.h", "link.h",
-        "linux", "malloc.h", "net", "netinet", "poll.h", "pthread.h", "pty.h", "spawn.h", "sys", "termios.h", "time.h",
-        "ucontext.h", "unistd.h", "machines.h", "map_sources.h", "known_texts.inc"};
+    static const std::set<std::string> of_the_system{"arpa", "dirent.h", "dlfcn.h", "execinfo.h", "fcntl.h", "ifaddrs.h",
+        "link.h", "linux", "malloc.h", "net", "netinet", "poll.h", "pthread.h", "pty.h", "spawn.h", "sys", "termios.h",
+        "time.h", "ucontext.h", "unistd.h", "machines.h", "map_sources.h", "known_texts.inc"};
     std::set<std::string> all;
     for (std::sregex_iterator at(text.begin(), text.end(), include), end; at != end; ++at) {
         const std::string whole = (*at)[1], name = whole.substr(0, whole.find('/'));

@@ -1,6 +1,7 @@
 #include "file_name.h"
 #include "edit_distance.h"
 #include "error.h"
+#include "folder.h"
 #include "reader.h"
 #include <algorithm>
 #include <cctype>
@@ -26,11 +27,11 @@ std::u32string in_parts(const std::string& name)
 std::vector<std::string> names_in(const std::filesystem::path& folder)
 {
     constexpr std::size_t most = 10000;
-    std::error_code error;
     std::vector<std::string> names;
-    for (std::filesystem::directory_iterator at(folder.empty() ? "." : folder, error), end;
-         !error && at != end && names.size() < most; at.increment(error))
-        names.push_back(at->path().filename().string());
+    each_entry(folder.empty() ? "." : folder, [&](const char* name) {
+        if (names.size() < most)
+            names.push_back(name);
+    });
     std::ranges::sort(names);
     return names;
 }

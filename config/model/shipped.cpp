@@ -1,6 +1,7 @@
 #include "shipped.h"
 #include "config/json/error.h"
 #include "config/json/file_name.h"
+#include "config/json/folder.h"
 #include "config/json/reader.h"
 #include "file_kind.h"
 #include <algorithm>
@@ -71,9 +72,10 @@ std::vector<Profile> known_profiles(const fs::path& exhibits)
     for (const fs::path& folder :
         {home() / "config" / "profiles", of_site.empty() ? of_site : of_site / "profiles", own_profiles(), exhibits}) {
         std::vector<fs::path> files;
-        for (const auto& entry : fs::directory_iterator(folder, error))
-            if (entry.path().extension() == ".json")
-                files.push_back(entry.path());
+        each_entry(folder, [&](const fs::path& file) {
+            if (file.extension() == ".json")
+                files.push_back(folder / file);
+        });
         std::sort(files.begin(), files.end());
         for (const fs::path& file : files)
             all.push_back(load_profile(file));
@@ -92,12 +94,12 @@ static std::vector<fs::path> folders_of(const std::string& kind)
 
 std::vector<std::string> shipped_names(const std::string& kind)
 {
-    std::error_code error;
     std::set<std::string> names;
     for (const fs::path& folder : folders_of(kind))
-        for (const auto& entry : fs::directory_iterator(folder, error))
-            if (entry.path().extension() == ".json")
-                names.insert(entry.path().stem());
+        each_entry(folder, [&](const fs::path& file) {
+            if (file.extension() == ".json")
+                names.insert(file.stem());
+        });
     return {names.begin(), names.end()};
 }
 

@@ -1,5 +1,6 @@
 #include "compiled_view.h"
 #include "config/json/error.h"
+#include "config/json/folder.h"
 #include "config/json/hash.h"
 #include "config/json/kept_file.h"
 #include "map_cache.h"
@@ -62,20 +63,21 @@ void bound_cache(const std::filesystem::path& folder, std::uintmax_t most_bytes)
     std::error_code error;
     std::vector<Kept> all;
     std::uintmax_t sum = 0;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
+    each_entry(folder, [&](const char* name) {
         // Another exhibit may remove the file meanwhile.
-        const fs::file_time_type read = entry.last_write_time(error);
-        const std::uintmax_t bytes = error ? 0 : entry.file_size(error);
+        const fs::path file = folder / name;
+        const fs::file_time_type read = fs::last_write_time(file, error);
+        const std::uintmax_t bytes = error ? 0 : fs::file_size(file, error);
         if (error)
-            continue;
-        if (const std::string kind = entry.path().extension().string();
+            return;
+        if (const std::string kind = file.extension();
             kind == ".map" || kind == ".sky" || kind == ".detail" || kind == ".shadow") {
-            all.push_back({read, entry.path(), bytes});
+            all.push_back({read, file, bytes});
             sum += bytes;
-        } else if (entry.path().extension() == ".part" && read < hour_ago) {
-            fs::remove(entry.path(), error);
+        } else if (kind == ".part" && read < hour_ago) {
+            fs::remove(file, error);
         }
-    }
+    });
     std::sort(all.begin(), all.end(), [](const Kept& a, const Kept& b) { return a.read < b.read; });
     for (std::size_t i = 0; i < all.size() && sum > most_bytes; ++i) {
         fs::remove(all[i].file, error);

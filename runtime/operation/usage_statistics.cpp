@@ -1,11 +1,11 @@
 #include "usage_statistics.h"
 #include "config/json/error.h"
+#include "config/json/folder.h"
 #include "config/json/hash.h"
 #include "config/json/kept_file.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include "log.h"
-#include "vitals.h"
 #include <algorithm>
 #include <chrono>
 #include <new>
@@ -104,7 +104,7 @@ UsageDay load_usage_day(const std::filesystem::path& state, const std::string& d
 std::vector<std::string> days_in(const std::filesystem::path& state)
 {
     std::vector<std::string> days;
-    each_entry((state / "days").c_str(), [&](const std::filesystem::path& file) {
+    each_entry(state / "days", [&](const std::filesystem::path& file) {
         if (const std::string name = file.stem(); file.extension() == ".json" && is_date(name))
             days.push_back(name);
     });

@@ -1,4 +1,5 @@
 #include "vitals.h"
+#include "config/json/folder.h"
 #include <fstream>
 #include <malloc.h>
 #include <unistd.h>

@@ -1,7 +1,5 @@
 #pragma once
 #include <cstddef>
-#include <dirent.h>
-#include <memory>
 
 namespace starbow {
 
@@ -15,16 +13,6 @@ struct Vitals {
 
 /// A value that can't be read is 0.
 Vitals vitals();
-
-/// Calls each(name) for all that is in a folder; not at all where it can't be read. It may be used in flight: the iterators
-/// of std::filesystem end the program where memory lacks.
-template <class Each> void each_entry(const char* folder, Each&& each)
-{
-    const std::unique_ptr<DIR, int (*)(DIR*)> open(opendir(folder), closedir);
-    while (const dirent* const entry = open ? readdir(open.get()) : nullptr)
-        if (entry->d_name[0] != '.')
-            each(entry->d_name);
-}
 
 /// Gives the heap's free pages back to the system. Worlds, pipelines and the driver's compiler leave holes of all sizes.
 /// Without this call, a process that shows one world after another grows, although it uses no more memory.

@@ -1,8 +1,8 @@
 #include "waits.h"
+#include "config/json/folder.h"
 #include "config/json/whole_file.h"
 #include "log.h"
 #include "messages.h"
-#include "vitals.h"
 #include <algorithm>
 #include <array>
 #include <atomic>
