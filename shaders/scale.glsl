@@ -1,5 +1,5 @@
 // The colours of a scale from near (0) to far (1): bright yellow over green to deep violet, ever darker, so that neighbouring
-// steps differ by CIEDE2000 of at least 10 to every colour vision: tests/light/false_colours_test.cpp compiles them as C++ too.
+// steps differ by CIEDE2000 of at least 10 to every colour vision: tests/light/false_colours_test.cpp. tone.h compiles them as C++ too.
 // After viridis (Smith and van der Walt 2015), with its first two steps farther apart and its last one darker. Linear light.
 FN rvec3 scale_colour(real t)
 {

@@ -1,5 +1,5 @@
 // The tone curve: from exposed scene-linear light to a screen's range, 0 to 1, still linear Rec. 709.
-// tests/light/exposure_test.cpp compiles it as C++ too.
+// tone.h compiles it as C++ too.
 
 // The brightest channel is linear up to the knee, then follows a shoulder, without a break in its slope, that reaches 1
 // only at infinity. On the shoulder the colour approaches white along its hue's line in Oklab (Ottosson 2020), where hues

@@ -13,6 +13,7 @@
 #include "runtime/world/moving.h"
 #include "runtime/world/open_scene.h"
 #include "runtime/world/worldline.h"
+#include "shaders/tone.h"
 #include "star_spots.h"
 #include <algorithm>
 #include <atomic>
@@ -22,15 +23,6 @@
 #include <mutex>
 #include <sstream>
 #include <thread>
-
-#define FN inline
-namespace starbow::tone {
-using namespace glm;
-using real = double;
-using rvec3 = glm::dvec3;
-#include "shaders/tone.glsl"
-} // namespace starbow::tone
-#undef FN
 
 namespace starbow {
 namespace {
@@ -180,7 +172,8 @@ private:
                 const glm::dvec3 glare = glare_at(*each.view, each.ways, at, shown.sun) * exposure_;
                 lights.push_back({&each, shown.light * exposure_ + glare, glare});
                 coats.push_back(coat);
-                coats.back().screen = tone::tone_map(glm::clamp(lights.back().light, glm::dvec3(0), glm::dvec3(1e30)));
+                coats.back().screen
+                    = tone_double::tone_map(glm::clamp(lights.back().light, glm::dvec3(0), glm::dvec3(1e30)));
             }
             if (coats.empty())
                 continue;
@@ -571,7 +564,7 @@ std::vector<std::uint8_t> shown(const Reference& r)
         auto screen = [&](std::size_t picture) {
             if (!r.screens.empty())
                 return r.screens[picture][i];
-            return tone::tone_map(glm::clamp(r.light[picture][i], glm::dvec3(0), glm::dvec3(1e30)));
+            return tone_double::tone_map(glm::clamp(r.light[picture][i], glm::dvec3(0), glm::dvec3(1e30)));
         };
         const int x = int(i % std::size_t(r.size.x)), y = int(i / std::size_t(r.size.x));
         glm::dvec3 light;

@@ -4,6 +4,7 @@
 #include "runtime/images/flashes.h"
 #include "runtime/light/exposure.h"
 #include "shaders/physics/physics.h"
+#include "shaders/tone.h"
 #include "tests/support/chance_hands.h"
 #include <algorithm>
 #include <array>
@@ -14,15 +15,6 @@
 #include <random>
 #include <set>
 #include <string>
-
-namespace calm_shader {
-using namespace glm;
-using real = float;
-using rvec3 = glm::vec3;
-#define FN inline
-#include "shaders/tone.glsl"
-#undef FN
-} // namespace calm_shader
 
 namespace calm_test {
 
@@ -125,7 +117,7 @@ Worst flown_by(const std::function<Controls(int frame)>& script, bool calm, doub
             shown = *(ev = calmed_ev(ev, shown, dt_s)).value;
         std::vector<glm::vec3> picture;
         for (const LuminanceSample& sample : light)
-            picture.push_back(calm_shader::tone_map(glm::vec3(float(sample.luminance * std::exp2(shown)))));
+            picture.push_back(tone_float::tone_map(glm::vec3(float(sample.luminance * std::exp2(shown)))));
         for (std::size_t i = 0; i < all_switches.size(); ++i) {
             const bool leaps = controls[all_switches[i].which] && !of_words.contains(std::string(all_switches[i].name));
             leapt[i] ^= leaps, any_leapt ^= leaps;
@@ -390,8 +382,8 @@ TEST(CalmTest, EverySwitchThatChangesThePictureActsOnceASecond)
 
 TEST(CalmTest, ASecondPressOfATwoWaySwitchUndoesTheFirstWhileItWaitsAndOneOfTheOthersAddsNothing)
 {
-    const std::set<std::string> two_ways{
-        "aberration", "doppler", "headlight", "false_colours", "range", "filter", "hud", "sky_names", "menu", "full_screen", "freeze"};
+    const std::set<std::string> two_ways{"aberration", "doppler", "headlight", "false_colours", "range", "filter", "hud",
+        "sky_names", "menu", "full_screen", "freeze"};
     for (const SwitchEntry& one : all_switches) {
         if (of_words.contains(std::string(one.name)))
             continue;

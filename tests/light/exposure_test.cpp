@@ -3,6 +3,7 @@
 #include "runtime/hud/hud.h"
 #include "runtime/light/colour.h"
 #include "runtime/light/exposure.h"
+#include "shaders/tone.h"
 #include "tests/support/files.h"
 #include <algorithm>
 #include <cmath>
@@ -10,15 +11,6 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <vector>
-
-#define FN inline
-namespace shader {
-using namespace glm;
-using real = float;
-using rvec3 = glm::vec3;
-#include "shaders/tone.glsl"
-} // namespace shader
-#undef FN
 
 namespace exposure_test {
 
@@ -320,10 +312,10 @@ TEST(ToneCurve, IsLinearBelowItsKnee)
     for (int hue = 0; hue < 360; hue += 30)
         for (const double saturation : {0.0, 0.5, 1.0})
             for (double ev = -40; ev < std::log2(0.76); ev += 0.25) {
-                const glm::dvec3 light = colour_of(hue, saturation) * std::exp2(ev), shown = shader::tone_map(light);
+                const glm::dvec3 light = colour_of(hue, saturation) * std::exp2(ev), shown = tone_float::tone_map(light);
                 EXPECT_LT(glm::distance(light, shown), 4 * 0x1p-24 * std::exp2(ev)) << hue; // four roundings
             }
-    EXPECT_EQ(shader::tone_map({0, 0, 0}), glm::vec3(0));
+    EXPECT_EQ(tone_float::tone_map({0, 0, 0}), glm::vec3(0));
 }
 
 // Twelve hues with four saturations over sixteen stops.
@@ -334,7 +326,7 @@ TEST(ToneCurve, GoesToWhiteAndKeepsTheHue)
         for (const double saturation : {1.0, 0.9, 0.6, 0.3}) {
             double before = 0, chroma_before = 1e9;
             for (double ev = -6; ev <= 10; ev += 1.0 / 16) {
-                const glm::dvec3 light = colour_of(hue, saturation) * std::exp2(ev), shown = shader::tone_map(light);
+                const glm::dvec3 light = colour_of(hue, saturation) * std::exp2(ev), shown = tone_float::tone_map(light);
                 for (int k = 0; k < 3; ++k)
                     ASSERT_TRUE(shown[k] >= 0 && shown[k] <= 1) << hue << " at " << ev;
                 EXPECT_GT(luminance(shown), before) << hue << " at " << ev;
@@ -353,7 +345,7 @@ TEST(ToneCurve, GoesToWhiteAndKeepsTheHue)
                 turned_most
                     = std::max(turned_most, chroma < 0.5 * std::hypot(of_light.y, of_light.z) / of_light.x ? 1.0 : 0);
             }
-            const glm::dvec3 last = shader::tone_map(colour_of(hue, saturation) * 1024.0);
+            const glm::dvec3 last = tone_float::tone_map(colour_of(hue, saturation) * 1024.0);
             // The last value misses white by one of a screen's 255 steps; near white a step is 2.27 / 255 of the light.
             for (int k = 0; k < 3; ++k)
                 EXPECT_GT(last[k], 1 - 1.5 * 2.27 / 255) << hue;
@@ -367,11 +359,11 @@ TEST(ToneCurve, GoesToWhiteAndKeepsTheHue)
 TEST(ToneCurve, AnyLightStaysInRange)
 {
     for (const float light : {1e-38f, 1e-10f, 1e10f, 1e30f}) {
-        const glm::vec3 shown = shader::tone_map({light, 0.5f * light, 0});
+        const glm::vec3 shown = tone_float::tone_map({light, 0.5f * light, 0});
         for (int k = 0; k < 3; ++k)
             EXPECT_TRUE(shown[k] >= 0 && shown[k] <= 1) << light;
     }
-    EXPECT_NEAR(glm::length(shader::tone_map(glm::vec3(1e30f)) - glm::vec3(1)), 0, 1e-6);
+    EXPECT_NEAR(glm::length(tone_float::tone_map(glm::vec3(1e30f)) - glm::vec3(1)), 0, 1e-6);
 }
 
 } // namespace exposure_test

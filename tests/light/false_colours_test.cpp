@@ -1,6 +1,6 @@
 // The scale of the instruments' false colours, as the shaders have it, to people with another colour vision.
 #include "runtime/light/colour_difference.h"
-#include "tests/support/scale_shader.h"
+#include "shaders/tone.h"
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ TEST(FalseColoursTest, EverybodyTellsNeighbouringStepsOfTheScaleApart)
     for (const Vision& vision : visions())
         for (int i = 0; i < steps; ++i) {
             const auto seen = [&](int at) {
-                return lab(glm::clamp(vision.seen * scale_shader::scale_colour(double(at) / steps), 0.0, 1.0));
+                return lab(glm::clamp(vision.seen * tone_double::scale_colour(double(at) / steps), 0.0, 1.0));
             };
             EXPECT_GE(ciede2000(seen(i), seen(i + 1)), 10) << vision.name << ", steps " << i << " and " << i + 1;
             EXPECT_LT(seen(i + 1).x, seen(i).x - 5)
@@ -82,10 +82,10 @@ TEST(FalseColoursTest, EverybodyTellsNeighbouringStepsOfTheScaleApart)
 TEST(FalseColoursTest, TheScaleHasNoBreaks)
 {
     for (int i = 0; i < 600; ++i)
-        EXPECT_LT(ciede2000(lab(scale_shader::scale_colour(i / 600.0)), lab(scale_shader::scale_colour((i + 1) / 600.0))), 1)
+        EXPECT_LT(ciede2000(lab(tone_double::scale_colour(i / 600.0)), lab(tone_double::scale_colour((i + 1) / 600.0))), 1)
             << i;
-    EXPECT_EQ(scale_shader::scale_colour(-1), scale_shader::scale_colour(0));
-    EXPECT_NEAR(glm::distance(scale_shader::scale_colour(2), scale_shader::scale_colour(1)), 0, 1e-12);
+    EXPECT_EQ(tone_double::scale_colour(-1), tone_double::scale_colour(0));
+    EXPECT_NEAR(glm::distance(tone_double::scale_colour(2), tone_double::scale_colour(1)), 0, 1e-12);
 }
 
 } // namespace false_colours_test

@@ -1,20 +1,12 @@
 // The curve that shows everything at once: what it keeps, how it moves, and the tone curve behind it.
 #include "runtime/light/range_curve.h"
+#include "shaders/tone.h"
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 #include <random>
 #include <vector>
-
-#define FN inline
-namespace range_curve_test::shader {
-using namespace glm;
-using real = double;
-using rvec3 = glm::dvec3;
-#include "shaders/tone.glsl"
-} // namespace range_curve_test::shader
-#undef FN
 
 namespace range_curve_test {
 
@@ -293,7 +285,7 @@ TEST(ToneMapInOrder, ShownLuminanceFollowsFromLuminanceAlone)
         light[random() % 3] *= std::pow(any(random), 6); // many are saturated
         const double wanted = std::exp2(-10 + 16 * any(random));
         light *= wanted / luminance(light);
-        const glm::dvec3 shown = shader::tone_map_in_order(light), grey = shader::tone_map(glm::dvec3(wanted));
+        const glm::dvec3 shown = tone_double::tone_map_in_order(light), grey = tone_double::tone_map(glm::dvec3(wanted));
         ASSERT_GE(std::min({shown.r, shown.g, shown.b}), 0);
         ASSERT_LE(std::max({shown.r, shown.g, shown.b}), 1 + 1e-9);
         most_off = std::max(most_off, std::abs(luminance(shown) - grey.r));

@@ -6,9 +6,9 @@
 #include "runtime/world/detail.h"
 #include "runtime/world/sky_names.h"
 #include "runtime/world/stars.h"
+#include "shaders/tone.h"
 #include "tests/support/layouts.h"
 #include "tests/support/quad.h"
-#include "tests/support/scale_shader.h"
 #include "tests/support/small_world.h"
 #include <map>
 #include <random>
@@ -330,7 +330,7 @@ double off_colour(const dvec3& seen, const dvec3& plain, double distance_s, cons
     if (std::isinf(distance_s))
         return glm::length(encoded(0.65 * linear(plain)) - seen);
     const double part = std::log(distance_s / scale.nearest_s) / std::log(scale.farthest_s / scale.nearest_s);
-    const dvec3 colour = scale_shader::scale_colour(part), base = 0.72 * colour + 0.28 * linear(plain);
+    const dvec3 colour = tone_double::scale_colour(part), base = 0.72 * colour + 0.28 * linear(plain);
     const dvec3 contour = glm::dot(colour, dvec3(0.2, 0.7, 0.1)) > 0.25 ? dvec3(0) : dvec3(1);
     double least = 9;
     for (int ink = 0; ink <= 40; ++ink)
