@@ -316,10 +316,9 @@ CubeMapPlan plan_cube_map(
     for (std::size_t rest_frame = 0; rest_frame < requests.size(); ++rest_frame) {
         // Nested images would not be around the axis behind where the cube map has other axes; there D varies little.
         const RestFrameRequest& request = requests[rest_frame];
-        const bool aligned = request.cube_from_motion == glm::dmat3(1);
-        const int finest_clip_level = aligned ? std::clamp(int(std::ceil(-2 * std::log2(even_behind(request)))), 0,
+        const int finest_clip_level = request.aligned() ? std::clamp(int(std::ceil(-2 * std::log2(even_behind(request)))), 0,
                                           std::min(quality.clip_levels, REAR_LEVELS - 1))
-                                              : 0;
+                                                        : 0;
         plan.finest_clip_level.push_back(finest_clip_level);
         room.demands[rest_frame].clear();
         const double dark = add_demands(room.demands[rest_frame], request, finest_clip_level, quality.pixel_rays);

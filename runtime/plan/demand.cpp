@@ -152,9 +152,6 @@ struct Walk {
     const RestFrameRequest& request;
     double E;
     bool galilean;
-    /// The cube map has the motion axes, so that D is known in each sub-tile. Not at rest, which would leave out other
-    /// sub-tiles than slow motion, whose cube map has other axes.
-    bool aligned;
     int finest_clip_level;
     const FrameExtent& held;
     Demands& demands;
@@ -239,7 +236,7 @@ struct Walk {
             disc.pixel = cap.finest;
             disc.finest = far * cap.finest;
             disc.coarsest = near * cap.coarsest;
-            if (view.parallax_rad == 0 && aligned) {
+            if (view.parallax_rad == 0 && request.aligned()) {
                 disc.finest_pixel = cap.finest, disc.coarsest_pixel = cap.coarsest;
                 if (past > 0)
                     disc.least_cos_half_square = past * past / high_square;
@@ -312,9 +309,8 @@ double add_demands(Demands& demands, const RestFrameRequest& request, int finest
         int level = 0;
         while (level + 1 < cones.levels() && cones.side(level) > wanted)
             ++level;
-        Walk{view, request, request.E, request.galilean, request.cube_from_motion == glm::dmat3(1) && request.E > 1, finest_clip_level, held,
-            demands, spread, level, dark_pixels}
-            .block(0, {0, 0});
+        Walk{view, request, request.E, request.galilean, finest_clip_level, held, demands, spread, level, dark_pixels}.block(
+            0, {0, 0});
     }
     return dark_pixels;
 }

@@ -26,6 +26,10 @@ struct RestFrameRequest {
     std::optional<std::vector<BoundingSphere>>
         bounds{}; ///< all drawn things lie inside these; nullopt: things may be anywhere
     glm::dmat3 cube_from_motion{1}; ///< turn into the axes of the cube map; the identity where they are the motion axes
+
+    /// The cube map has the motion axes, so that D is known in each sub-tile. False at rest, where D is 1 everywhere: the
+    /// plan is that of slow motion, whose cube map has other axes.
+    bool aligned() const { return E > 1 && cube_from_motion == glm::dmat3(1); }
 };
 
 /// The pixels' demand on a part of a face.
