@@ -11,51 +11,50 @@
 namespace starbow {
 namespace {
 
-using Texels = std::vector<glm::vec4>;
+/// A map's channels, four to a texel, 65535 for 1.
+using Texels = std::vector<std::uint16_t>;
 
-/// From 0 to 1. lamps: the map is as Globes::sky, and green becomes light as it is seen through the clouds. A device's
-/// filter is a sum, and a sum of roots or of factors is not that of light: around a single bright texel a sum of roots is
-/// 0.44 of it.
+/// lamps: the map is Globes::sky. Its green, the root of the lamps' light, becomes the light that passes the clouds, because
+/// a device's filter takes means: the square of a mean of roots is less than the mean light, 0.44 of it around a single
+/// bright texel.
 Texels texels_of(const Texture& map, bool lamps)
 {
-    Texels texels;
-    texels.reserve(map.rgba.size() / 4);
-    for (std::size_t at = 0; at < map.rgba.size(); at += 4) {
-        glm::vec4 one = glm::vec4(map.rgba[at], map.rgba[at + 1], map.rgba[at + 2], map.rgba[at + 3]) / 255.0F;
-        if (lamps)
-            one.g *= one.g * (1 - one.r);
-        texels.push_back(one);
+    Texels all(map.rgba.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = std::uint16_t(257 * map.rgba[i]);
+    for (std::size_t green = 1; lamps && green < all.size(); green += 4) {
+        const unsigned root = map.rgba[green], clear = 255U - map.rgba[green - 1];
+        all[green] = std::uint16_t((root * root * clear * 257ULL + 32512) / 65025);
     }
-    return texels;
+    return all;
 }
 
-/// Each texel the mean of four.
-Texels coarser(const Texels& from, const glm::uvec2& size)
+/// Each texel the mean of four. width: of `from`, texels.
+Texels coarser(const Texels& from, std::size_t width)
 {
-    Texels to;
-    to.reserve(from.size() / 4);
-    for (std::size_t y = 0; y + 1 < size.y; y += 2)
-        for (std::size_t x = 0; x + 1 < size.x; x += 2) {
-            const glm::vec4* const at = &from[y * size.x + x];
-            to.push_back(0.25F * (at[0] + at[1] + at[size.x] + at[size.x + 1]));
-        }
+    Texels to(from.size() / 4);
+    const std::size_t row = 4 * width;
+    auto next = to.begin();
+    for (std::size_t above = 0; above < from.size(); above += 2 * row)
+        for (std::size_t left = above; left < above + row; left += 8)
+            for (std::size_t at = left; at < left + 4; ++at)
+                *next++ = std::uint16_t((2U + from[at] + from[at + 4] + from[at + row] + from[at + row + 4]) / 4);
     return to;
 }
 
-/// As 8 bits each. lamps: green with 16 bits, the lower 8 in blue, for most lamps are fainter than a 255th.
+/// Appends the channels as bytes. lamps: green as 16 bits, its lower 8 in blue, because most lamps have less light than a
+/// 255th of the brightest.
 void append(std::vector<std::uint8_t>& bytes, const Texels& texels, bool lamps)
 {
-    for (const glm::vec4& texel : texels) {
-        glm::u8vec4 packed(glm::round(255.0F * texel));
-        if (lamps) {
-            const unsigned light = unsigned(std::lround(65535 * texel.g));
-            packed.g = std::uint8_t(light >> 8), packed.b = std::uint8_t(light & 255);
-        }
-        bytes.insert(bytes.end(), {packed.r, packed.g, packed.b, packed.a});
-    }
+    const std::size_t begin = bytes.size();
+    bytes.resize(begin + texels.size());
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        bytes[begin + i] = std::uint8_t((texels[i] + 128U) / 257);
+    for (std::size_t green = 1; lamps && green < texels.size(); green += 4)
+        bytes[begin + green] = std::uint8_t(texels[green] >> 8), bytes[begin + green + 1] = std::uint8_t(texels[green]);
 }
 
-/// An array of maps of one size, with coarser levels. second_has_lamps: the second is as Globes::sky.
+/// An array of maps of one size, with coarser levels. second_has_lamps: the second is Globes::sky.
 Image make_maps(Device& device, const std::vector<const Texture*>& maps, bool second_has_lamps)
 {
     const Texture blank{.size = {2, 1}, .rgba = std::vector<std::uint8_t>(8, 0), .sampler = {}};
@@ -77,7 +76,7 @@ Image make_maps(Device& device, const std::vector<const Texture*>& maps, bool se
         Texels texels = texels_of(maps.empty() ? blank : *maps[layer], lamps);
         for (glm::uvec2 size(first.size); copies.size() < levels; size /= 2u) {
             if (!copies.empty())
-                texels = coarser(texels, size * 2u);
+                texels = coarser(texels, 2 * size.x);
             copies.emplace_back(all.size(), 0, 0,
                 vk::ImageSubresourceLayers(vk::ImageAspectFlagBits::eColor, std::uint32_t(copies.size()), layer, 1),
                 vk::Offset3D(), vk::Extent3D(size.x, size.y, 1));
