@@ -162,9 +162,7 @@ GlobeSight::Ray TracingEye::among_globes(const physics::AberratedRay& world, con
     const double length = glm::length(stretched);
     if (stretch)
         *stretch = length;
-    // A body that is one spot has no detail.
-    const double own_rad = pixel_rad > 0 ? pixel_rad : pixel_rad_;
-    const double there_rad = only >= 0 ? INFINITY : own_rad * (observer_.shot.effects[Effect::aberration] ? world.D : 1);
+    const double there_rad = pixel_rad * (observer_.shot.effects[Effect::aberration] ? world.D : 1);
     return globes_->ray(
         among_globes_m(beside), glm::transpose(rest_frame.motion_from_frame) * (stretched / length), there_rad, parts, only);
 }
@@ -189,7 +187,7 @@ LookedAt TracingEye::look(
     bool before = false; // a globe stands before the nearest triangle
     if (globes_) {
         double stretch = 1;
-        globes = among_globes(world, beside, parts, -1, pixel_rad, &stretch);
+        globes = among_globes(world, beside, parts, -1, pixel_rad > 0 ? pixel_rad : pixel_rad_, &stretch);
         const double distance = globes.distance_m / scene_.unit_m;
         before = !found.view || distance < found.met.distance;
         if (before && std::isfinite(distance))
@@ -224,7 +222,7 @@ double TracingEye::part_left(
     const BlendedPath ray = along(way, beside, world, false);
     if (ray.solid.view && ray.solid.met.distance < distance)
         return 0;
-    return ray.left * (globes_ ? among_globes(world, beside, parts, -1).through : 1);
+    return ray.left * (globes_ ? among_globes(world, beside, parts, -1, INFINITY).through : 1);
 }
 
 glm::dvec3 TracingEye::globe_light(std::size_t body, const glm::dvec3& way, const glm::dvec3& beside) const
@@ -234,7 +232,7 @@ glm::dvec3 TracingEye::globe_light(std::size_t body, const glm::dvec3& way, cons
     const BlendedPath along_ray = along(way, beside, world, false);
     if (along_ray.solid.view)
         return glm::dvec3(0);
-    const GlobeSight::Ray ray = among_globes(world, beside, {}, int(body));
+    const GlobeSight::Ray ray = among_globes(world, beside, {}, int(body), INFINITY); // one spot has no detail
     const glm::dvec3 light = along_ray.left * globe_colours_->seen(ray.terms, effects[Effect::doppler] ? world.D : 1);
     return effects[Effect::headlight] ? light * (world.D * world.D * world.D) : light;
 }

@@ -81,9 +81,10 @@ private:
 
     glm::dvec3 sky(const glm::dvec3& n) const;
 
-    /// The ray of a direction among the globes. stretch: its length in the ship's contracted space over the world's.
+    /// The ray of a direction among the globes. pixel_rad: on the ship. stretch: its length in the ship's contracted space
+    /// over the world's.
     GlobeSight::Ray among_globes(const physics::AberratedRay& world, const glm::dvec3& beside, std::span<const double> parts,
-        int only, double pixel_rad = 0, double* stretch = nullptr) const;
+        int only, double pixel_rad, double* stretch = nullptr) const;
     physics::AberratedRay world_ray(const glm::dvec3& way) const;
 
     const World& world_;

@@ -98,12 +98,7 @@ GlobeView::GlobeView(const TracingEye& eye, const ViewRays& rays, const glm::ive
         const bool sun = bodies[i].index == 0;
         double& part = parts_[bodies[i].index];
         if (near.pixel.x >= 0) {
-            const glm::dvec2 at = glm::dvec2(near.pixel) + 0.5;
-            const auto step = [&](const glm::dvec2& half) {
-                const auto low = rays.direction(at - half, channel), high = rays.direction(at + half, channel);
-                return low && high ? *high - *low : glm::dvec3(0);
-            };
-            const double pixel = std::sqrt(glm::length(glm::cross(step({0.5, 0}), step({0, 0.5}))));
+            const double pixel = rays.pixel_rad(near.pixel, channel);
             if (pixel > 0)
                 part = std::clamp((near.outline.mean / pixel - largest_spot) / (smallest_disc - largest_spot), 0.0, 1.0);
         }

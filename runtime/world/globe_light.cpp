@@ -91,7 +91,8 @@ GlobeRows globe_rows(const SolarSystem& system, std::span<const glm::dvec4> part
     for (const NamedTable& lamp : system.lamps) {
         const SpectralTable table{lamp.points};
         const Spectrum spectrum = law_of(table).spectrum;
-        // Cities are as bright as a part of sunlit white to the eye, not in energy: 0.69 as bright as by that.
+        // A globe's "brightest_lamps" is a ratio of luminances. With the energy of sunlight, sodium has 1.45 times its
+        // luminance.
         const double luminance = seen(eye(), spectrum, 1).y;
         add(
             rows, lamp.name, [&](int) { return [spectrum, luminance](double nm) { return spectrum(nm) / luminance; }; }, 1);

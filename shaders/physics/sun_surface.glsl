@@ -10,6 +10,11 @@ const real FACULAE_REACH = real(0.13); // from a group's middle, radians; less t
 // Lanes and bends are narrower than cells. fineness: -1 - log2 of the pixel's width, radii.
 FN real sun_seen(real cells, real fineness) { return min(max(fineness - log2(cells), real(0.0)), real(1.0)); }
 
+FN rvec4 sun_noise(rvec3 at, real cells, real fineness)
+{
+    return sun_seen(cells, fineness) * detail_octave(at * cells, rvec3(real(0.0)));
+}
+
 // The part of light that a spot leaves. off: from its middle; pixel: both in radii of the Sun.
 FN real sun_spot(rvec2 off, real radius, real pixel)
 {
@@ -24,11 +29,10 @@ FN real sun_spot(rvec2 off, real radius, real pixel)
 // cosine of the ray's angle from the vertical.
 FN real sun_surface(rvec3 at, real pixel, real mu)
 {
-    const rvec3 still = rvec3(real(0.0));
     real light = real(1.0), fineness = real(-1.0) - log2(pixel), granules = sun_seen(GRANULE_CELLS, fineness);
     if (granules > real(0.0)) {
         // Dark lanes where either field is 0. `bright` has the mean 0.414 and the standard deviation 0.204.
-        rvec4 field = detail_octave(at * GRANULE_CELLS, still);
+        rvec4 field = detail_octave(at * GRANULE_CELLS, rvec3(real(0.0)));
         real least = min(abs(field.x), abs(field.y)), bright = least / (least + real(0.2));
         light += granules * GRANULE_CONTRAST * mu * (bright - real(0.414)) / real(0.204);
     }
@@ -41,8 +45,7 @@ FN real sun_surface(rvec3 at, real pixel, real mu)
     real sine = real(0.16) + real(0.29 / 255.0) * real(int(h >> 24u)), across = sqrt(real(1.0) - at.z * at.z);
     rvec2 off = rvec2(
         (longitude - sector - place) * (real(6.283185307179586) / SPOT_SECTORS) * across, (abs(at.z) - sine) / across);
-    rvec4 wide = sun_seen(real(60.0), fineness) * detail_octave(at * real(60.0), still);
-    rvec4 fine = sun_seen(real(240.0), fineness) * detail_octave(at * real(240.0), still);
+    rvec4 wide = sun_noise(at, real(60.0), fineness), fine = sun_noise(at, real(240.0), fineness);
     real near = max(real(1.0) - dot(off, off) / (FACULAE_REACH * FACULAE_REACH), real(0.0));
     light += real(0.5) * (real(1.0) - mu) * near * near * max(fine.x + real(0.5) * wide.y, real(0.0)); // bright at the limb
     // The greater spot leads in the rotation's direction, nearer to the equator.

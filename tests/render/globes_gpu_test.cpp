@@ -321,7 +321,7 @@ void expect_close(const Errors& errors, const Subject& subject, const Speed& spe
     // a horizon in blue light, and astern, where the eye sees the ultraviolet at 0.577 of its wavelength, whose optical
     // depth is 1 to 6: there the worst place is 57 % off, with twice as many steps 23 %.
     const bool thick = subject.air && speed.doppler && speed.aside_deg == 180;
-    if (errors.smooth >= 20) {
+    if (errors.smooth >= 20) { // of fewer there is no median
         EXPECT_LT(errors.median, thick ? 0.06 : 0.03) << name;
     }
     EXPECT_LT(errors.most, thick ? 0.6 : subject.rough) << name << " at " << errors.where.x << ", " << errors.where.y;
@@ -379,8 +379,8 @@ TEST(Globes, LightIsThatOfTheRaysForBothEyes)
                 one.mean = 0.1, one.samples = 64;
             if (has("Mars"))
                 one.mean = 0.12, one.rough = 0.08;
-            if (has("cities") && has("0.5 c")
-                && !has("astern")) // the air's sunlit rim, finer than a pixel, is one ray's luck
+            // The air's sunlit rim is finer than a pixel, and its light is one ray's luck.
+            if (has("cities") && has("0.5 c") && !has("astern"))
                 one.mean = 0.35, one.rough = 0.15;
         });
 }

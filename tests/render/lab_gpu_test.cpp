@@ -135,16 +135,24 @@ TEST(Lab, AComparisonIsReadAsTheRaysShowIt)
             const auto numbers = [&](ivec2 p) { return truth.numbers[std::size_t(p.y * size.x + p.x)]; };
             const Reference::Numbers ray = numbers(at);
             // The instruments read the nearest texel, which may be a neighbour's across an edge.
-            double nearest = ray.distance, farthest = ray.distance, least_D = ray.D, most_D = ray.D;
-            for (int k = 0; k < 9; ++k) {
-                const Reference::Numbers beside = numbers(at + ivec2(k % 3 - 1, k / 3 - 1));
-                nearest = std::min(nearest, beside.distance), farthest = std::max(farthest, beside.distance);
-                least_D = std::min(least_D, beside.D), most_D = std::max(most_D, beside.D);
+            double nearest = ray.distance, farthest = ray.distance;
+            std::array<double, 3> least_D{ray.D, ray.D, ray.D}, most_D = least_D; // of pixels so far away
+            for (int k = 0; k < 25; ++k) {
+                const ivec2 off_by(k % 5 - 2, k / 5 - 2);
+                const Reference::Numbers beside = numbers(at + off_by);
+                const int reach = std::max(std::abs(off_by.x), std::abs(off_by.y));
+                if (reach <= 1)
+                    nearest = std::min(nearest, beside.distance), farthest = std::max(farthest, beside.distance);
+                for (std::size_t within = std::size_t(reach); within < 3; ++within)
+                    least_D[within] = std::min(least_D[within], beside.D),
+                    most_D[within] = std::max(most_D[within], beside.D);
             }
             const SpotReading& aim = measurement.points[i + 1].aim;
             if (!aim.distance_s)
                 continue;
-            off_D += !(aim.ray.D > least_D * (1 - 1e-4) && aim.ray.D < most_D * (1 + 1e-4));
+            EXPECT_GT(aim.ray.D, least_D[2] * (1 - 1e-4)) << at.x << " " << at.y;
+            EXPECT_LT(aim.ray.D, most_D[2] * (1 + 1e-4)) << at.x << " " << at.y;
+            off_D += !(aim.ray.D > least_D[1] * (1 - 1e-4) && aim.ray.D < most_D[1] * (1 + 1e-4));
             EXPECT_LT(between(aim.ray.ship, ray.camera), 1e-6);
             // A thing at rest: what is read in the world's own frame has the world's D, the same as its pixel's sky.
             const MeasuringObserver& who = measurement.points[i + 1].observer;

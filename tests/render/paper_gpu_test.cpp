@@ -166,32 +166,34 @@ Worst check_directions(const Numbers& numbers, const Layout& layout, const Shot&
     return worst;
 }
 
+/// The depths of the pixels around one.
+std::vector<double> neighbours(const Numbers& numbers, int i)
+{
+    const int width = numbers.size.x, x = i % width, y = i / width;
+    std::vector<double> depths;
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+            if (x + dx >= 0 && x + dx < width && y + dy >= 0 && y + dy < numbers.size.y && (dx != 0 || dy != 0))
+                depths.push_back(numbers.depth(i + dx + dy * width));
+    return depths;
+}
+
 /// The faces of a row of columns lie in one plane. Seen along it, one texel shows a column, the next one another column, and
 /// the plane through both has a distance between theirs, where the gap is.
 bool between_neighbours(const Numbers& numbers, int i)
 {
-    const int width = numbers.size.x, x = i % width, y = i / width;
     bool nearer = false, farther = false;
-    for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx)
-            if (x + dx >= 0 && x + dx < width && y + dy >= 0 && y + dy < numbers.size.y && (dx != 0 || dy != 0)) {
-                const double depth = numbers.depth(i + dx + dy * width);
-                nearer |= depth < numbers.depth(i);
-                farther |= depth > numbers.depth(i) && !std::isinf(depth);
-            }
+    for (const double depth : neighbours(numbers, i)) {
+        nearer |= depth < numbers.depth(i);
+        farther |= depth > numbers.depth(i) && !std::isinf(depth);
+    }
     return nearer && farther;
 }
 
 /// A surface that ends before the sky is seen edge-on there, and its texel's plane goes on beyond it.
 bool beside_sky(const Numbers& numbers, int i)
 {
-    const int width = numbers.size.x, x = i % width, y = i / width;
-    for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx)
-            if (x + dx >= 0 && x + dx < width && y + dy >= 0 && y + dy < numbers.size.y
-                && std::isinf(numbers.depth(i + dx + dy * width)))
-                return true;
-    return false;
+    return std::ranges::any_of(neighbours(numbers, i), [](double depth) { return std::isinf(depth); });
 }
 
 class ShippedShots : public ::testing::TestWithParam<std::filesystem::path> { };
