@@ -1,4 +1,5 @@
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #include "constants.h"
 // A block of 4 x 4 texels of a picture in the format BC7 (Khronos Data Format Specification 1.3, chapter 20), in its mode 6:
@@ -11,12 +12,18 @@ layout(set = 0, binding = 0) uniform sampler2D picture; // one level
 layout(location = 0) out uvec4 block;
 
 const int TEXELS = 16, STEPS = 15, ROUNDS = 3, TURNS = 8;
-const int weight_of[16] = int[](0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64); // in 64ths
 
-vec4 texels[TEXELS]; // 0 to 255
+// 4 bits for each texel.
+uint place_of(uvec2 places, int i) { return ((i < 8 ? places.x : places.y) >> (4 * (i & 7))) & 15u; }
 
-vec4 stored(ivec2 at)
+// Of the last end at a place from 0 to STEPS, in 64ths: the specification's table.
+float weight(float place) { return floor(64.0 / float(STEPS) * place + 0.5); }
+
+// A texel of the block as it is stored, 0 to 255. It is read again wherever it is needed: sixteen that are kept, and loops
+// without a turn, take more registers than some graphics cards have.
+vec4 texel(int i)
 {
+    ivec2 at = 4 * ivec2(gl_FragCoord.xy) + ivec2(i & 3, i >> 2);
     vec4 value = texelFetch(picture, min(at, textureSize(picture, 0) - 1), 0);
     if (COLOURS)
         value.rgb = mix(12.92 * value.rgb, 1.055 * pow(value.rgb, vec3(1.0 / 2.4)) - 0.055, greaterThan(value.rgb, vec3(0.0031308)));
@@ -26,7 +33,7 @@ vec4 stored(ivec2 at)
 // A block so far: whole ends, 0 to 255, each texel's place between them, and the sum of the squared errors.
 struct Guess {
     vec4 ends[2];
-    int places[TEXELS];
+    uvec2 places;
     float error;
 };
 
@@ -36,14 +43,15 @@ vec4 end_with(vec4 end, float bit) { return 2.0 * clamp(round((end - bit) / 2.0)
 Guess guess(vec4 first, vec4 last)
 {
     Guess made;
-    made.ends[0] = first, made.ends[1] = last, made.error = 0.0;
+    made.ends[0] = first, made.ends[1] = last, made.places = uvec2(0u), made.error = 0.0;
     vec4 along = last - first;
     float square = max(dot(along, along), 1e-6);
-    for (int i = 0; i < TEXELS; ++i) {
-        int place = int(clamp(dot(texels[i] - first, along) / square, 0.0, 1.0) * float(STEPS) + 0.5);
-        float w = float(weight_of[place]);
-        vec4 off = floor(((64.0 - w) * first + w * last + 32.0) / 64.0) - texels[i];
-        made.places[i] = place;
+    [[dont_unroll]] for (int i = 0; i < TEXELS; ++i) {
+        vec4 value = texel(i);
+        float place = floor(clamp(dot(value - first, along) / square, 0.0, 1.0) * float(STEPS) + 0.5), w = weight(place);
+        vec4 off = floor(((64.0 - w) * first + w * last + 32.0) / 64.0) - value;
+        uint bits = uint(place) << (4 * (i & 7));
+        made.places |= i < 8 ? uvec2(bits, 0u) : uvec2(0u, bits);
         made.error += dot(off, off);
     }
     return made;
@@ -63,8 +71,10 @@ void improve(inout Guess best, vec4 first, vec4 last, bool opaque)
 vec4 main_axis(vec4 mean)
 {
     mat4 covariance = mat4(0.0);
-    for (int i = 0; i < TEXELS; ++i)
-        covariance += outerProduct(texels[i] - mean, texels[i] - mean);
+    [[dont_unroll]] for (int i = 0; i < TEXELS; ++i) {
+        vec4 off = texel(i) - mean;
+        covariance += outerProduct(off, off);
+    }
     vec4 axis = covariance * vec4(1.0, 0.9, 0.8, 0.7);
     for (int turn = 0; turn < TURNS; ++turn) {
         float longest = max(max(abs(axis.x), abs(axis.y)), max(abs(axis.z), abs(axis.w)));
@@ -80,10 +90,11 @@ bool fitted(Guess from, out vec4 first, out vec4 last)
 {
     float aa = 0.0, ab = 0.0, bb = 0.0;
     vec4 a_sum = vec4(0.0), b_sum = vec4(0.0);
-    for (int i = 0; i < TEXELS; ++i) {
-        float b = float(weight_of[from.places[i]]) / 64.0, a = 1.0 - b;
+    [[dont_unroll]] for (int i = 0; i < TEXELS; ++i) {
+        float b = weight(float(place_of(from.places, i))) / 64.0, a = 1.0 - b;
         aa += a * a, ab += a * b, bb += b * b;
-        a_sum += a * texels[i], b_sum += b * texels[i];
+        vec4 value = texel(i);
+        a_sum += a * value, b_sum += b * value;
     }
     float divisor = aa * bb - ab * ab;
     first = (bb * a_sum - ab * b_sum) / divisor, last = (aa * b_sum - ab * a_sum) / divisor;
@@ -101,18 +112,17 @@ void put(uint value, int first, int count)
 
 void main()
 {
-    ivec2 corner = 4 * ivec2(gl_FragCoord.xy);
     vec4 mean = vec4(0.0);
     float least_alpha = 255.0;
-    for (int i = 0; i < TEXELS; ++i) {
-        texels[i] = stored(corner + ivec2(i & 3, i >> 2));
-        mean += texels[i] / float(TEXELS);
-        least_alpha = min(least_alpha, texels[i].a);
+    [[dont_unroll]] for (int i = 0; i < TEXELS; ++i) {
+        vec4 value = texel(i);
+        mean += value / float(TEXELS);
+        least_alpha = min(least_alpha, value.a);
     }
     vec4 axis = main_axis(mean);
     float low = 0.0, high = 0.0;
-    for (int i = 0; i < TEXELS; ++i) {
-        float along = dot(texels[i] - mean, axis);
+    [[dont_unroll]] for (int i = 0; i < TEXELS; ++i) {
+        float along = dot(texel(i) - mean, axis);
         low = min(low, along), high = max(high, along);
     }
     bool opaque = least_alpha == 255.0;
@@ -125,7 +135,7 @@ void main()
             improve(best, first, last, opaque);
     }
     // The first texel's highest bit is not stored: it is 0.
-    bool turned = best.places[0] > STEPS / 2;
+    bool turned = place_of(best.places, 0) > uint(STEPS / 2);
     vec4 first = best.ends[turned ? 1 : 0], last = best.ends[turned ? 0 : 1];
     words = uvec4(0u);
     put(64u, 0, 7); // the mode
@@ -136,6 +146,6 @@ void main()
     put(uint(first.x) & 1u, 63, 1);
     put(uint(last.x) & 1u, 64, 1);
     for (int i = 0; i < TEXELS; ++i)
-        put(uint(turned ? STEPS - best.places[i] : best.places[i]), i == 0 ? 65 : 64 + 4 * i, i == 0 ? 3 : 4);
+        put(turned ? uint(STEPS) - place_of(best.places, i) : place_of(best.places, i), i == 0 ? 65 : 64 + 4 * i, i == 0 ? 3 : 4);
     block = words;
 }

@@ -100,7 +100,7 @@ struct Ceiling {
 constexpr Ceiling ceilings[] = {
     {"bloom pipeline", 46, 186, 62, 32},
     {"bloomed pipeline", 263, 311, 62, 24},
-    {"compress pipeline", 50502, 51174, 62, 168},
+    {"compress pipeline", 18232, 23944, 62, 56},
     {"dark pipeline", 2172, 2717, 62, 24},
     {"fade pipeline", 4, 4, 62, 24},
     {"finish pipeline", 114, 114, 62, 24},
@@ -137,8 +137,10 @@ int above_ceilings(const Device& card, const Pipelines& pipelines)
     for (const auto& [pass, pipeline] : pipelines.made())
         for (const auto stage : {vk::ShaderStageFlagBits::eFragment, vk::ShaderStageFlagBits::eVertex}) {
             const auto figures = shader_statistics(card, pipeline, stage);
-            if (!figures.contains("Spilled VGPRs") || figures.at("Spilled VGPRs") > 0 || figures.at("Instructions") < 1)
-                std::fprintf(stderr, "%s spills, or says nothing\n", pass.name), ++faults;
+            if (!figures.contains("Spilled VGPRs") || figures.at("Instructions") < 1)
+                std::fprintf(stderr, "%s says nothing\n", pass.name), ++faults;
+            else if (figures.at("Spilled VGPRs") > 0)
+                std::fprintf(stderr, "%s spills %.0f registers\n", pass.name, figures.at("Spilled VGPRs")), ++faults;
             Ceiling& now = found.try_emplace(pass.name, Ceiling{pass.name, 1e9, 0, 0, 0}).first->second;
             const double cycles = figures.at("Inverse Throughput");
             if (stage == vk::ShaderStageFlagBits::eFragment)
