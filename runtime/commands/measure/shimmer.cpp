@@ -17,8 +17,9 @@ constexpr std::array presets = {"draft", "balanced", "fine"};
 struct SlowMotion {
     std::string what;
     std::vector<Shot> frames;
-    std::array<double, presets.size()> least_dB; ///< of the shipped presets, on the avenue's desk: 1.5 dB below the least
-                                                 ///< of 160x120, 320x240 and 640x480 pixels
+    /// Of the shipped presets, for the shot starbow on a desk: 1.5 dB below the least of 160x120, 320x240 and 640x480
+    /// pixels. They hold for that shot's contrast: 1.5 stops darker and before a bright sky it is 3 to 5 dB better.
+    std::array<double, presets.size()> least_dB;
 };
 
 /// Outputs of a frame, each as shown: sRGB, four bytes a pixel.
@@ -59,14 +60,14 @@ std::vector<SlowMotion> motions(const Shot& start)
     return {
         each("heading, 70 degrees a frame, 1e-6 c", unseen, heading(1e-6, 10, 70)),
         each("heading, 1 degree a frame, 1e-6 c", unseen, heading(1e-6, 10, 1)),
-        each("heading, 0.05 degrees a frame, 0.3 c", {39.5, 38, 41}, heading(0.3, 30, 0.05)),
-        each("heading, 0.05 degrees a frame, 0.9 c", {29, 31, 34}, heading(0.9, 30, 0.05)),
-        each("look, 0.05 degrees a frame, at rest", {33.5, 35, 36}, look(0)),
-        each("look, 0.05 degrees a frame, 0.9 c", {31, 31, 34}, look(0.9)),
-        each("faster by 0.0005 in rapidity a frame, from rest", {31.5, 41, 40}, faster(0)),
-        each("the same at 0.3 c", {35.5, 36, 39.5}, faster(std::atanh(0.3))),
-        each("the same across 0.51 c, where cube maps get other axes", {23, 24.5, 32}, faster(std::log(1.75) - 0.00075)),
-        each("the same at 0.9 c", {36.5, 37, 42}, faster(std::atanh(0.9))),
+        each("heading, 0.05 degrees a frame, 0.3 c", {36, 37, 38.5}, heading(0.3, 30, 0.05)),
+        each("heading, 0.05 degrees a frame, 0.9 c", {27, 27, 30.5}, heading(0.9, 30, 0.05)),
+        each("look, 0.05 degrees a frame, at rest", {30, 32, 33}, look(0)),
+        each("look, 0.05 degrees a frame, 0.9 c", {27.5, 27.5, 29}, look(0.9)),
+        each("faster by 0.0005 in rapidity a frame, from rest", {32, 37, 40.5}, faster(0)),
+        each("the same at 0.3 c", {30, 30, 36}, faster(std::atanh(0.3))),
+        each("the same across 0.51 c, where cube maps get other axes", {20, 20.5, 29}, faster(std::log(1.75) - 0.00075)),
+        each("the same at 0.9 c", {34, 34, 38}, faster(std::atanh(0.9))),
     };
 }
 
@@ -113,6 +114,7 @@ double shimmer_dB(const std::vector<Pictures>& live, const std::vector<Pictures>
 
 int measure_shimmer(const Trial& trial, const std::vector<Setting>& settings, const Device::Options& options)
 {
+    const bool bounded = trial.shots[0].first == "starbow" && trial.layout.file.stem() == "desk";
     Shot start = trial.shots[0].second;
     start.u = glm::dvec3(0);
     const std::vector<SlowMotion> all = motions(start);
@@ -130,7 +132,6 @@ int measure_shimmer(const Trial& trial, const std::vector<Setting>& settings, co
     }
     std::printf("\n");
     markdown += rule + "\n";
-    const bool bounded = trial.scene.stem() == "avenue" && trial.layout.file.stem() == "desk";
     int failures = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
         std::printf("%-56s", all[i].what.c_str());
