@@ -57,8 +57,8 @@ GlobeEntry globe(int i) { return globes.entries[i + int(globes.first.w)]; }
 
 // A ray to a globe, in its own axes scaled by its radii, in which it is a sphere of radius 1.
 struct GlobeRay {
-    vec3 from, way; // unit way
-    float ahead, square, pixel; // the way to the nearest point to the middle, its distance's square, a pixel's width there
+    vec3 from, way, nearest; // unit way; the nearest point to the middle
+    float ahead, off, pixel; // the way to that point, its distance from the middle, a pixel's width there
 };
 GlobeRay globe_ray(GlobeEntry g, vec3 n, float angle)
 {
@@ -67,12 +67,39 @@ GlobeRay globe_ray(GlobeEntry g, vec3 n, float angle)
     ray.way = vec3(dot(g.row0.xyz, n), dot(g.row1.xyz, n), dot(g.row2.xyz, n));
     ray.way *= inversesqrt(dot(ray.way, ray.way));
     ray.ahead = -dot(ray.from, ray.way);
-    vec3 nearest = ray.from + ray.way * ray.ahead;
-    ray.square = dot(nearest, nearest);
+    ray.nearest = ray.from + ray.way * ray.ahead;
+    ray.off = length(ray.nearest);
     ray.pixel = max(angle * ray.ahead, 1e-12);
     return ray;
 }
-float covered(GlobeRay ray) { return ray.ahead > 0.0 ? clamp(0.5 + (1.0 - sqrt(ray.square)) / ray.pixel, 0.0, 1.0) : 0.0; }
+float covered(GlobeRay ray) { return ray.ahead > 0.0 ? clamp(0.5 + (1.0 - ray.off) / ray.pixel, 0.0, 1.0) : 0.0; }
+
+// Ways through a globe's air within a pixel. One is enough where the pixel is finer than the air. Where it is coarser and has
+// a part beside the globe, way 0 is the middle of its part before the globe, and the others lie in its part beside it.
+struct AirWays {
+    int first, last, steps; // ways; places on each
+    float low, high; // heights between which those beside the globe lie, as exp(-height / scale)
+    float scale, beside; // they lie the denser, the lower they are; their part of the pixel, all air and above
+};
+const int AIR_WAYS = 4;
+AirWays air_ways(GlobeRay ray, float top, float x)
+{
+    float scale = 4.0 / x, low = max(ray.off - 0.5 * ray.pixel, 1.0), high = ray.off + 0.5 * ray.pixel;
+    if (ray.ahead <= 0.0 || ray.pixel * x < 0.5 || high <= 1.0 || low >= top)
+        return AirWays(0, 0, GLOBE_AIR_STEPS, 0.0, 0.0, 0.0, 1.0);
+    return AirWays(low > 1.0 ? 1 : 0, AIR_WAYS, 3 * GLOBE_AIR_STEPS, exp((1.0 - low) / scale),
+        exp((1.0 - min(high, top)) / scale), scale, (high - low) / ray.pixel);
+}
+// Way number k: its distance from the globe's middle, and the part of the pixel that it stands for.
+vec2 air_way(AirWays ways, GlobeRay ray, int k)
+{
+    if (ways.last == 0)
+        return vec2(ray.off, 1.0);
+    if (k == 0)
+        return vec2(0.5 * (max(ray.off - 0.5 * ray.pixel, -1.0) + 1.0), 1.0 - ways.beside);
+    float at = mix(ways.low, ways.high, (float(k) - 0.5) / float(AIR_WAYS));
+    return vec2(1.0 - ways.scale * log(at), ways.scale * (ways.low - ways.high) / (float(AIR_WAYS) * at * ray.pixel));
+}
 
 // The part of a globe's light that is shown as a star's. radius: its radius in the picture, pixels.
 float point_part(float radius) { return 1.0 - smoothstep(0.8, 1.6, radius); }
@@ -169,7 +196,8 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
     float hides = covered(ray) * disc, cover = hides / (1.0 + 1.0 / max(12.0 * pixels * pixels, 1.0));
     vec3 own = vec3(1.0, 1.0, g.shape.y); // from the scaled axes to those of one unit
     vec3 sun_scaled = normalize(g.light.xyz / own);
-    float half_chord = sqrt(max(1.0 - ray.square, 0.0)), t = ray.ahead - half_chord;
+    vec3 way = normalize(ray.way * own);
+    float half_chord = sqrt(max(1.0 - ray.off * ray.off, 0.0)), t = ray.ahead - half_chord;
 
     float through_ring = 1.0, ring_t = 0.0;
     vec3 ring_light = vec3(0.0);
@@ -179,7 +207,7 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
         RingPixel pixel = ring_pixel(g, radius, width);
         if (ahead && pixel.inside > 0.0) {
             vec3 at = ray.from + ray.way * ring_t;
-            float mu = max(abs(normalize(ray.way * own).z), 1e-4), mu_sun = max(abs(g.light.z), 1e-4);
+            float mu = max(abs(way.z), 1e-4), mu_sun = max(abs(g.light.z), 1e-4);
             bool same_side = (ray.from.z > 0.0) == (g.light.z > 0.0);
             float scattered = 0.0, through = 0.0;
             for (int i = 0; i < RING_PLACES; ++i) {
@@ -208,35 +236,46 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
     float air = 0.0;
     vec3 scattered = vec3(0.0);
     if (g.air.x > 0.0) {
-        float top = 1.0 + g.air.y, x = 1.0 / g.air.x;
-        float inside = top * top - ray.square;
-        if (inside > 0.0 && ray.ahead + sqrt(inside) > 0.0) {
+        float top = 1.0 + g.air.y, x = 1.0 / g.air.x, cosine = dot(way, g.light.xyz), through = 1.0;
+        AirWays ways = air_ways(ray, top, x);
+        for (int k = ways.first; k <= ways.last; ++k) {
+            vec2 one = air_way(ways, ray, k); // its distance from the middle, and its part of the pixel
+            float square = one.x * one.x, inside = top * top - square;
+            if (inside <= 0.0 || ray.ahead + sqrt(inside) <= 0.0)
+                continue;
+            vec3 from = ray.from + ray.nearest * (one.x / max(ray.off, 1e-9) - 1.0);
             float begin = max(ray.ahead - sqrt(inside), 0.0);
-            float end = ray.square < 1.0 && ray.ahead > 0.0 ? t : ray.ahead + sqrt(inside);
+            float end = square < 1.0 && ray.ahead > 0.0 ? ray.ahead - sqrt(1.0 - square) : ray.ahead + sqrt(inside);
             // Places lie the denser, the nearer to the lowest: at squares of even steps from there.
             float lowest = clamp(ray.ahead, begin, end), first = -sqrt(lowest - begin), last = sqrt(end - lowest);
-            float step_ = (last - first) / float(GLOBE_AIR_STEPS), cosine = dot(normalize(ray.way * own), g.light.xyz);
-            for (int i = 0; i < GLOBE_AIR_STEPS; ++i) {
+            float step_ = (last - first) / float(ways.steps), mass = 0.0;
+            for (int i = 0; i < ways.steps; ++i) {
                 float root = first + (float(i) + 0.5) * step_;
-                vec3 at = ray.from + ray.way * (lowest + root * abs(root));
+                vec3 at = from + ray.way * (lowest + root * abs(root));
                 float r = length(at), mu = dot(at, sun_scaled) / r, part = exp((1.0 - r) * x) * 2.0 * abs(root) * step_ * x;
-                if (mu > 0.0 || r * r * (1.0 - mu * mu) > 1.0)
-                    scattered += part * left_by_other(g, at * own) * globe_colour(column, g.air.z, air_level(air + 0.5 * part + air_above(r, x, mu)));
-                air += part;
+                // The Sun rises over the ground's horizon.
+                float horizon = -sqrt(max(r * r - 1.0, 0.0)) / r, sun = smoothstep(-g.ring.w, g.ring.w, mu - horizon);
+                if (sun > 0.0)
+                    scattered += one.y * part * sun * left_by_other(g, at * own)
+                        * globe_colour(column, g.air.z, air_level(mass + 0.5 * part + air_above(r, x, max(mu, horizon))));
+                mass += part;
             }
-            // Rayleigh's phase function over 4, for a sunlit white surface sends a part of 1 / pi.
-            scattered *= 0.1875 * (1.0 + cosine * cosine) * g.light.w * disc;
+            if (k == 0)
+                air = mass;
+            else
+                through -= one.y * (1.0 - exp(-GLOBE_AIR_DEPTH * mass)) / ways.beside;
         }
+        // Rayleigh's phase function over 4, for a sunlit white surface sends a part of 1 / pi.
+        scattered *= 0.1875 * (1.0 + cosine * cosine) * g.light.w * disc;
+        light *= mix(1.0, ways.last > 0 ? through : exp(-GLOBE_AIR_DEPTH * air), disc);
     }
-    light *= exp(-GLOBE_AIR_DEPTH * air * disc);
 
     if (cover > 0.0) {
         // The middle of the part of the pixel that the globe covers.
-        float off = sqrt(ray.square), low = max(off - 0.5 * ray.pixel, -1.0), high = min(off + 0.5 * ray.pixel, 1.0);
-        float middle = off + 0.5 * ray.pixel > 1.0 ? 0.5 * (low + high) : off;
-        vec3 nearest = ray.from + ray.way * ray.ahead;
-        vec3 at = nearest * (middle / max(off, 1e-9)) - ray.way * sqrt(max(1.0 - middle * middle, 0.0));
-        vec3 normal = normalize(at / own), way = normalize(ray.way * own);
+        float low = max(ray.off - 0.5 * ray.pixel, -1.0), high = min(ray.off + 0.5 * ray.pixel, 1.0);
+        float middle = ray.off + 0.5 * ray.pixel > 1.0 ? 0.5 * (low + high) : ray.off;
+        vec3 at = ray.nearest * (middle / max(ray.off, 1e-9)) - ray.way * sqrt(max(1.0 - middle * middle, 0.0));
+        vec3 normal = normalize(at / own);
         float mu = max(-dot(normal, way), 0.0), mu_sun = max(dot(normal, g.light.xyz), 0.0);
         float lit = g.light.w * left_by_other(g, at * own);
         if (g.ring.y > 0.0 && at.z * sun_scaled.z < 0.0) { // its ring's shadow
@@ -312,7 +351,7 @@ void add_disc(int i, vec3 n, float angle, ShiftColumn column, inout vec3 light, 
     }
     GlobeRay middle = globe_ray(g, n, angle);
     if (covered(middle) > 0.5)
-        distance = (middle.ahead - sqrt(max(1.0 - middle.square, 0.0)))
+        distance = (middle.ahead - sqrt(max(1.0 - middle.off * middle.off, 0.0)))
             / length(vec3(dot(g.row0.xyz, n), dot(g.row1.xyz, n), dot(g.row2.xyz, n)));
     light = sum / float(rays);
 }

@@ -379,9 +379,9 @@ TEST(Globes, LightIsThatOfTheRaysForBothEyes)
                 one.mean = 0.1, one.samples = 64;
             if (has("Mars"))
                 one.mean = 0.12, one.rough = 0.08;
-            // The air's sunlit rim is finer than a pixel, and its light is one ray's luck.
+            // The air's sunlit rim is a third of a pixel wide, and it has most of the light.
             if (has("cities") && has("0.5 c") && !has("astern"))
-                one.mean = 0.35, one.rough = 0.15;
+                one.mean = 0.08, one.rough = 0.15, one.samples = 400;
         });
 }
 
