@@ -73,6 +73,7 @@ set(CPACK_DEBIAN_STARBOW_PACKAGE_SHLIBDEPS ON)
 # The program opens the Vulkan loader itself, so dpkg-shlibdeps does not find it.
 set(CPACK_DEBIAN_STARBOW_PACKAGE_DEPENDS "fonts-dejavu-core, libvulkan1, mesa-vulkan-drivers | vulkan-icd")
 set(CPACK_DEBIAN_STARBOW_PACKAGE_RECOMMENDS "ffmpeg")
+set(CPACK_DEBIAN_STARBOW_PACKAGE_SUGGESTS "weasyprint")
 set(CPACK_COMPONENT_STARBOW_DESCRIPTION "flight near the speed of light
 Starbow shows what physics says you would see near the speed of light:
 aberration, the Doppler effect, the headlight effect. It draws on windows,

@@ -7,6 +7,7 @@
 #include "runtime/commands/options/command_line.h"
 #include "runtime/hud/lab_readings.h"
 #include "runtime/hud/lab_sheet.h"
+#include "runtime/images/pdf.h"
 #include <cstdio>
 #include <memory>
 
@@ -37,15 +38,25 @@ int write_papers(const LabOptions& options)
 {
     if (options.sheet.empty() && options.readings.empty())
         throw InputError("neither --sheet nor --readings is given; one of them is right");
-    if (const std::filesystem::path page = options.out; !options.sheet.empty() && page.extension() != ".html")
-        throw InputError("--out " + one_line(page.string()) + " does not end in .html; a name that does is right");
+    const std::filesystem::path sheet = options.out;
+    const bool pdf = sheet.extension() == ".pdf";
+    if (!options.sheet.empty() && !pdf && sheet.extension() != ".html")
+        throw InputError("--out " + one_line(sheet.string()) + " ends in neither .html nor .pdf; one of them is right");
     const Words words = words_in(options.language);
     if (!options.readings.empty()) {
         check_new(options.readings);
         write_file(options.readings, reading_list(words));
     }
-    if (!options.sheet.empty())
-        write_file(options.out, lab_sheet(options.sheet == "teacher" ? SheetFor::teacher : SheetFor::student, words));
+    if (!options.sheet.empty()) {
+        const std::string page = lab_sheet(options.sheet == "teacher" ? SheetFor::teacher : SheetFor::student, words);
+        if (pdf) {
+            make_folder_of(sheet);
+            write_pdf(sheet, page);
+            std::printf("%s\n", sheet.c_str());
+        } else {
+            write_file(sheet, page);
+        }
+    }
     return 0;
 }
 
@@ -60,14 +71,16 @@ static void add_lab(Subcommand& app, std::function<int()>& chosen)
     Option* sheet
         = command->add_option("--sheet", options->sheet, "Write the worksheet for a student or a teacher as a page to print")
               ->check(one_of({"student", "teacher"}));
-    command->add_option("--out", options->out, "The worksheet's file")->capture_default_str()->needs(sheet);
+    command->add_option("--out", options->out, "The worksheet's file: a page (.html), or a PDF file by weasyprint")
+        ->capture_default_str()
+        ->needs(sheet);
     command->add_option("--readings", options->readings,
         "Write an empty list of readings, with a line for each row of the worksheet; starbow class reads it when it is "
         "filled");
     add_language(*command, options->language);
     command->footer(
         "Examples:\n  starbow lab --sheet student --out out/sheet.html\n  starbow lab --sheet teacher --language "
-        "de --out out/lehrer.html\n  starbow lab --readings GROUP1.csv");
+        "de --out out/lehrer.pdf\n  starbow lab --readings GROUP1.csv");
     command->callback([options, &chosen] { chosen = [options] { return write_papers(*options); }; });
 }
 

@@ -2,6 +2,7 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
+#include "other_program.h"
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -15,8 +16,6 @@
 #include <unistd.h>
 #include <vector>
 #include <zlib.h>
-
-extern char** environ;
 
 namespace starbow {
 namespace fs = std::filesystem;
@@ -89,75 +88,6 @@ bool is_foreign(const fs::path& folder)
     throw InputError(folder.string(), "",
         "its frames have " + one_line(how)
             + "; the same files, options, program and kind of GPU for all parts, or another name for the movie, is right");
-}
-
-struct Ended {
-    int status; ///< from waitpid; -1: not started
-    int error; ///< the reason
-    std::string said; ///< the end of its standard error
-};
-
-/// Runs a program from the PATH in a folder, without a shell, and waits for its end.
-Ended ran(const std::vector<std::string>& arguments, const fs::path& folder)
-{
-    std::vector<char*> pointers;
-    for (const std::string& argument : arguments)
-        pointers.push_back(const_cast<char*>(argument.c_str()));
-    pointers.push_back(nullptr);
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0)
-        return {-1, errno, ""};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], 2);
-    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    // The program ignores SIGPIPE; the other one may rely on it.
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t pipe_ends;
-    sigemptyset(&pipe_ends);
-    sigaddset(&pipe_ends, SIGPIPE);
-    posix_spawnattr_setsigdefault(&attributes, &pipe_ends);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    pid_t child = 0;
-    const int error = posix_spawnp(&child, pointers[0], &actions, &attributes, pointers.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    close(ends[1]);
-    Ended ended{-1, error, ""};
-    if (error == 0) {
-        std::array<char, 4096> piece;
-        for (ssize_t got; (got = read(ends[0], piece.data(), piece.size())) > 0 || (got < 0 && errno == EINTR);) {
-            ended.said.append(piece.data(), std::size_t(std::max<ssize_t>(got, 0)));
-            if (ended.said.size() > 65536)
-                ended.said.erase(0, ended.said.size() - 32768);
-        }
-        while (waitpid(child, &ended.status, 0) < 0 && errno == EINTR) { }
-    }
-    close(ends[0]);
-    return ended;
-}
-
-/// The last line that is not empty.
-std::string last_line(const std::string& said)
-{
-    const std::size_t end = said.find_last_not_of(" \r\n");
-    if (end == said.npos)
-        return "";
-    const std::size_t begin = said.find_last_of("\r\n", end);
-    return one_line(said.substr(begin == said.npos ? 0 : begin + 1, end - (begin == said.npos ? -1 : begin)));
-}
-
-std::string how(const Ended& ended)
-{
-    if (ended.status == -1)
-        return std::strerror(ended.error);
-    if (const std::string said = last_line(ended.said); !said.empty())
-        return said;
-    return WIFSIGNALED(ended.status) ? "ended by signal " + std::to_string(WTERMSIG(ended.status))
-                                     : "exit status " + std::to_string(WEXITSTATUS(ended.status));
 }
 
 } // namespace

@@ -49,13 +49,17 @@ mkdir "$folder/invented" && PYTHONDONTWRITEBYTECODE=1 python3 "$tests/lab/invent
 # The papers.
 for language in en de; do
     for reader in student teacher; do
+        (cd "$folder" && "$program" lab --sheet $reader --language $language --out $language/$reader.pdf >/dev/null) && [ "$(pdftotext -layout "$folder/$language/$reader.pdf" - | tr -d '\f' | grep -cE '^ *[A-Z][0-9]( |$)')" = 36 ] && [ "$(pdffonts "$folder/$language/$reader.pdf" | tail -n +3 | grep -vc ' yes yes yes ')" = 0 ] && ok || fail "PDF sheet: $reader, $language"
         (cd "$folder" && "$program" lab --sheet $reader --language $language --out $language/$reader.html >/dev/null) && [ "$(grep -c '<tr><td>[A-Z][0-9]</td>' "$folder/$language/$reader.html")" = 36 ] && ok || fail "sheet: $reader, $language"
     done
 done
 (cd "$folder" && "$program" lab --readings list.csv >/dev/null) && [ "$(wc -l <"$folder/list.csv")" = 37 ] && ok || fail "no list"
 refused 'list.csv is there already' lab --readings list.csv
 refused 'neither --sheet nor --readings' lab
-refused 'does not end in .html' lab --sheet student --out sheet.pdf
+refused 'ends in neither .html nor .pdf' lab --sheet student --out sheet.odt
+mkdir "$folder/nothing"
+said=$(PATH=$folder/nothing "$program" lab --sheet student --out "$folder/nothing/sheet.pdf" 2>&1)
+[ $? = 2 ] && [[ $said == *"Debian's package weasyprint, installed, is right"* ]] && [ -z "$(ls "$folder/nothing")" ] && ok || fail "a PDF file without weasyprint: $said"
 refused 'does not end in .csv' lab --readings list.ods
 refused '--sheet' lab --sheet pupil
 refused 'the effect brightness is not known; "aberration"' render --shot clocks-rest --effects aberration,brightness --out still
