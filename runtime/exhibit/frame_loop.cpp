@@ -261,7 +261,7 @@ Metered FrameLoop::await_device()
 void FrameLoop::publish_view()
 {
     const bool guides = std::exchange(guides_view_, false), remotes = std::exchange(remotes_view_, false);
-    VisitorsView& view = presenter_.view();
+    SmallPicture& view = presenter_.view();
     if (guides)
         if (const glm::ivec2 size = live_.take(view.rgb); size.x > 0)
             view.size = size;

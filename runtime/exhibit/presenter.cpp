@@ -4,6 +4,7 @@
 #include "menu_pages.h"
 #include "runtime/hud/hud.h"
 #include "runtime/operation/log.h"
+#include "thumbnails.h"
 #include <csignal>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -44,15 +45,15 @@ PresenterState state_of(const Session& session)
 
 } // namespace
 
-PresenterPainter::PresenterPainter()
+PresenterPainter::PresenterPainter(std::function<Thumbnails()> load)
 {
     // A signal is for the frame thread, and so is the processor where both need it.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    thread_ = std::thread([this] {
+    thread_ = std::thread([this, load = std::move(load)] {
         setpriority(PRIO_PROCESS, id_t(gettid()), 10);
-        work();
+        work(load);
     });
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
@@ -72,9 +73,10 @@ void PresenterPainter::ask()
 
 const PresenterPicture* PresenterPainter::take() { return pictures_.refresh() ? &pictures_.newest() : nullptr; }
 
-void PresenterPainter::work()
+void PresenterPainter::work(const std::function<Thumbnails()>& load)
 {
     const Typesetter typesetter; // its letters are not for two threads
+    std::optional<Thumbnails> thumbnails; // loaded when the first picture is painted: nobody waits for them
     for (;;) {
         asked_.acquire();
         if (ends_)
@@ -82,8 +84,11 @@ void PresenterPainter::work()
         if (!orders_.refresh())
             continue;
         const Order& order = orders_.newest();
-        starbow::paint(order.sheet, order.view, typesetter, order.size, order.blue_first, pictures_.next());
+        starbow::paint(order.sheet, order.view, thumbnails.value_or(Thumbnails()), typesetter, order.size, order.blue_first,
+            pictures_.next());
         pictures_.publish();
+        if (!thumbnails)
+            thumbnails = load();
     }
 }
 
@@ -92,7 +97,8 @@ Presenter::Presenter(const ExhibitOptions& options)
     if (!options.presenter)
         return;
     const Typesetter font; // throws here what would end the thread
-    painter_ = std::make_unique<PresenterPainter>();
+    painter_ = std::make_unique<PresenterPainter>(
+        [cache = options.cache, words = options.words] { return drawn_thumbnails(cache, words); });
     scenes_ = shipped_names("scenes"), tours_ = shipped_names("tours"), shots_ = shipped_names("shots");
     languages_ = languages_here([](const std::string& why) {
         write_log(LogKind::words_unreadable, why + "; the guide's window leaves this language out");

@@ -5,6 +5,7 @@
 #include "session.h"
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <semaphore>
 #include <thread>
 
@@ -13,13 +14,14 @@ namespace starbow {
 /// Paints the guide's window on a thread of its own of low priority, so that no frame waits for letters.
 class PresenterPainter {
 public:
-    PresenterPainter();
+    /// load: makes the small pictures, on the thread.
+    explicit PresenterPainter(std::function<Thumbnails()> load);
     ~PresenterPainter();
     PresenterPainter(const PresenterPainter&) = delete;
 
     struct Order {
         PresenterSheet sheet;
-        VisitorsView view;
+        SmallPicture view;
         glm::ivec2 size{0};
         bool blue_first = false;
     };
@@ -30,7 +32,7 @@ public:
     const PresenterPicture* take();
 
 private:
-    void work();
+    void work(const std::function<Thumbnails()>& load);
 
     TripleBuffer<Order> orders_;
     TripleBuffer<PresenterPicture> pictures_;
@@ -69,7 +71,7 @@ public:
     bool due();
     /// True five times a second: a copy of the visitors' picture shall be made.
     bool wants_view();
-    VisitorsView& view() { return view_; }
+    SmallPicture& view() { return view_; }
     /// Has the window painted in its present state.
     void paint(const Session& session, glm::ivec2 size, bool blue_first);
     const PresenterPicture* painted() { return painter_->take(); }
@@ -88,7 +90,7 @@ private:
     std::vector<Command> given_;
     std::string said_;
     bool refused_ = false;
-    VisitorsView view_;
+    SmallPicture view_;
     std::vector<std::string> scenes_, tours_, shots_; ///< names of shipped ones
     std::vector<std::pair<std::string, std::string>> languages_; ///< name, and its own word
     bool pressed_ = false; ///< since the last painting

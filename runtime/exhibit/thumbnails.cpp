@@ -95,6 +95,24 @@ std::vector<Thumbnail> thumbnails(
     return all;
 }
 
+Thumbnails drawn_thumbnails(const fs::path& folder, const Words& words)
+{
+    Thumbnails all;
+    try {
+        for (const Thumbnail& one : thumbnails(folder, words, [](const std::string&) {}))
+            if (std::error_code error; fs::is_regular_file(one.file, error)) {
+                const auto [size, rgba] = read_png(one.file);
+                SmallPicture picture{size, {}};
+                for (std::size_t i = 0; i < rgba.size(); i += 4)
+                    picture.rgb.insert(picture.rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+                all[one.kind + "/" + one.name] = std::move(picture);
+            }
+    } catch (const std::exception&) {
+        // Names alone are enough to choose from.
+    }
+    return all;
+}
+
 std::size_t draw_thumbnails(
     const std::vector<Thumbnail>& all, const std::function<void(const Thumbnail&, std::size_t)>& show)
 {

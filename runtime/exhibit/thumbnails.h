@@ -1,6 +1,7 @@
 #pragma once
 #include "config/model/shot.h"
 #include "config/model/words.h"
+#include "runtime/hud/presenter_picture.h"
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -21,6 +22,9 @@ constexpr glm::ivec2 thumbnail_px{192, 108};
 /// so are they. say: receives the reason why one is left out.
 std::vector<Thumbnail> thumbnails(
     const std::filesystem::path& folder, const Words& words, const std::function<void(const std::string&)>& say);
+
+/// The pictures of those that are there. Fewer where memory lacks or a file can't be read: the guide's window goes on.
+Thumbnails drawn_thumbnails(const std::filesystem::path& folder, const Words& words);
 
 /// Draws those that are not there, without a window. show: receives each one before it is drawn, and the number of those
 /// before it. Returns the number of drawn ones. Throws InputError.

@@ -66,16 +66,22 @@ public:
         }
         typesetter_.write(letters_, text, x, baseline, size, strength);
     }
-    /// A picture as large as it fits into the box, in its own shape.
-    void picture(const PresenterBox& box, const VisitorsView& view)
+    /// A picture as large as it fits into the box, in its own shape. A pixel is the mean of those that it stands for.
+    void picture(const PresenterBox& box, const SmallPicture& view)
     {
         const auto [corner, size] = shown_box(box, view.size);
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
-                const std::size_t row = std::size_t(y) * std::size_t(view.size.y) / std::size_t(size.y),
-                                  column = std::size_t(x) * std::size_t(view.size.x) / std::size_t(size.x);
-                const std::uint8_t* from = &view.rgb[3 * (row * std::size_t(view.size.x) + column)];
-                fill({corner + glm::ivec2(x, y), {1, 1}}, {from[0], from[1], from[2]});
+                const glm::ivec2 from = glm::ivec2(x, y) * view.size / size,
+                                 to = glm::max(glm::ivec2(x + 1, y + 1) * view.size / size, from + 1);
+                glm::ivec3 sum(0);
+                for (int row = from.y; row < to.y; ++row)
+                    for (int column = from.x; column < to.x; ++column) {
+                        const std::uint8_t* pixel = &view.rgb[3 * std::size_t(row * view.size.x + column)];
+                        sum += glm::ivec3(pixel[0], pixel[1], pixel[2]);
+                    }
+                sum /= (to.x - from.x) * (to.y - from.y);
+                fill({corner + glm::ivec2(x, y), {1, 1}}, {std::uint8_t(sum.r), std::uint8_t(sum.g), std::uint8_t(sum.b)});
             }
     }
     /// Lays the letters over all that is filled. Call it once, at the end.
@@ -119,6 +125,18 @@ void paint_button(Canvas& canvas, const PresenterKey& key, const PresenterBox& b
         canvas.line(key.label, x, middle + 0.35 * label, label, room - state - pad, strength);
         canvas.line(key.state, x + room - state, middle + 0.35 * label, small, state + 1, strength * 0.85);
     }
+}
+
+/// A button with the small picture of its choice, where there is one, at its right.
+void paint_choice(Canvas& canvas, const PresenterKey& key, PresenterBox box, double unit, const Thumbnails& thumbnails)
+{
+    const auto found = thumbnails.find(key.thumbnail);
+    if (found != thumbnails.end() && found->second.size.y > 0) {
+        const int width = box.size.y * found->second.size.x / found->second.size.y;
+        canvas.picture({box.corner + glm::ivec2(box.size.x - width, 0), {width, box.size.y}}, found->second);
+        box.size.x -= width;
+    }
+    paint_button(canvas, key, box, unit, false);
 }
 
 void paint_facts(Canvas& canvas, const PresenterSheet& sheet, const PresenterBox& box, double unit)
@@ -225,7 +243,7 @@ PresenterPlaces places_of(const PresenterSheet& sheet, glm::ivec2 size)
     constexpr int columns = 5;
     const std::size_t count = sheet.keys.size(), rest = count % columns;
     const double keys_top = 0.62 * height, upper = 0.55 * height, // the end of what stands above the line about commands
-        left = 0.31 * width, list = 0.25 * width;
+        left = 0.31 * width, list = 0.27 * width;
     PresenterPlaces places;
     places.picture = box(gap, gap, left - 1.5 * gap, 0.34 * height - gap);
     places.facts = box(gap, 0.35 * height, left - 1.5 * gap, upper - 0.35 * height);
@@ -270,8 +288,8 @@ int key_at(const PresenterSheet& sheet, glm::ivec2 size, glm::ivec2 at)
     return 0;
 }
 
-void paint(const PresenterSheet& sheet, const VisitorsView& view, const Typesetter& typesetter, glm::ivec2 size,
-    bool blue_first, PresenterPicture& out)
+void paint(const PresenterSheet& sheet, const SmallPicture& view, const Thumbnails& thumbnails, const Typesetter& typesetter,
+    glm::ivec2 size, bool blue_first, PresenterPicture& out)
 {
     out.size = size;
     out.tightest = 1;
@@ -290,7 +308,7 @@ void paint(const PresenterSheet& sheet, const VisitorsView& view, const Typesett
     canvas.line(sheet.list_title, places.list.corner.x + 10 * unit, places.list.corner.y + 1.2 * title, title,
         places.list.size.x - 20 * unit);
     for (std::size_t i = 0; i < sheet.choices.size(); ++i)
-        paint_button(canvas, sheet.choices[i], places.choices[i], unit, false);
+        paint_choice(canvas, sheet.choices[i], places.choices[i], unit, thumbnails);
     paint_said(canvas, sheet, places.said, unit);
     for (std::size_t i = 0; i < sheet.keys.size(); ++i)
         paint_button(canvas, sheet.keys[i], places.keys[i], unit, true);

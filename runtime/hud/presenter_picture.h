@@ -2,6 +2,8 @@
 #include "presenter_sheet.h"
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace starbow {
@@ -30,11 +32,14 @@ PresenterBox shown_box(const PresenterBox& place, glm::ivec2 picture);
 /// The key at a place of the window; 0: none.
 int key_at(const PresenterSheet& sheet, glm::ivec2 size, glm::ivec2 at);
 
-/// A small copy of what the visitors see: three bytes a pixel, sRGB, from the top. Size 0: none came yet.
-struct VisitorsView {
+/// Such as a copy of what the visitors see: three bytes a pixel, sRGB, from the top. Size 0: there is none.
+struct SmallPicture {
     glm::ivec2 size{0};
     std::vector<std::uint8_t> rgb;
 };
+
+/// Small pictures of what can be chosen, by PresenterKey::thumbnail.
+using Thumbnails = std::map<std::string, SmallPicture>;
 
 /// The window's pixels, four bytes each (red, green, blue, opaque; or blue first), sRGB, from the top.
 struct PresenterPicture {
@@ -43,7 +48,7 @@ struct PresenterPicture {
     double tightest = 1; ///< the smallest part of its planned size that a label, a state or a choice was shrunk to
 };
 /// Paints a sheet. out: receives the picture; its memory is used again.
-void paint(const PresenterSheet& sheet, const VisitorsView& view, const Typesetter& typesetter, glm::ivec2 size,
-    bool blue_first, PresenterPicture& out);
+void paint(const PresenterSheet& sheet, const SmallPicture& view, const Thumbnails& thumbnails, const Typesetter& typesetter,
+    glm::ivec2 size, bool blue_first, PresenterPicture& out);
 
 } // namespace starbow

@@ -55,6 +55,7 @@ struct PresenterKey {
     std::string name; ///< printed on the key
     std::string label;
     std::string state; ///< of what it changes; empty: none
+    std::string thumbnail{}; ///< its small picture, such as "scene/avenue"; empty: none
     bool on = false; ///< what it switches is on, or what it chooses is shown
     bool usable = true; ///< false: the exhibit would refuse it now
     PresenterDeed deed;

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 #include <stdexcept>
 #include <tinyexr.h>
@@ -86,6 +87,21 @@ std::vector<unsigned char> png_of(glm::ivec2 size, const std::vector<std::uint8_
     if (!stbi_write_png_to_func(append, &bytes, size.x, size.y, 3, rgb.data(), size.x * 3))
         throw std::bad_alloc();
     return bytes;
+}
+
+std::pair<glm::ivec2, std::vector<std::uint8_t>> read_png(const std::filesystem::path& file)
+{
+    const std::string bytes = read_whole(file, std::size_t(64) << 20, "a PNG file");
+    glm::ivec2 size(0);
+    int channels = 0;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
+        stbi_load_from_memory(
+            reinterpret_cast<const stbi_uc*>(bytes.data()), int(bytes.size()), &size.x, &size.y, &channels, 4),
+        stbi_image_free);
+    if (!decoded)
+        throw InputError(
+            file.string(), "", "can't be read (" + std::string(stbi_failure_reason()) + "); a whole PNG file is right");
+    return {size, {decoded.get(), decoded.get() + 4 * std::size_t(size.x) * std::size_t(size.y)}};
 }
 
 void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::vector<std::uint8_t>& rgba)

@@ -29,6 +29,9 @@ std::vector<unsigned char> png_of(glm::ivec2 size, const std::vector<std::uint8_
 /// Throws InputError where the place can't be written.
 void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::vector<std::uint8_t>& rgba);
 
+/// The RGBA8 rows of a PNG file, from the top. Throws InputError.
+std::pair<glm::ivec2, std::vector<std::uint8_t>> read_png(const std::filesystem::path& file);
+
 /// The names of the channels that describe a picture's numbers (docs/files.md), in the order of their values.
 constexpr std::array<const char*, 14> number_channels
     = {"R", "G", "B", "cameraDirection.X", "cameraDirection.Y", "cameraDirection.Z", "worldDirection.X", "worldDirection.Y",

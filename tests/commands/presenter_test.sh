@@ -85,6 +85,9 @@ ok
 # Hold takes the stick away gently: a ship that speeds up comes to coasting while W stays down, and W counts again afterwards.
 at_guides r && is item 0
 is gamma 1
+# Keys that are down at a reset count only when they are pressed again.
+was_reset() { grep -q '"reset"' "$folder/guided.jsonl"; }
+until_true 20 was_reset && "$rig/wait_flown.py" "$folder/guided.jsonl" 0.5 || fail "R does not reset"
 xdotool windowfocus "$visitors" keydown w
 fast() { awk -v g="$(now gamma)" -v least="$1" 'BEGIN { exit !(g > least) }'; }
 until_true 60 fast 1.05 || fail "W has no effect"

@@ -331,7 +331,12 @@ TEST(Presenter, BothLanguagesFitTheirPlaces)
                 const Words words = words_in(language);
                 PresenterState state = with_programme(toured(words, "simultaneity", 4), words, 5);
                 state.paused = state.hold = true, state.exposure_ev = -9.5, state.effects.comparison = Comparison::galilean;
-                paint(sheet_of(state, {.list = list}, words), {}, typesetter, size, false, picture);
+                const PresenterSheet sheet = sheet_of(state, {.list = list}, words);
+                Thumbnails thumbnails; // of the size that the program draws
+                for (const PresenterKey& choice : sheet.choices)
+                    if (!choice.thumbnail.empty())
+                        thumbnails[choice.thumbnail] = {{192, 108}, std::vector<std::uint8_t>(3 * 192 * 108)};
+                paint(sheet, {}, thumbnails, typesetter, size, false, picture);
                 EXPECT_GE(picture.tightest, 0.75) << language << " " << size.x << "x" << size.y << " list " << int(list);
             }
 }
@@ -346,7 +351,7 @@ TEST(Presenter, NoButtonsLettersLeaveIt)
             PresenterState state = with_programme(toured(words, "simultaneity", 4), words, 5);
             state.exposure_ev = -9.5, state.effects.comparison = Comparison::galilean;
             const PresenterSheet sheet = sheet_of(state, {}, words);
-            paint(sheet, {}, typesetter, size, false, picture);
+            paint(sheet, {}, {}, typesetter, size, false, picture);
             const PresenterPlaces places = places_of(sheet, size);
             const auto brightest = [&](const PresenterBox& box) {
                 int most = 0;
@@ -373,13 +378,13 @@ TEST(Presenter, ItsPictureHasLettersTheVisitorsViewAndTheMarkedStep)
     const Typesetter typesetter;
     const Words words = words_in("en");
     const PresenterSheet sheet = sheet_of(with_programme(toured(words, "rainbow", 2), words, 2), {}, words);
-    VisitorsView view{.size = {4, 2}, .rgb = std::vector<std::uint8_t>(24, 0)};
+    SmallPicture view{.size = {4, 2}, .rgb = std::vector<std::uint8_t>(24, 0)};
     for (std::size_t i = 0; i < view.rgb.size(); i += 3)
         view.rgb[i] = 200, view.rgb[i + 1] = 10, view.rgb[i + 2] = 20;
     PresenterPicture red_first, blue_first;
     const glm::ivec2 size(1280, 800);
-    paint(sheet, view, typesetter, size, false, red_first);
-    paint(sheet, view, typesetter, size, true, blue_first);
+    paint(sheet, view, {}, typesetter, size, false, red_first);
+    paint(sheet, view, {}, typesetter, size, true, blue_first);
     const auto texel = [&](const PresenterPicture& of, glm::ivec2 at) {
         const std::uint8_t* p = &of.texels[4 * std::size_t(at.y * size.x + at.x)];
         return std::array<int, 4>{p[0], p[1], p[2], p[3]};
@@ -406,6 +411,49 @@ TEST(Presenter, ItsPictureHasLettersTheVisitorsViewAndTheMarkedStep)
     EXPECT_LT(marked, 160);
 }
 
+TEST(Presenter, EachChoiceHasItsSmallPictureAtItsRight)
+{
+    const Typesetter typesetter;
+    const Words words = words_in("en");
+    const glm::ivec2 size(1280, 800);
+    for (const auto& [list, first] : {std::pair{PresenterList::worlds, "scene/"}, {PresenterList::tours, "tour/"},
+             {PresenterList::views, "shot/"}, {PresenterList::limits, ""}, {PresenterList::languages, ""}}) {
+        const PresenterSheet sheet = sheet_of(toured(words, "rainbow", 2), {.list = list}, words);
+        ASSERT_GE(sheet.choices.size(), 2u);
+        for (const PresenterKey& choice : sheet.choices) {
+            const Command* command = std::get_if<Command>(&choice.deed);
+            EXPECT_EQ(choice.thumbnail, command && *first != '\0' ? first + command->text : "");
+        }
+        if (*first == '\0')
+            continue;
+        // Two columns, blue at the left and red at the right, shrunk to the row's height.
+        SmallPicture two{{192, 108}, {}};
+        for (int i = 0; i < 192 * 108; ++i)
+            two.rgb.insert(two.rgb.end(), {std::uint8_t(i % 192 < 96 ? 0 : 250), 0, std::uint8_t(i % 192 < 96 ? 250 : 0)});
+        PresenterPicture without, with;
+        paint(sheet, {}, {}, typesetter, size, false, without);
+        paint(sheet, {}, {{sheet.choices[1].thumbnail, two}}, typesetter, size, false, with);
+        const PresenterBox box = places_of(sheet, size).choices[1];
+        int reds = 0, blues = 0, others = 0;
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) {
+                const std::size_t at = 4 * std::size_t(y * size.x + x);
+                const std::array<int, 3> texel{with.texels[at], with.texels[at + 1], with.texels[at + 2]};
+                const bool red = texel == std::array{250, 0, 0}, blue = texel == std::array{0, 0, 250},
+                           inside = box.holds({x, y});
+                reds += red && inside, blues += blue && inside;
+                others += !inside && !std::equal(&with.texels[at], &with.texels[at + 4], &without.texels[at]);
+                if (red) {
+                    EXPECT_GE(x, box.corner.x + box.size.x - box.size.y);
+                }
+            }
+        const int half = box.size.y * box.size.y * 8 / 9;
+        EXPECT_NEAR(reds, half, 2 * box.size.y);
+        EXPECT_NEAR(blues, half, 2 * box.size.y);
+        EXPECT_EQ(others, 0);
+    }
+}
+
 TEST(Presenter, ItIsPaintedAtAnySize)
 {
     const Typesetter typesetter;
@@ -413,7 +461,7 @@ TEST(Presenter, ItIsPaintedAtAnySize)
     PresenterPicture picture;
     const PresenterSheet sheet = sheet_of(toured(words, "twins", 0), {.typed = "Grüße"}, words);
     for (const glm::ivec2 size : {glm::ivec2(64, 64), {64, 2000}, {3000, 64}, {301, 703}}) {
-        paint(sheet, {.size = {3, 3}, .rgb = std::vector<std::uint8_t>(27, 9)}, typesetter, size, true, picture);
+        paint(sheet, {.size = {3, 3}, .rgb = std::vector<std::uint8_t>(27, 9)}, {}, typesetter, size, true, picture);
         EXPECT_EQ(picture.texels.size(), 4 * std::size_t(size.x) * std::size_t(size.y));
     }
 }

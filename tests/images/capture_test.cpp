@@ -1,3 +1,4 @@
+#include "config/json/whole_file.h"
 #include "runtime/images/capture.h"
 #include "tests/support/files.h"
 #include <cmath>
@@ -73,6 +74,14 @@ TEST(CaptureTest, PngKeepsEveryByteWithoutAlpha)
     for (int i = 0; i < w * h; ++i)
         for (int c = 0; c < 3; ++c)
             ASSERT_EQ(read.get()[i * 3 + c], rgba[std::size_t(i) * 4 + c]);
+
+    const auto [size_again, again] = read_png(file);
+    ASSERT_EQ(size_again, size);
+    ASSERT_EQ(again.size(), rgba.size());
+    for (std::size_t i = 0; i < again.size(); ++i)
+        ASSERT_EQ(again[i], i % 4 == 3 ? 255 : rgba[i]);
+    write_whole(file, "no picture");
+    EXPECT_NE(complaint([&] { read_png(file); }).find("a whole PNG file is right"), std::string::npos);
 }
 
 TEST(CaptureTest, ExrKeepsEveryBit)
