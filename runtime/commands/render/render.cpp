@@ -244,8 +244,7 @@ static void add_render(Subcommand& app, std::function<int()>& chosen)
         tour->excludes(other);
     Option* thumbnails = command->add_flag("--thumbnails", options->thumbnails,
         "Instead: draw the small pictures of all worlds, tours and views for the remote's page and the guide's window into "
-        "the cache, as far as it "
-        "lacks them");
+        "the cache, as far as it lacks them");
     for (Option* other : {shot, scene, out, exr, pattern, replay, tour, points, names, overlay, why, mode, by_eye, effects})
         thumbnails->excludes(other);
     Option* reference = command->add_flag("--reference", options->reference,
