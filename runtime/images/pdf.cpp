@@ -1,8 +1,8 @@
 #include "pdf.h"
 #include "config/json/error.h"
+#include "config/json/other_program.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
-#include "other_program.h"
 #include <unistd.h>
 
 namespace starbow {

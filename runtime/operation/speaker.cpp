@@ -1,12 +1,10 @@
 #include "speaker.h"
+#include "config/json/other_program.h"
 #include "log.h"
-#include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 namespace starbow {
 
@@ -33,24 +31,7 @@ void Speaker::say(const std::string& text, const std::string& language)
     if (text.empty() || fails_)
         return;
     const std::string words = " " + text; // so that no text is taken for an option
-    std::array<const char*, 7> arguments{program_.c_str(), "-v", language.c_str(), "-s", "150", words.c_str(), nullptr};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-    // The program ignores SIGPIPE; the other one may rely on it.
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t pipe_ends;
-    sigemptyset(&pipe_ends);
-    sigaddset(&pipe_ends, SIGPIPE);
-    posix_spawnattr_setsigdefault(&attributes, &pipe_ends);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    const int error
-        = posix_spawnp(&child_, program_.c_str(), &actions, &attributes, const_cast<char**>(arguments.data()), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
+    const int error = start_program({program_, "-v", language, "-s", "150", words}, {}, -1, child_);
     if (error == 0)
         return;
     child_ = 0;

@@ -1,5 +1,5 @@
 #include "other_program.h"
-#include "config/json/reader.h"
+#include "reader.h"
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -27,21 +27,22 @@ std::string last_line(const std::string& said)
 
 } // namespace
 
-Ended ran(const std::vector<std::string>& arguments, const std::filesystem::path& folder)
+int start_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder, int says, pid_t& child)
 {
     std::vector<char*> pointers;
     for (const std::string& argument : arguments)
         pointers.push_back(const_cast<char*>(argument.c_str()));
     pointers.push_back(nullptr);
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0)
-        return {-1, errno, ""};
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], 2);
-    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+    if (says < 0)
+        posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+    else
+        posix_spawn_file_actions_adddup2(&actions, says, 2);
+    if (!folder.empty())
+        posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
     // The program ignores SIGPIPE; the other one may rely on it.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
@@ -50,15 +51,24 @@ Ended ran(const std::vector<std::string>& arguments, const std::filesystem::path
     sigaddset(&pipe_ends, SIGPIPE);
     posix_spawnattr_setsigdefault(&attributes, &pipe_ends);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    pid_t child = 0;
     const int error = posix_spawnp(&child, pointers[0], &actions, &attributes, pointers.data(), environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
+    return error;
+}
+
+Ended ran(const std::vector<std::string>& arguments, const std::filesystem::path& folder)
+{
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        return {-1, errno, ""};
+    pid_t child = 0;
+    const int error = start_program(arguments, folder, ends[1], child);
     close(ends[1]);
     Ended ended{-1, error, ""};
     if (error == 0) {
         std::array<char, 4096> piece;
-        for (ssize_t got; (got = read(ends[0], piece.data(), piece.size())) > 0 || (got < 0 && errno == EINTR);) {
+        for (ssize_t got; (got = ::read(ends[0], piece.data(), piece.size())) > 0 || (got < 0 && errno == EINTR);) {
             ended.said.append(piece.data(), std::size_t(std::max<ssize_t>(got, 0)));
             if (ended.said.size() > 65536)
                 ended.said.erase(0, ended.said.size() - 32768);
