@@ -33,11 +33,15 @@ void add_reached(Reached& all, const std::filesystem::path& scene)
         all.emplace(std::pair(std::string_view(pass.name), describe(pass)), pass);
 }
 
+std::string stage_name(const PipelinePass& pass, vk::ShaderStageFlagBits stage)
+{
+    return table_name(pass) + (stage == vk::ShaderStageFlagBits::eVertex ? ", vertex" : "");
+}
+
 ShaderCost cost_of(
     const Device& card, const Reached::value_type& reached, vk::Pipeline pipeline, vk::ShaderStageFlagBits stage)
 {
-    ShaderCost cost{.pass = table_name(reached.second) + (stage == vk::ShaderStageFlagBits::eVertex ? ", vertex" : ""),
-        .variant = reached.first.second};
+    ShaderCost cost{.pass = stage_name(reached.second, stage), .variant = reached.first.second};
     const std::map<std::string, double> figures = shader_statistics(card, pipeline, stage);
     for (std::size_t i = 0; i < shader_figures.size(); ++i)
         cost.figures[i] = figures.at(shader_figures[i].figure);
@@ -46,8 +50,10 @@ ShaderCost cost_of(
 
 } // namespace
 
-ShaderCosts shader_costs(const std::vector<std::filesystem::path>& scenes, const std::string& family)
+ShaderCosts shader_costs(
+    const std::vector<std::filesystem::path>& scenes, const std::string& family, const std::string& only)
 {
+    constexpr std::array stages{vk::ShaderStageFlagBits::eFragment, vk::ShaderStageFlagBits::eVertex};
     Reached reached;
     {
         Progress progress;
@@ -56,13 +62,17 @@ ShaderCosts shader_costs(const std::vector<std::filesystem::path>& scenes, const
             add_reached(reached, scenes[i]);
         }
     }
+    if (!only.empty())
+        std::erase_if(reached, [&](const Reached::value_type& one) {
+            return std::ranges::none_of(stages, [&](auto stage) { return stage_name(one.second, stage) == only; });
+        });
     const std::unique_ptr<Device> card = open_absent_card(family);
     Pipelines pipelines(*card);
     ShaderCosts all{.card = card->name(), .shaders = {}};
     Progress progress;
     for (std::size_t done = 0; const auto& one : reached) {
         progress.show(std::to_string(reached.size()) + " pipelines for " + family, double(done) / double(reached.size()));
-        for (const auto stage : {vk::ShaderStageFlagBits::eFragment, vk::ShaderStageFlagBits::eVertex})
+        for (const auto stage : stages)
             all.shaders.push_back(cost_of(*card, one, pipelines.find_or_make(one.second), stage));
         ++done;
     }

@@ -31,8 +31,9 @@ struct ShaderCosts {
 
 /// The costs of all pipelines that these scenes reach in windows, domes and stereo pairs, in the qualities `balanced` and
 /// `fine`, at each speed and with each switch, on a card that need not be there: Mesa compiles for any of AMD's families.
-/// scenes: files. family: one of card_families. Shows its progress. Afterwards this process finds no other device. Throws
-/// InputError and NoRoom.
-ShaderCosts shader_costs(const std::vector<std::filesystem::path>& scenes, const std::string& family);
+/// scenes: files. family: one of card_families. only: a pass; empty: all. Shows its progress. Afterwards this process finds
+/// no other device. Throws InputError and NoRoom.
+ShaderCosts shader_costs(
+    const std::vector<std::filesystem::path>& scenes, const std::string& family, const std::string& only = {});
 
 } // namespace starbow

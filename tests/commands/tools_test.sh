@@ -24,6 +24,21 @@ done
 begins_with '--family: ' bench --estimate --family geforce
 "$program" bench --estimate --layout desk --family polaris10 2>/dev/null | grep -q '^surface' && passed=$((passed + 1)) || fail "bench --estimate has no row of surfaces"
 
+# One pass alone has the figures of the whole table; against itself nothing has changed.
+"$program" bench --shaders --scene warm-wall --json "$folder/shaders.json" >/dev/null 2>&1
+said=$("$program" bench --shaders --scene warm-wall --pass warp 2>/dev/null | python3 -c '
+import json, sys
+whole = json.load(open(sys.argv[1]))["shaders"]["warp"]
+alone = [line.split(None, 7) for line in sys.stdin.read().splitlines() if line[:13].strip().isdigit()]
+assert len(whole) > 4 and len(alone) == len(whole), (len(whole), len(alone))
+for *figures, variant in alone:
+    assert [float(one) for one in figures] == list(whole[variant.strip()].values()), variant
+print("same")' "$folder/shaders.json" 2>&1)
+[ "$said" = same ] && passed=$((passed + 1)) || fail "bench --shaders --pass: $said"
+said=$("$program" bench --shaders --scene warm-wall --against "$folder/shaders.json" 2>/dev/null | sed -n '/^changed/,$p' | wc -l)
+[ "$said" = 1 ] && passed=$((passed + 1)) || fail "bench --shaders --against itself has $said lines of changes"
+begins_with '--pass: ' bench --shaders --scene warm-wall --pass wrap
+
 begins_with '--display: ' bench --card "$folder/card" --display wall
 begins_with '/proc/card/card.json: ' bench --card /proc/card
 "$program" bench --card "$folder/card" --display window --rounds 3 >/dev/null 2>&1

@@ -108,7 +108,8 @@ void bench_shaders(const std::string& family, const std::string& pass, const std
     std::vector<std::filesystem::path> scenes;
     for (const std::string& name : scene.empty() ? shipped_names("scenes") : std::vector{scene})
         scenes.push_back(shipped_file("scenes", name));
-    const ShaderCosts costs = shader_costs(scenes, family);
+    const bool whole = !json.empty() || !against.empty(); // a table of all passes
+    const ShaderCosts costs = shader_costs(scenes, family, whole ? "" : pass);
     const Json now = json_of(costs, family);
     if (!pass.empty() && !now["shaders"].contains(pass))
         throw InputError("--pass: " + pass + " is no pass; warp, or another of those that bench --shaders prints, is right");
