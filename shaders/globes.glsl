@@ -84,8 +84,10 @@ struct AirWays {
 const int AIR_WAYS = 4;
 AirWays air_ways(GlobeRay ray, float top, float x)
 {
-    float scale = 4.0 / x, low = max(ray.off - 0.5 * ray.pixel, 1.0), high = ray.off + 0.5 * ray.pixel;
-    if (ray.ahead <= 0.0 || ray.pixel * x < 0.5 || high <= 1.0 || low >= top)
+    float scale = 4.0 / x, inner = max(ray.off - 0.5 * ray.pixel, 0.0), low = max(inner, 1.0), high = ray.off + 0.5 * ray.pixel;
+    // The ways are parallel to the ray: all must begin outside the air, or one could begin below the ground.
+    bool near = ray.ahead * ray.ahead + inner * inner < top * top;
+    if (ray.ahead <= 0.0 || near || ray.pixel * x < 0.5 || high <= 1.0 || low >= top)
         return AirWays(0, 0, GLOBE_AIR_STEPS, 0.0, 0.0, 0.0, 1.0);
     return AirWays(low > 1.0 ? 1 : 0, AIR_WAYS, 3 * GLOBE_AIR_STEPS, exp((1.0 - low) / scale),
         exp((1.0 - min(high, top)) / scale), scale, (high - low) / ray.pixel);
