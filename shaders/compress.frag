@@ -13,10 +13,10 @@ layout(location = 0) out uvec4 block;
 
 const int TEXELS = 16, STEPS = 15, ROUNDS = 3, TURNS = 8;
 
-// 4 bits for each texel.
+// A texel's place between the ends. Each texel has 4 bits of `places`.
 uint place_of(uvec2 places, int i) { return ((i < 8 ? places.x : places.y) >> (4 * (i & 7))) & 15u; }
 
-// Of the last end at a place from 0 to STEPS, in 64ths: the specification's table.
+// The weight of the last end at a place from 0 to STEPS, in 64ths, as the specification's table has it.
 float weight(float place) { return floor(64.0 / float(STEPS) * place + 0.5); }
 
 // A texel of the block as it is stored, 0 to 255. It is read again wherever it is needed: sixteen that are kept, and loops

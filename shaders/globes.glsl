@@ -74,12 +74,19 @@ GlobeRay globe_ray(GlobeEntry g, vec3 n, float angle)
 }
 float covered(GlobeRay ray) { return ray.ahead > 0.0 ? clamp(0.5 + (1.0 - ray.off) / ray.pixel, 0.0, 1.0) : 0.0; }
 
+// The distance from a globe's middle of the middle of the part of a pixel that lies before the globe.
+float middle_before(GlobeRay ray)
+{
+    float low = max(ray.off - 0.5 * ray.pixel, -1.0), high = ray.off + 0.5 * ray.pixel;
+    return high > 1.0 ? 0.5 * (low + 1.0) : ray.off;
+}
+
 // Ways through a globe's air within a pixel. One is enough where the pixel is finer than the air. Where it is coarser and has
 // a part beside the globe, way 0 is the middle of its part before the globe, and the others lie in its part beside it.
 struct AirWays {
     int first, last, steps; // ways; places on each
-    float low, high; // heights between which those beside the globe lie, as exp(-height / scale)
-    float scale, beside; // they lie the denser, the lower they are; their part of the pixel, all air and above
+    float low, high; // the lowest and the highest height of the ways beside the globe, as exp(-height / scale)
+    float scale, beside; // of these heights; the part of the pixel that lies beside the globe
 };
 const int AIR_WAYS = 4;
 AirWays air_ways(GlobeRay ray, float top, float x)
@@ -92,13 +99,13 @@ AirWays air_ways(GlobeRay ray, float top, float x)
     return AirWays(low > 1.0 ? 1 : 0, AIR_WAYS, 3 * GLOBE_AIR_STEPS, exp((1.0 - low) / scale),
         exp((1.0 - min(high, top)) / scale), scale, (high - low) / ray.pixel);
 }
-// Way number k: its distance from the globe's middle, and the part of the pixel that it stands for.
-vec2 air_way(AirWays ways, GlobeRay ray, int k)
+// Way number k: its distance from the globe's middle, and the part of the pixel that it stands for. middle: middle_before().
+vec2 air_way(AirWays ways, GlobeRay ray, float middle, int k)
 {
     if (ways.last == 0)
         return vec2(ray.off, 1.0);
     if (k == 0)
-        return vec2(0.5 * (max(ray.off - 0.5 * ray.pixel, -1.0) + 1.0), 1.0 - ways.beside);
+        return vec2(middle, 1.0 - ways.beside);
     float at = mix(ways.low, ways.high, (float(k) - 0.5) / float(AIR_WAYS));
     return vec2(1.0 - ways.scale * log(at), ways.scale * (ways.low - ways.high) / (float(AIR_WAYS) * at * ray.pixel));
 }
@@ -199,6 +206,7 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
     vec3 own = vec3(1.0, 1.0, g.shape.y); // from the scaled axes to those of one unit
     vec3 sun_scaled = normalize(g.light.xyz / own);
     vec3 way = normalize(ray.way * own);
+    float middle = middle_before(ray);
     float half_chord = sqrt(max(1.0 - ray.off * ray.off, 0.0)), t = ray.ahead - half_chord;
 
     float through_ring = 1.0, ring_t = 0.0;
@@ -241,7 +249,7 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
         float top = 1.0 + g.air.y, x = 1.0 / g.air.x, cosine = dot(way, g.light.xyz), through = 1.0;
         AirWays ways = air_ways(ray, top, x);
         for (int k = ways.first; k <= ways.last; ++k) {
-            vec2 one = air_way(ways, ray, k); // its distance from the middle, and its part of the pixel
+            vec2 one = air_way(ways, ray, middle, k); // its distance from the middle, and its part of the pixel
             float square = one.x * one.x, inside = top * top - square;
             if (inside <= 0.0 || ray.ahead + sqrt(inside) <= 0.0)
                 continue;
@@ -273,9 +281,6 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
     }
 
     if (cover > 0.0) {
-        // The middle of the part of the pixel that the globe covers.
-        float low = max(ray.off - 0.5 * ray.pixel, -1.0), high = min(ray.off + 0.5 * ray.pixel, 1.0);
-        float middle = ray.off + 0.5 * ray.pixel > 1.0 ? 0.5 * (low + high) : ray.off;
         vec3 at = ray.nearest * (middle / max(ray.off, 1e-9)) - ray.way * sqrt(max(1.0 - middle * middle, 0.0));
         vec3 normal = normalize(at / own);
         float mu = max(-dot(normal, way), 0.0), mu_sun = max(dot(normal, g.light.xyz), 0.0);

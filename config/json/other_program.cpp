@@ -1,5 +1,6 @@
 #include "other_program.h"
 #include "reader.h"
+#include "whole_file.h"
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -76,6 +77,24 @@ Ended ran(const std::vector<std::string>& arguments, const std::filesystem::path
         while (waitpid(child, &ended.status, 0) < 0 && errno == EINTR) { }
     }
     close(ends[0]);
+    return ended;
+}
+
+Ended make_whole(const std::filesystem::path& file, const std::function<Ended(const std::filesystem::path& part)>& make)
+{
+    const std::filesystem::path whole = std::filesystem::absolute(file).lexically_normal();
+    std::filesystem::path part = whole;
+    part += '.' + std::to_string(getpid()) + ".part";
+    Ended ended = make(part);
+    std::error_code error;
+    if (ended.status == 0)
+        std::filesystem::rename(part, whole, error);
+    if (ended.status == 0 && !error)
+        return ended;
+    const int why = error.value();
+    std::filesystem::remove(part, error);
+    if (ended.status == 0)
+        refuse_writing(file, why);
     return ended;
 }
 

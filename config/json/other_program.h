@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <sys/types.h>
 #include <vector>
@@ -18,8 +19,12 @@ struct Ended {
     std::string said; ///< the end of its standard error
 };
 
-/// Starts a program so and waits for its end.
+/// Starts a program by start_program and waits for its end.
 Ended ran(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+
+/// Has a program write a file: the whole file or nothing. make: runs the program, which writes to the absolute place that it
+/// is given. Throws InputError where the file can't be put in its place.
+Ended make_whole(const std::filesystem::path& file, const std::function<Ended(const std::filesystem::path& part)>& make);
 
 /// The reason why a program failed, for a message: its last line, or how it ended.
 std::string how(const Ended& ended);

@@ -27,10 +27,14 @@ void check_new(const std::filesystem::path& list)
         throw InputError("--readings " + one_line(list.string()) + " is there already; a new name is right");
 }
 
+/// text: of a list, or a page, of which a PDF file is made where the file's name ends so.
 void write_file(const std::filesystem::path& file, const std::string& text)
 {
     make_folder_of(file);
-    write_whole(file, text);
+    if (file.extension() == ".pdf")
+        write_pdf(file, text);
+    else
+        write_whole(file, text);
     std::printf("%s\n", file.c_str());
 }
 
@@ -39,24 +43,15 @@ int write_papers(const LabOptions& options)
     if (options.sheet.empty() && options.readings.empty())
         throw InputError("neither --sheet nor --readings is given; one of them is right");
     const std::filesystem::path sheet = options.out;
-    const bool pdf = sheet.extension() == ".pdf";
-    if (!options.sheet.empty() && !pdf && sheet.extension() != ".html")
+    if (!options.sheet.empty() && sheet.extension() != ".pdf" && sheet.extension() != ".html")
         throw InputError("--out " + one_line(sheet.string()) + " ends in neither .html nor .pdf; one of them is right");
     const Words words = words_in(options.language);
     if (!options.readings.empty()) {
         check_new(options.readings);
         write_file(options.readings, reading_list(words));
     }
-    if (!options.sheet.empty()) {
-        const std::string page = lab_sheet(options.sheet == "teacher" ? SheetFor::teacher : SheetFor::student, words);
-        if (pdf) {
-            make_folder_of(sheet);
-            write_pdf(sheet, page);
-            std::printf("%s\n", sheet.c_str());
-        } else {
-            write_file(sheet, page);
-        }
-    }
+    if (!options.sheet.empty())
+        write_file(sheet, lab_sheet(options.sheet == "teacher" ? SheetFor::teacher : SheetFor::student, words));
     return 0;
 }
 

@@ -76,7 +76,8 @@ const PresenterPicture* PresenterPainter::take() { return pictures_.refresh() ? 
 void PresenterPainter::work(const std::function<Thumbnails()>& load)
 {
     const Typesetter typesetter; // its letters are not for two threads
-    std::optional<Thumbnails> thumbnails; // loaded when the first picture is painted: nobody waits for them
+    Thumbnails thumbnails;
+    bool loaded = false; // once the first picture is painted: nobody waits for small ones
     for (;;) {
         asked_.acquire();
         if (ends_)
@@ -84,10 +85,9 @@ void PresenterPainter::work(const std::function<Thumbnails()>& load)
         if (!orders_.refresh())
             continue;
         const Order& order = orders_.newest();
-        starbow::paint(order.sheet, order.view, thumbnails.value_or(Thumbnails()), typesetter, order.size, order.blue_first,
-            pictures_.next());
+        starbow::paint(order.sheet, order.view, thumbnails, typesetter, order.size, order.blue_first, pictures_.next());
         pictures_.publish();
-        if (!thumbnails)
+        if (!std::exchange(loaded, true))
             thumbnails = load();
     }
 }

@@ -73,6 +73,20 @@ std::vector<std::uint8_t> smaller(const std::vector<std::uint8_t>& rgba)
     return small;
 }
 
+/// Of size 0 where the file is not there or can't be read.
+SmallPicture picture_in(const fs::path& file)
+{
+    try {
+        const auto [size, rgba] = read_png(file);
+        SmallPicture picture{size, {}};
+        for (std::size_t i = 0; i < rgba.size(); i += 4)
+            picture.rgb.insert(picture.rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+        return picture;
+    } catch (const InputError&) {
+        return {};
+    }
+}
+
 } // namespace
 
 std::vector<Thumbnail> thumbnails(
@@ -100,13 +114,8 @@ Thumbnails drawn_thumbnails(const fs::path& folder, const Words& words)
     Thumbnails all;
     try {
         for (const Thumbnail& one : thumbnails(folder, words, [](const std::string&) {}))
-            if (std::error_code error; fs::is_regular_file(one.file, error)) {
-                const auto [size, rgba] = read_png(one.file);
-                SmallPicture picture{size, {}};
-                for (std::size_t i = 0; i < rgba.size(); i += 4)
-                    picture.rgb.insert(picture.rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+            if (SmallPicture picture = picture_in(one.file); picture.size.x > 0)
                 all[one.kind + "/" + one.name] = std::move(picture);
-            }
     } catch (const std::exception&) {
         // Names alone are enough to choose from.
     }

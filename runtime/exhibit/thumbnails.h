@@ -23,7 +23,7 @@ constexpr glm::ivec2 thumbnail_px{192, 108};
 std::vector<Thumbnail> thumbnails(
     const std::filesystem::path& folder, const Words& words, const std::function<void(const std::string&)>& say);
 
-/// The pictures of those that are there. Fewer where memory lacks or a file can't be read: the guide's window goes on.
+/// The pictures that are there and can be read. Fewer where memory lacks: the guide's window goes on.
 Thumbnails drawn_thumbnails(const std::filesystem::path& folder, const Words& words);
 
 /// Draws those that are not there, without a window. show: receives each one before it is drawn, and the number of those

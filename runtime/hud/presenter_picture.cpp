@@ -130,7 +130,7 @@ void paint_button(Canvas& canvas, const PresenterKey& key, const PresenterBox& b
 /// A button with the small picture of its choice, where there is one, at its right.
 void paint_choice(Canvas& canvas, const PresenterKey& key, PresenterBox box, double unit, const Thumbnails& thumbnails)
 {
-    const auto found = thumbnails.find(key.thumbnail);
+    const auto found = thumbnails.find(thumbnail_of(key));
     if (found != thumbnails.end() && found->second.size.y > 0) {
         const int width = box.size.y * found->second.size.x / found->second.size.y;
         canvas.picture({box.corner + glm::ivec2(box.size.x - width, 0), {width, box.size.y}}, found->second);

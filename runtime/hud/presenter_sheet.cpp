@@ -78,15 +78,14 @@ void add_programme(PresenterSheet& sheet, const PresenterState& state, const Wor
 
 struct Choices {
     std::string title;
-    std::string kind; ///< of their small pictures; empty: they have none
     std::vector<std::pair<std::string, Command>> all;
     std::vector<bool> shown; ///< is what the exhibit shows
 };
 
-Choices named(const std::string& title, const std::string& pictured, Order kind,
-    const std::vector<std::pair<std::string, std::string>>& names, const std::string& now)
+Choices named(const std::string& title, Order kind, const std::vector<std::pair<std::string, std::string>>& names,
+    const std::string& now)
 {
-    Choices choices{title, pictured, {}, {}};
+    Choices choices{title, {}, {}};
     for (const auto& [name, text] : names) {
         choices.all.emplace_back(text, Command{.kind = kind, .text = name});
         choices.shown.push_back(name == now);
@@ -98,17 +97,17 @@ Choices choices_of(const PresenterState& state, PresenterList list, const Words&
 {
     switch (list) {
     case PresenterList::worlds:
-        return named(words("presenter.worlds"), "scene", Order::scene, state.scenes, state.scene);
+        return named(words("presenter.worlds"), Order::scene, state.scenes, state.scene);
     case PresenterList::tours:
-        return named(words("presenter.tours"), "tour", Order::tour, state.tours, state.tour);
+        return named(words("presenter.tours"), Order::tour, state.tours, state.tour);
     case PresenterList::views:
-        return named(words("presenter.views"), "shot", Order::shot, state.shots, state.shot);
+        return named(words("presenter.views"), Order::shot, state.shots, state.shot);
     case PresenterList::languages:
-        return named(words("remote.language"), "", Order::language, state.languages, state.language);
+        return named(words("remote.language"), Order::language, state.languages, state.language);
     case PresenterList::limits:
         break;
     }
-    Choices choices{words("remote.speed_limit"), "", {}, {}};
+    Choices choices{words("remote.speed_limit"), {}, {}};
     for (const double limit : offered_limits) {
         choices.all.emplace_back(limit_text(limit, words), Command{.kind = Order::speed_limit, .number = limit});
         choices.shown.push_back(std::abs(limit / state.max_gamma - 1) < 1e-3);
@@ -131,7 +130,6 @@ void add_choices(PresenterSheet& sheet, const PresenterState& state, const Prese
         sheet.choices.push_back({.key = digit,
             .name = std::string(1, digit),
             .label = choices.all[i].first,
-            .thumbnail = choices.kind.empty() ? "" : choices.kind + "/" + choices.all[i].second.text,
             .on = choices.shown[i],
             .deed = choices.all[i].second});
     }
@@ -254,6 +252,15 @@ std::optional<Command> press_typing(PresenterHands& hands, int key)
 }
 
 } // namespace
+
+std::string thumbnail_of(const PresenterKey& key)
+{
+    const Command* command = std::get_if<Command>(&key.deed);
+    for (const auto& [kind, folder] : {std::pair(Order::scene, "scene/"), {Order::tour, "tour/"}, {Order::shot, "shot/"}})
+        if (command && command->kind == kind)
+            return folder + command->text;
+    return "";
+}
 
 PresenterSheet sheet_of(const PresenterState& state, const PresenterHands& hands, const Words& words)
 {

@@ -55,7 +55,6 @@ struct PresenterKey {
     std::string name; ///< printed on the key
     std::string label;
     std::string state; ///< of what it changes; empty: none
-    std::string thumbnail{}; ///< its small picture, such as "scene/avenue"; empty: none
     bool on = false; ///< what it switches is on, or what it chooses is shown
     bool usable = true; ///< false: the exhibit would refuse it now
     PresenterDeed deed;
@@ -80,6 +79,9 @@ struct PresenterSheet {
 
 /// Choices on one page of a list.
 constexpr std::size_t most_choices = 10;
+
+/// The name of the small picture of what a key shows, such as "scene/avenue"; empty: it has none.
+std::string thumbnail_of(const PresenterKey& key);
 
 PresenterSheet sheet_of(const PresenterState& state, const PresenterHands& hands, const Words& words);
 

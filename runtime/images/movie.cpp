@@ -183,32 +183,22 @@ void check_ffmpeg()
 
 void make_movie(const fs::path& movie, const MovieFrames& frames, const std::string& output, int frames_per_s)
 {
-    const fs::path whole = fs::absolute(movie).lexically_normal();
-    fs::path part = whole;
-    part += '.' + std::to_string(getpid()) + ".part";
     std::string pattern; // a % in ffmpeg's pattern begins a number
     for (char c : output)
         pattern += c == '%' ? std::string("%%") : std::string(1, c);
     // Frames are sRGB in full range; movies are Rec. 709 in television range, with even width and height.
-    const Ended ended
-        = ran({"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-framerate", std::to_string(frames_per_s),
-                  "-start_number", "0", "-i", "file:" + pattern + "-%06d.png", "-vf",
-                  "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-c:v", "libx264", "-preset",
-                  "medium", "-crf", "16", "-pix_fmt", "yuv420p", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1",
-                  "-colorspace", "bt709", "-movflags", "+faststart", "-f", "mp4", "file:" + part.string()},
+    const Ended ended = make_whole(movie, [&](const fs::path& part) {
+        return ran(
+            {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-framerate", std::to_string(frames_per_s),
+                "-start_number", "0", "-i", "file:" + pattern + "-%06d.png", "-vf",
+                "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-c:v", "libx264", "-preset",
+                "medium", "-crf", "16", "-pix_fmt", "yuv420p", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1",
+                "-colorspace", "bt709", "-movflags", "+faststart", "-f", "mp4", "file:" + part.string()},
             frames.folder());
-    std::error_code error;
-    if (ended.status != 0) {
-        fs::remove(part, error);
+    });
+    if (ended.status != 0)
         throw InputError(one_line(movie.string()), "",
             "ffmpeg could not make it (" + how(ended) + "); its frames are kept, and the same command goes on from there");
-    }
-    fs::rename(part, whole, error);
-    if (error) {
-        const int why = error.value();
-        fs::remove(part, error);
-        refuse_writing(movie, why);
-    }
 }
 
 } // namespace starbow

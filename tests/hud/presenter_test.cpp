@@ -334,8 +334,8 @@ TEST(Presenter, BothLanguagesFitTheirPlaces)
                 const PresenterSheet sheet = sheet_of(state, {.list = list}, words);
                 Thumbnails thumbnails; // of the size that the program draws
                 for (const PresenterKey& choice : sheet.choices)
-                    if (!choice.thumbnail.empty())
-                        thumbnails[choice.thumbnail] = {{192, 108}, std::vector<std::uint8_t>(3 * 192 * 108)};
+                    if (const std::string name = thumbnail_of(choice); !name.empty())
+                        thumbnails[name] = {{192, 108}, std::vector<std::uint8_t>(3 * 192 * 108)};
                 paint(sheet, {}, thumbnails, typesetter, size, false, picture);
                 EXPECT_GE(picture.tightest, 0.75) << language << " " << size.x << "x" << size.y << " list " << int(list);
             }
@@ -422,7 +422,7 @@ TEST(Presenter, EachChoiceHasItsSmallPictureAtItsRight)
         ASSERT_GE(sheet.choices.size(), 2u);
         for (const PresenterKey& choice : sheet.choices) {
             const Command* command = std::get_if<Command>(&choice.deed);
-            EXPECT_EQ(choice.thumbnail, command && *first != '\0' ? first + command->text : "");
+            EXPECT_EQ(thumbnail_of(choice), command && *first != '\0' ? first + command->text : "");
         }
         if (*first == '\0')
             continue;
@@ -432,7 +432,7 @@ TEST(Presenter, EachChoiceHasItsSmallPictureAtItsRight)
             two.rgb.insert(two.rgb.end(), {std::uint8_t(i % 192 < 96 ? 0 : 250), 0, std::uint8_t(i % 192 < 96 ? 250 : 0)});
         PresenterPicture without, with;
         paint(sheet, {}, {}, typesetter, size, false, without);
-        paint(sheet, {}, {{sheet.choices[1].thumbnail, two}}, typesetter, size, false, with);
+        paint(sheet, {}, {{thumbnail_of(sheet.choices[1]), two}}, typesetter, size, false, with);
         const PresenterBox box = places_of(sheet, size).choices[1];
         int reds = 0, blues = 0, others = 0;
         for (int y = 0; y < size.y; ++y)

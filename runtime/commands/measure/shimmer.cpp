@@ -17,8 +17,9 @@ constexpr std::array presets = {"draft", "balanced", "fine"};
 struct SlowMotion {
     std::string what;
     std::vector<Shot> frames;
-    /// Of the shipped presets, for the shot starbow on a desk: 1.5 dB below the least of 160x120, 320x240 and 640x480
-    /// pixels. They hold for that shot's contrast: 1.5 stops darker and before a bright sky it is 3 to 5 dB better.
+    /// The bound of each shipped preset for the shot starbow on a desk: 1.5 dB below the least that was measured with
+    /// 160x120, 320x240 and 640x480 pixels. It depends on the shot's contrast: 1.5 stops darker and before a bright sky,
+    /// most values are 3 to 5 dB higher.
     std::array<double, presets.size()> least_dB;
 };
 
