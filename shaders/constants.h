@@ -49,7 +49,9 @@
     CONSTANT(19, bool, UNSHIFTED, unshifted, false) /* light is stored as its colour at D = 1 */ \
     CONSTANT(20, int, SHADOWS, shadows, 0) /* bits: lamps with maps; the 16th daylight */ \
     CONSTANT(21, bool, BLENDED, blended, false) /* over what is behind it, by its alpha */ \
-    CONSTANT(26, int, POINT_LAMPS, point_lamps, 0) /* bits: point lamps; the others are directional */
+    CONSTANT(26, int, POINT_LAMPS, point_lamps, 0) /* bits: point lamps; the others are directional */ \
+    CONSTANT(27, bool, EMITS, emits, false) /* light of its own */ \
+    CONSTANT(28, bool, COLOURED, coloured, false) /* its corners have colours */
 
 // Surfaces with gloss, or with maps that have coordinates of their own.
 #define GLOSS_CONSTANTS(CONSTANT) \

@@ -29,6 +29,7 @@ layout(location = 3) in vec4 colour;
 layout(location = 4) flat in uvec3 draw; // instance, and the members of DrawEntry
 layout(location = 7) flat in vec4 emissive; // SurfaceEntry's members
 layout(location = 8) flat in vec4 beyond;
+layout(location = 9) flat in vec4 plain_colour; // of surfaces whose corners have none
 layout(location = 0) out vec4 coefficients0;
 layout(location = 1) out vec4 coefficients1;
 layout(location = 2) out vec4 coefficients2;
@@ -53,6 +54,9 @@ void add_to(inout vec4 coefficients[MAX_GROUPS + 1], int k, float light)
     int place = PLACE_IN_GROUPS(k, WITH_ALPHA);
     coefficients[place / 4][place % 4] += light;
 }
+
+// A vector's squared length and a little more: its root's inverse is finite, as a lamp's light very close to a surface must be.
+float square_of(vec3 v) { return v.x * v.x + (v.y * v.y + (v.z * v.z + 1e-18)); }
 
 float mean(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
 
@@ -174,6 +178,8 @@ vec2 lit_offset()
 
 vec3 emitted_light(float ink, float lit_part)
 {
+    if (!EMITS)
+        return vec3(0.0);
     vec3 emitted = emissive.rgb;
     if (EMISSIVE_TEXTURE)
         emitted *= texture(emissive_texture, emissive_uv()).rgb;
@@ -202,7 +208,7 @@ void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], L
         towards = lamp_seen(lamp, towards, -light_travel_offset(point), D);
     if (LAMPS_MOVE && towards == vec3(0.0))
         return;
-    float square = is_point ? dot(towards, towards) : 1.0;
+    float square = is_point ? square_of(towards) : 1.0;
     if (CONES)
         lit *= in_cone(lamp, towards * inversesqrt(square));
 #ifdef MAPPED
@@ -214,8 +220,10 @@ void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], L
     vec2 parts = reflected_lamp(at, towards / distance_, facing);
     vec3 add = falling * parts.x, white = falling * parts.y;
 #else
-    float fall = is_point ? lamp.radiance.w / (square * sqrt(square)) : 1.0;
-    vec3 add = lamp.radiance.rgb * (max(dot(at, towards), 0.0) * fall * lit);
+    float near = inversesqrt(square), facing = dot(at, towards);
+    // Bounds of 0 and 1 cost a graphics card nothing.
+    float cosine = clamp(is_point ? facing * near : facing, 0.0, 1.0);
+    vec3 add = lamp.radiance.rgb * (cosine * (is_point ? lamp.radiance.w * (near * near) : 1.0) * lit);
 #endif
     int first = int(lamp.kind.x);
     if (LAMPS_MOVE) {
@@ -261,7 +269,8 @@ void write(vec4 coefficients[MAX_GROUPS + 1], float alpha)
     // 60000 is below fp16's greatest number: a light very close to a surface must not become infinite, nor change its colour.
     float most = 60000.0;
     for (int group = 0; group < GROUPS; ++group) {
-        coefficients[group] = clamp(coefficients[group], vec4(-1e30), vec4(1e30));
+        if (MATRICES || LAMPS_MOVE)
+            coefficients[group] = clamp(coefficients[group], vec4(-1e30), vec4(1e30));
         vec4 size = abs(coefficients[group]);
         most = max(most, max(max(size.x, size.y), max(size.z, size.w)));
     }
@@ -285,7 +294,7 @@ void write(vec4 coefficients[MAX_GROUPS + 1], float alpha)
 
 void main()
 {
-    vec4 base = colour;
+    vec4 base = COLOURED ? colour : plain_colour;
     if (BASE_TEXTURE)
         base *= texture(base_texture, uv);
     float ink, lit_part;
@@ -312,7 +321,8 @@ void main()
                 lit_normal += off.x * dFdx(normal) + off.y * dFdy(normal);
             }
         }
-        vec3 n = normalize(gl_FrontFacing ? lit_normal : -lit_normal);
+        float unit = inversesqrt(dot(lit_normal, lit_normal));
+        vec3 n = lit_normal * (gl_FrontFacing ? unit : -unit);
         float daylight = SHADOWS == 0 ? 1.0 : ambient_part(lit_place, n);
         vec3 above = uintBitsToFloat(draw.z) * n; // to a place that is on the lit side of the full surface, or on it
 #ifdef MAPPED
@@ -333,7 +343,7 @@ void main()
             if ((SHADOWS & 1 << i) != 0)
                 lit = is_point ? reached_from_near(cube.shadows[i], lit_place, above)
                                : reached_from_afar(cube.shadows[i], lit_place, above);
-            add_lamp(coefficients, light, cube.lights[int(cube.first.w) + i], is_point, lit_place, at, base.rgb,
+            add_lamp(coefficients, light, cube.lights[floatBitsToInt(cube.first.w) + i], is_point, lit_place, at, base.rgb,
                 lit);
         }
     }

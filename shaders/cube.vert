@@ -36,6 +36,7 @@ layout(location = 3) out vec4 out_colour;
 layout(location = 4) flat out uvec3 out_draw; // instance, and the members of DrawEntry
 layout(location = 7) flat out vec4 out_emissive; // SurfaceEntry's members
 layout(location = 8) flat out vec4 out_beyond;
+layout(location = 9) flat out vec4 out_plain_colour;
 
 #include "light_travel_offset.glsl"
 
@@ -136,7 +137,8 @@ void main()
     out_uv = uv;
     DrawEntry entry = draws[int(push.surface.y) + gl_DrawID];
     out_draw = uvec3(visible[gl_InstanceIndex], entry.material, floatBitsToUint(entry.apart));
-    out_colour = colour * surfaces[entry.material].base_colour;
+    out_plain_colour = surfaces[entry.material].base_colour;
+    out_colour = colour * out_plain_colour;
     out_emissive = surfaces[entry.material].emissive;
     out_beyond = surfaces[entry.material].beyond;
     gl_Position = vec4(dot(push.clip_x, place), dot(push.clip_y, place), push.surface.x, dot(push.clip_w, place));

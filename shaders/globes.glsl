@@ -53,7 +53,7 @@ float air_above(float r, float x, float mu)
 }
 
 // An element of the list, by constant indices where a driver in software would read it pixel by pixel.
-GlobeEntry globe(int i) { return globes.entries[i + int(globes.first.w)]; }
+GlobeEntry globe(int i) { return globes.entries[i + floatBitsToInt(globes.first.w)]; }
 
 // A ray to a globe, in its own axes scaled by its radii, in which it is a sphere of radius 1.
 struct GlobeRay {

@@ -14,7 +14,7 @@ float covered_by_bodies(vec3 n0, float pixel_angle) { return 0.0; }
 #define SKY rest_frames.sky
 #include "sky.glsl"
 
-int rest_frame_count() { return int(rest_frames.count[int(rest_frames.first.w)].x); }
+int rest_frame_count() { return int(rest_frames.count[floatBitsToInt(rest_frames.first.w)].x); }
 
 RestFrameView rest_frame_of(int i)
 {

@@ -5,7 +5,8 @@
 // A number that decides a branch must not have a constant place in a uniform buffer: there, llvmpipe (Mesa 22.3) takes it
 // for a constant, compiles the shader again whenever the buffer is bound, if that makes it much shorter, and keeps every
 // copy. Such a number is therefore in an array, and the array's index has an addend that is 0, and that only the buffer
-// tells. In a stage with four uniform buffers and push constants, it crashes over such a number in the last of them.
+// tells: the bits of a float, which need no conversion. In a stage with four uniform buffers and push constants, it crashes
+// over such a number in the last of them.
 
 // The fixed division's tiles (see tiles.h); every tile has an entry, drawn or not.
 #define TILE_FRONT 0

@@ -303,6 +303,7 @@ SurfaceVariant GpuWorld::variant(int material, StoredLight light) const
     const Material& m = world.materials[material];
     SurfaceVariant variant;
     variant.base_texture = m.base_texture >= 0, variant.emissive_texture = m.emissive_texture >= 0;
+    variant.emits = m.emissive != glm::vec3(0);
     variant.masked = m.alpha_cutoff > 0;
     variant.unlit = m.unlit, variant.lights = m.unlit ? 0 : int(world.lamps.size());
     variant.point_lamps = m.unlit ? 0 : point_lamps;
