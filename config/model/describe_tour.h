@@ -58,7 +58,7 @@ inline constexpr auto description<Question> = with_rules(
         field("choices", List{Object<Choice>{}, 2, 3, "choices"}, "The choices, of which one or several are right.",
             &Question::answer),
         again("number", Object<NumberToSet>{}, "", &Question::answer),
-        again("reach", Object<PlaceToReach>{}, "", &Question::answer)),
+        again("reach", Object<PlaceToReach>{}, "", &Question::answer), not_in_file(&Question::unattended_s)),
     R"({ "oneOf": [{ "required": ["choices"] }, { "required": ["number"] }, { "required": ["reach"] }] })");
 static_assert(is_complete<Question>());
 void check(const Place& place, const Question& question, const Folder&);

@@ -32,6 +32,7 @@ struct Question {
     Measure measure;
     std::variant<std::vector<Choice>, NumberToSet, PlaceToReach> answer;
     double explanation_s = 8; ///< the time for which the explanation is shown
+    double unattended_s = 7; ///< the longest time for which the question is shown where nobody is there to answer
 };
 
 /// A thing that a step speaks of: the picture has a ring with a name around it.

@@ -176,7 +176,7 @@ Session::Session(const ExhibitOptions& given)
     , words(given.words)
     , content(given.visiting ? attraction_of(given, given.words, 0) : given.content)
     , rules(given.replay.empty() ? rules_in(given, given.rules, content) : given.rules)
-    , source(source_of(content, rules, !given.visiting))
+    , source(source_of(content, rules, !given.visiting, given.speech))
     , tutorial(tutorial_at(flight()))
     , record_replay(record_replay_of(given, rules))
     , devices(given.profiles, given.layout.head_tracker, write_log)
@@ -193,13 +193,13 @@ Session::Session(const ExhibitOptions& given)
 {
 }
 
-std::unique_ptr<FlightSource> source_of(const SessionContent& content, const Flying& rules, bool visitors)
+std::unique_ptr<FlightSource> source_of(const SessionContent& content, const Flying& rules, bool visitors, bool read_aloud)
 {
     if (!content.record.empty() && !visitors)
         return std::make_unique<ShownRecord>(content.record);
     const double unit_s = open_scene(content.scene).seconds_per_time_unit();
     if (content.tour)
-        return std::make_unique<TourPlayer>(*content.tour, rules, unit_s, visitors);
+        return std::make_unique<TourPlayer>(*content.tour, rules, unit_s, visitors, read_aloud);
     return std::make_unique<HandFlight>(content.start, rules, unit_s);
 }
 

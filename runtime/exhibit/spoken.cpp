@@ -10,27 +10,18 @@ std::string moment_of(const Session& session, const TourPlayer& tour)
         + session.words.language;
 }
 
-/// A tour's text: sentence after sentence.
 std::string text_of_tour(const Session& session, const TourPlayer& tour)
 {
-    std::string all;
-    const auto add = [&](const std::string& text) {
-        if (text.empty())
-            return;
-        const bool ends = text.ends_with('.') || text.ends_with('!') || text.ends_with('?');
-        all += (all.empty() ? "" : " ") + text + (ends ? "" : ".");
-    };
-    if (!tour.answered()) {
-        add(tour.title()); // the moment begins with the step
-        add(tour.description());
-    }
+    std::vector<std::string> texts;
+    if (!tour.answered()) // the moment begins with the step
+        texts = {tour.title(), tour.description()};
     if (const auto caption = tour.caption(session.words, session.devices.hid().capabilities())) {
-        add(caption->text);
-        if (caption->right < 0)
-            for (const std::string& choice : caption->choices)
-                add(choice);
+        texts.push_back(caption->text);
+        const auto& question = tour.steps()[tour.step()].question;
+        if (question && !tour.answered() && std::holds_alternative<std::vector<Choice>>(question->answer))
+            texts.insert(texts.end(), caption->choices.begin(), caption->choices.end());
     }
-    return all;
+    return sentences(texts);
 }
 
 } // namespace

@@ -11,8 +11,6 @@ namespace {
 constexpr double second_ns = 1e9;
 /// Intervals at which a stick held aside steps to the next number.
 constexpr double first_repeat_s = 0.5, repeat_s = 0.1;
-/// The longest time of a question without visitors, as in a movie.
-constexpr double longest_unattended_question_s = 7;
 /// A place counts as reached after this time.
 constexpr double reached_s = 0.3;
 
@@ -25,7 +23,7 @@ bool tries(const Step& step) { return std::holds_alternative<Try>(step.motion); 
 /// The time limit of a question, or the time of a step without one. Without visitors a question is shorter.
 double time_limit_s(const Step& step, bool visitors)
 {
-    return step.question && !visitors ? std::min(step.seconds, longest_unattended_question_s) : step.seconds;
+    return step.question && !visitors ? std::min(step.seconds, step.question->unattended_s) : step.seconds;
 }
 
 /// The step's present duration.

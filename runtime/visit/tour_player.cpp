@@ -1,5 +1,6 @@
 #include "tour_player.h"
 #include <algorithm>
+#include <cmath>
 
 namespace starbow {
 
@@ -28,6 +29,15 @@ void TourPlayer::again()
     touring_ = touring_at(show_);
     count_beginning(touring_.flight, before);
     automatic_ = over_s_ = 0;
+}
+
+void TourPlayer::reword(Tour tour)
+{
+    const double before_s = tour_.steps[touring_.step()].seconds;
+    tour_ = paced(std::move(tour));
+    const double longer = tour_.steps[touring_.step()].seconds / before_s;
+    touring_.into_ns = std::llround(longer * double(touring_.into_ns));
+    touring_.answered_ns = std::llround(longer * double(touring_.answered_ns));
 }
 
 double TourPlayer::shown_ev(const Exposure& adapted, const Exposing& rules) const

@@ -1,5 +1,6 @@
 #pragma once
 #include "flight_source.h"
+#include "read_aloud.h"
 #include "runtime/flight/tour.h"
 #include "runtime/hud/caption.h"
 #include <optional>
@@ -15,9 +16,11 @@ std::string announced(const Step& step);
 /// A tour as the source of an exhibit's flight.
 class TourPlayer : public FlightSource {
 public:
-    /// seconds_per_time_unit: of the tour's scene. visitors: false where nobody is there to fly and to answer.
-    TourPlayer(Tour tour, const Flying& rules, double seconds_per_time_unit, bool visitors = true)
-        : tour_(std::move(tour))
+    /// seconds_per_time_unit: of the tour's scene. visitors: false where nobody is there to fly and to answer. read_aloud:
+    /// its steps last until their texts are read.
+    TourPlayer(Tour tour, const Flying& rules, double seconds_per_time_unit, bool visitors = true, bool read_aloud = false)
+        : read_aloud_(read_aloud)
+        , tour_(paced(std::move(tour)))
         , show_{tour_, rules, seconds_per_time_unit, visitors}
         , touring_(touring_at(show_))
     {
@@ -49,8 +52,8 @@ public:
     void again();
     /// The tour's own motion stands still, or goes on.
     void pause(bool on) { touring_.paused = on; }
-    /// The same tour in another language keeps its step and its time.
-    void reword(Tour tour) { tour_ = std::move(tour); }
+    /// The same tour in another language keeps its step and the part of it that is over.
+    void reword(Tour tour);
 
     /// The caption; nullopt after the tour's end, while the visitor flies.
     std::optional<Caption> caption(const Words& words, const InputCapabilities& capabilities) const;
@@ -58,6 +61,9 @@ public:
     std::string prompt(const Words& words) const;
 
 private:
+    Tour paced(Tour tour) const { return read_aloud_ ? paced_to_be_read(std::move(tour)) : std::move(tour); }
+
+    bool read_aloud_;
     Tour tour_;
     Show show_;
     Touring touring_;
