@@ -89,6 +89,30 @@ $montage $pairs -tile 8x -geometry 208x65+2+2 "$work/pairs.png"
 $montage $eyes -tile 11x -geometry 150x94+2+2 "$work/eyes.png"
 convert "$work/domes.png" "$work/pairs.png" "$work/eyes.png" -background '#222' -gravity center -append -quality 82 docs/domes.jpg
 
+# Six moments of each tour on the desk, on a dome and for two eyes, with titles and captions: docs/storyboards.jpg.
+rows=
+while read -r tour; do
+    for view in desk:480x270 dome:270x270 stereo:480x240; do
+        layout=${view%%:*} movie="$work/$tour-${view%%:*}.mp4"
+        moments() { # PART: draws some frames of the movie, one a second
+            "$starbow" render --tour "$tour" --layout "$layout" --size "${view##*:}" --fps 1 --movie "$movie" --part "$1"
+        }
+        seconds=$(moments 4/1000 | sed -n 's/.* of \([0-9]*\) frames are in .*/\1/p')
+        moments "4/$(((seconds + 5) / 6))" >"$work/moments.txt"
+        montage "$movie.frames/"*.png -background '#222' -tile 6x1 -geometry 320x180+2+2 "$work/$tour-$layout.png"
+        rows="$rows $work/$tour-$layout.png"
+    done
+done <<'END'
+first-minute
+street
+rainbow
+simultaneity
+twins
+solar-system
+voyage
+END
+convert $rows -background '#222' -append -quality 80 docs/storyboards.jpg
+
 # A layout of each projection, as `starbow check` draws it.
 for layout in desk wall3 cave5 dome dome2 mirror headset stereo; do
     "$starbow" check "$layout" --svg "docs/layouts/$layout.svg"

@@ -1,6 +1,24 @@
 #include "choices.h"
+#include <algorithm>
 
 namespace starbow {
+
+namespace {
+
+struct SwitchedChoice {
+    CommandKind kind;
+    bool Choices::*member;
+};
+constexpr SwitchedChoice switched_choices[]{{CommandKind::range, &Choices::range},
+    {CommandKind::sky_names, &Choices::sky_names}, {CommandKind::filter, &Choices::filter},
+    {CommandKind::one_button, &Choices::one_button}, {CommandKind::left_handed, &Choices::left_handed}};
+
+} // namespace
+
+bool switches_choice(CommandKind kind)
+{
+    return std::ranges::find(switched_choices, kind, &SwitchedChoice::kind) != std::end(switched_choices);
+}
 
 bool apply(Choices& choices, const Command& command)
 {
@@ -14,21 +32,13 @@ bool apply(Choices& choices, const Command& command)
     case CommandKind::inset:
         choices.inset = inset_view_named(command.text);
         return true;
-    case CommandKind::range:
-        choices.range = command.on;
-        return true;
-    case CommandKind::sky_names:
-        choices.sky_names = command.on;
-        return true;
-    case CommandKind::one_button:
-        choices.one_button = command.on;
-        return true;
-    case CommandKind::left_handed:
-        choices.left_handed = command.on;
-        return true;
     default:
-        return false;
+        break;
     }
+    if (!switches_choice(command.kind))
+        return false;
+    choices.*std::ranges::find(switched_choices, command.kind, &SwitchedChoice::kind)->member = command.on;
+    return true;
 }
 
 void apply(Choices& choices, Switches pressed)

@@ -21,6 +21,8 @@ struct Choices {
     bool operator==(const Choices&) const = default;
 };
 
+/// True for a command that switches one of a visitor's choices on and off.
+bool switches_choice(CommandKind kind);
 /// Applies a command that chooses. Returns false, and changes nothing, for any other. Throws InputError for an unknown name.
 bool apply(Choices& choices, const Command& command);
 /// Applies the switches of a frame that choose.

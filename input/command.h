@@ -25,6 +25,7 @@ enum class CommandKind : std::uint8_t {
     exposure, ///< number: EV, added to whatever is shown
     range, ///< on: everything visible at once; off: one exposure
     sky_names, ///< on: the names of constellations, stars and planets
+    filter, ///< on: a dark filter, through which the brightest thing in view is seen well
     slow_motion, ///< on: the time on board at a quarter
     one_button, ///< on: the visitor flies with one button
     left_handed, ///< on: keyboard and sticks for a left-handed visitor

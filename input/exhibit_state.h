@@ -3,6 +3,8 @@
 #include "config/model/shot.h"
 #include <array>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace starbow {
 
@@ -35,7 +37,8 @@ struct ExhibitState : Choices {
     Doing doing = Doing::waits;
     int step = 0, steps = 0; ///< of the running tour, the first one 1; 0: none runs
     double left_s = 0; ///< of the step
-    std::string next_caption; ///< of the tour's next step, whole; empty: none
+    /// Of the tour's next step, whole: languages and texts; empty: none.
+    std::vector<std::pair<std::string, std::string>> next_caption;
     int item = 0, items = 0; ///< of the programme, begun last, the first one 1; 0: none yet, and no programme
     double item_s = 0; ///< since the item began
     bool calm = false; ///< the exhibit limits flashes
@@ -61,7 +64,8 @@ inline constexpr SwitchedState switched_states[]{{CommandKind::fade, &ExhibitSta
     {CommandKind::slow_motion, &ExhibitState::slow_motion, "slow-motion"},
     {CommandKind::one_button, &ExhibitState::one_button, "one-button"},
     {CommandKind::left_handed, &ExhibitState::left_handed, "left-handed"},
-    {CommandKind::sky_names, &ExhibitState::sky_names, "sky-names"}, {CommandKind::range, &ExhibitState::range, "range"}};
+    {CommandKind::filter, &ExhibitState::filter, "filter"}, {CommandKind::sky_names, &ExhibitState::sky_names, "sky-names"},
+    {CommandKind::range, &ExhibitState::range, "range"}};
 
 /// Applies a command that switches an effect, or chooses a comparison. Returns false, and changes nothing, for any other.
 /// Throws InputError for an unknown comparison.

@@ -64,7 +64,7 @@ TOYS = {
         "config/model/effects.h": all_of(
             after("    false_colours, ///< infrared as red, the visible as green, ultraviolet as blue\n", "    dusk, ///< half of the light\n"),
             before("};\nstatic_assert(has_each_in_order(all_effects",
-                   '    EffectEntry{Effect::dusk, "dusk", Switch::dusk, false, \'J\', "true: half of the light."},\n')),
+                   '    EffectEntry{Effect::dusk, "dusk", Switch::dusk, false, \'Y\', "true: half of the light."},\n')),
         "config/model/switches.h": all_of(
             after("    save, ///< the layout\n", "    dusk,\n"),
             before("};\nstatic_assert(has_each_in_order(all_switches",

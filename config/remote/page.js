@@ -152,7 +152,7 @@ function doesText() {
     return parts.join(" · ");
 }
 
-// Texts of the programme's file, in the page's language or another that it has.
+// Of a text in several languages that of the page's, or another.
 function inLanguage(texts) {
     return texts[language] || texts.en || Object.values(texts)[0] || "";
 }
@@ -180,8 +180,9 @@ function showStatus() {
     show("scene", status.shot ? `${choiceText("scene", status.scene)}, ${choiceText("shot", status.shot)}`
         : choiceText("scene", status.scene));
     show("does", doesText());
-    show("next-caption", status["next-caption"]);
-    find("coming").hidden = !status["next-caption"];
+    const next = inLanguage(status["next-caption"]);
+    show("next-caption", next);
+    find("coming").hidden = !next;
     showProgramme();
     const digits = status.speed > 0.999 ? 9 : 3;
     show("speed", `${status.speed.toLocaleString(language, { minimumFractionDigits: digits, maximumFractionDigits: digits })} c`);

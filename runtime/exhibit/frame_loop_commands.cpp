@@ -49,6 +49,7 @@ void FrameLoop::choose_in_menu(RecordEntry& entry, Requests& requests)
     if (entry.controls[Switch::menu] && !session_.menu.open) // a site's own words may be wrong; the remote's page says so
         session_.languages = languages_here([](const std::string&) {});
     session_.sky_has_names = !context_.world.sky_names.stars.empty();
+    session_.sky_has_sun = context_.world.scene.globes.has_value();
     if (session_.menu.open || entry.controls[Switch::menu])
         if (std::optional<Command> chosen = advance(session_.menu, menu_of(session_), entry.controls, entry.dt_ns, requests))
             entry.commands.push_back(std::move(*chosen));

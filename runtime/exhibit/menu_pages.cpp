@@ -62,6 +62,8 @@ MenuPage switches_of(const Session& session)
     if (session.sky_has_names)
         page.items.push_back(
             switch_of(words, "menu.sky_names", {.kind = CommandKind::sky_names}, session.choices.sky_names));
+    if (session.sky_has_sun)
+        page.items.push_back(switch_of(words, "menu.filter", {.kind = CommandKind::filter}, session.choices.filter));
     if (session.options.log.empty())
         page.items.push_back(
             switch_of(words, "menu.slow_motion", {.kind = CommandKind::slow_motion}, session.flight().time_scale > 0));

@@ -45,6 +45,9 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
 {
     RecordEntry now = entry;
     apply(choices_, entry.controls);
+    for (const Command& command : entry.commands)
+        if (switches_choice(command.kind))
+            apply(choices_, command);
     light_.advance(now,
         {.source = FlownFlight(flight, start_ev_),
             .range = entry.ranged,

@@ -84,7 +84,10 @@ void describe(const Session& session, ExhibitState& out)
     const bool runs = tour && !tour->over();
     out.step = runs ? int(tour->step()) + 1 : 0, out.steps = runs ? int(tour->steps().size()) : 0;
     out.left_s = runs ? tour->left_s() : 0;
-    out.next_caption = runs && tour->step() + 1 < tour->steps().size() ? announced(tour->steps()[tour->step() + 1]) : "";
+    out.next_caption.clear();
+    for (const auto& [language, texts] : content.announcements)
+        if (runs && tour->step() + 1 < texts.size() && !texts[tour->step() + 1].empty())
+            out.next_caption.emplace_back(language, texts[tour->step() + 1]);
     out.item = session.item, out.items = session.options.programme ? int(session.options.programme->items.size()) : 0;
     out.item_s = session.item > 0 ? seconds(Session::Clock::now() - session.item_began) : 0;
     out.calm = session.options.exposure.calm;

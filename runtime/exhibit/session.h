@@ -45,7 +45,7 @@ struct Session {
     Words words; ///< of the chosen language
     MenuState menu{}; ///< the visitors'
     std::vector<std::pair<std::string, std::string>> languages{}; ///< names and own words, as read when the menu opened
-    bool sky_has_names = false; ///< in the shown world
+    bool sky_has_names = false, sky_has_sun = false; ///< in the shown world
     std::string coming{}; ///< the name of a world that is being read; empty: none
 
     SessionContent content; ///< the shown one

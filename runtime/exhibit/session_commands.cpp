@@ -78,6 +78,7 @@ void apply_command(Session& session, const Command& command, Requests& requests)
         break;
     case CommandKind::range:
     case CommandKind::sky_names:
+    case CommandKind::filter:
     case CommandKind::one_button:
     case CommandKind::left_handed:
     case CommandKind::language:

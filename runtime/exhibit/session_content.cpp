@@ -4,6 +4,7 @@
 #include "runtime/hud/highlights.h"
 #include "runtime/operation/record_files.h"
 #include "runtime/visit/shown_record.h"
+#include "runtime/visit/tour_player.h"
 #include "runtime/world/open_scene.h"
 
 namespace starbow {
@@ -31,13 +32,29 @@ SessionContent content_of_record(const std::filesystem::path& record)
         .record = record};
 }
 
+/// A language that a site's own words or the tour's own texts lack is left out: the remote's page then takes another.
+static std::vector<std::pair<std::string, std::vector<std::string>>> announcements_of(const std::string& tour)
+{
+    std::vector<std::pair<std::string, std::vector<std::string>>> all;
+    for (const std::string& language : shipped_names("words"))
+        try {
+            std::vector<std::string> texts;
+            for (const Step& step : tour_in(tour, words_in(language)).steps)
+                texts.push_back(announced(step));
+            all.emplace_back(language, std::move(texts));
+        } catch (const InputError&) {
+        }
+    return all;
+}
+
 SessionContent content_of_tour(const std::string& name, const Words& words)
 {
     Tour tour = tour_in(name, words);
     const std::filesystem::path scene = scene_of(tour);
     check_highlights(tour, open_scene(scene));
     const Shot start = std::get<Cut>(tour.steps[0].motion).shot;
-    return {.scene = scene, .start = start, .tour_name = name, .tour = std::move(tour)};
+    return {
+        .scene = scene, .start = start, .tour_name = name, .tour = std::move(tour), .announcements = announcements_of(name)};
 }
 
 } // namespace starbow

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace starbow {
 
@@ -15,6 +17,8 @@ struct SessionContent {
     std::string shot{}; ///< name or path of the start's shot; empty: the scene's own start, or the tour's
     std::string tour_name{}; ///< name or path; empty: no tour
     std::optional<Tour> tour{};
+    /// The tour's texts before they are shown, of each step, by language.
+    std::vector<std::pair<std::string, std::vector<std::string>>> announcements{};
     std::filesystem::path record{}; ///< a flight that is shown as it was flown; empty: none
 };
 

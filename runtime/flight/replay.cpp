@@ -2,6 +2,7 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "history.h"
+#include "input/choices.h"
 #include <algorithm>
 
 namespace starbow {
@@ -11,14 +12,9 @@ namespace {
 /// Far longer than any written line. A longer line belongs to no record and is not read to its end.
 constexpr std::size_t longest_line = 1 << 16;
 
-/// True for a command whose effect the record's frames hold (what the hand did that steers, and the curve of brightness), or
+/// True for a command whose effect the record's frames hold (what the hand did that steers, and the light that is shown), or
 /// that has none on the flight, as names in the sky and the guide's pointer.
-bool kept_in_frames(const Command& command)
-{
-    return command.kind == CommandKind::one_button || command.kind == CommandKind::left_handed
-        || command.kind == CommandKind::range || command.kind == CommandKind::sky_names
-        || command.kind == CommandKind::pointer;
-}
+bool kept_in_frames(const Command& command) { return switches_choice(command.kind) || command.kind == CommandKind::pointer; }
 
 } // namespace
 

@@ -213,6 +213,7 @@ void add_keys(PresenterSheet& sheet, const PresenterState& state, const Words& w
 
     toggle('U', "remote.range", {.kind = Order::range}, state.range);
     toggle('J', "remote.sky_names", {.kind = Order::sky_names}, state.sky_names);
+    toggle('Z', "remote.filter", {.kind = Order::filter}, state.filter);
     list('G', "remote.speed_limit", PresenterList::limits).state = limit_text(state.max_gamma, words);
     PresenterKey& language = list('L', "remote.language", PresenterList::languages);
     for (const auto& [name, text] : state.languages)

@@ -174,6 +174,22 @@ std::string plain_sentence(const Readings& r, const Words& words)
     return words(beta > 0.7 && colours ? "say.colours"_key : "say.rain"_key);
 }
 
+std::string minutes_sentence(const Readings& r, const Words& words)
+{
+    constexpr double said_s = 6, again_s = 18, tolerance = 0.04;
+    const auto usual = [&](const EffectEntry& one) { return r.effects[one.which] == one.usual; };
+    if (std::fmod(r.ship_s, again_s) < again_s - said_s || r.frozen || r.filtered || r.effects.comparison != Comparison::none
+        || !std::ranges::all_of(all_effects, usual))
+        return "";
+    constexpr std::pair<int, int> minutes[]{{4, 5}, {3, 4}, {2, 3}, {1, 2}, {1, 3}, {1, 4}, {1, 5}, {1, 6}, {1, 7}, {1, 8},
+        {1, 9}, {1, 10}, {1, 20}, {1, 50}, {1, 100}, {1, 1000}};
+    for (const auto& [board, world] : minutes)
+        if (std::abs(r.gamma * board / world - 1) <= tolerance)
+            return words(board == 1 ? "say.minute"_key : "say.minutes"_key,
+                {{"board", std::to_string(board)}, {"world", std::to_string(world)}});
+    return "";
+}
+
 std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings& readings, const Words& words)
 {
     std::vector<Lettering> lines;
@@ -211,9 +227,11 @@ std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings
             fitting(typesetter, numbers, right_edge - left_of_lines, 0.23)});
     }
     const std::string off = numbered ? switched_off(readings.effects, words) : "";
+    const std::string minutes = minutes_sentence(readings, words);
     const std::string text = !readings.notice.empty() ? readings.notice
         : !readings.prompt.empty()                    ? readings.prompt
         : !off.empty()                                ? off
+        : !minutes.empty()                            ? minutes
                                                       : plain_sentence(readings, words);
     // The largest size at which two lines hold the text. The guides' numbers leave less room.
     double size = guides ? 0.21 : 0.24;

@@ -17,6 +17,10 @@ constexpr double least_lettering = 0.2;
 
 /// One sentence about the picture in plain words: the effect that shapes it most now.
 std::string plain_sentence(const Readings& readings, const Words& words);
+/// The times on board and outside in whole minutes, as children count, within 4 %: "2 minutes for you are 3 outside." In six
+/// of every eighteen seconds of a flight it stands in the plain sentence's place. Empty where no small numbers are as near,
+/// and in all other seconds.
+std::string minutes_sentence(const Readings& readings, const Words& words);
 
 /// Speed as a part of the speed of light in percent, cut off, never rounded up: no speed is shown as 100 %.
 std::string shown_percent(double beta_deficit, const Words& words);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <arpa/inet.h>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace starbow {
@@ -176,9 +177,10 @@ std::string status_text(const Snapshot& now, bool engineer)
         {"comparison", comparison_names[std::size_t(now.effects.comparison)]}, {"speed", finite(now.speed)},
         {"gamma", finite(now.gamma)}, {"max-gamma", finite(now.max_gamma)}, {"max-speed", finite(speed_of(now.max_gamma))},
         {"exposure", finite(now.exposure_ev)}, {"doing", doing_names[std::size_t(now.doing)]},
-        {"left-s", std::ceil(finite(now.left_s))}, {"calm", now.calm}, {"next-caption", now.next_caption},
-        {"item", now.item}, {"items", now.items}, {"item-s", std::floor(finite(now.item_s))}, {"coming", now.coming},
-        {"visit", now.visit}, {"caption", now.caption}, {"frames-per-s", std::round(finite(now.frames_per_s) * 10) / 10},
+        {"left-s", std::ceil(finite(now.left_s))}, {"calm", now.calm},
+        {"next-caption", std::map(now.next_caption.begin(), now.next_caption.end())}, {"item", now.item},
+        {"items", now.items}, {"item-s", std::floor(finite(now.item_s))}, {"coming", now.coming}, {"visit", now.visit},
+        {"caption", now.caption}, {"frames-per-s", std::round(finite(now.frames_per_s) * 10) / 10},
         {"frame-ms", std::round(finite(now.frame_ms) * 10) / 10}, {"uptime-s", std::floor(finite(now.uptime_s))}};
     for (const EffectEntry& one : all_effects)
         status[dashed(one.name)] = now.effects[one.which];

@@ -105,8 +105,6 @@ TEST(Presenter, NoKeyMeansTwoThings)
             for (const PresenterKey& key : *all) {
                 EXPECT_TRUE(keys.insert(key.key).second) << key.label;
                 EXPECT_TRUE(key.also == 0 || keys.insert(key.also).second) << key.label;
-                // A letter at another place on a German keyboard than on an English one would mislead.
-                EXPECT_TRUE(key.key != 'Y' && key.key != 'Z') << key.label;
                 EXPECT_TRUE(key.key > 255 || key.key == ' ' || key.name == std::string(1, char(key.key))) << key.label;
             }
         EXPECT_GE(sheet.keys.size(), 26u);

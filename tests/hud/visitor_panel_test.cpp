@@ -88,11 +88,58 @@ TEST(VisitorPanel, EverySentenceIsSaidInSomeState)
     std::set<std::string> said;
     for (const Readings& r : all_states())
         said.insert(plain_sentence(r, words()));
-    const std::set<std::string> others{"say.percent", "say.of_light", "say.clock_board", "say.clock_world"};
+    const std::set<std::string> others{
+        "say.percent", "say.of_light", "say.clock_board", "say.clock_world", "say.minute", "say.minutes"};
     for (const auto& [key, text] : words().texts)
         if (key.starts_with("say.") && !others.contains(key)) {
             EXPECT_TRUE(said.contains(text)) << key;
         }
+}
+
+// The minutes against the flight's own clocks: a ship that flies on at its speed, whose two readings are compared.
+TEST(VisitorPanel, MinutesAreThoseOfBothClocks)
+{
+    std::set<std::string> said;
+    for (double rapidity = 0; rapidity < 9; rapidity += 0.01) {
+        Readings r = at_rapidity(rapidity);
+        r.effects = effects_of(true, true, true);
+        Ship ship;
+        ship.u = Sum3(glm::dvec3(0, 0, -std::sinh(rapidity)));
+        const Ship later = fly(ship, {}, {}, 1);
+        const double ratio
+            = (later.time.total() - ship.time.total()) / (later.proper_time.total() - ship.proper_time.total());
+        for (const double ship_s : {0.0, 5.0, 11.9, 12.1, 17.9, 18.1, 1e9 + 14}) {
+            r.ship_s = ship_s;
+            const std::string text = minutes_sentence(r, words());
+            int board = 1, world = 0;
+            if (text.starts_with("One minute for you is "))
+                world = std::stoi(text.substr(22));
+            else if (!text.empty()) {
+                ASSERT_EQ(std::sscanf(text.c_str(), "%d minutes for you are %d outside.", &board, &world), 2) << text;
+            }
+            EXPECT_TRUE(text.empty() || (ship_s != 0 && ship_s != 5 && ship_s != 11.9 && ship_s != 18.1)) << ship_s << text;
+            if (!text.empty()) {
+                EXPECT_NEAR(double(world) / board, ratio, 0.05 * ratio) << text;
+            }
+            if (ship_s == 12.1)
+                said.insert(text);
+        }
+        r.ship_s = 14;
+        r.effects.on.set(Effect::aberration, false); // a picture that is not real has no such sentence
+        EXPECT_EQ(minutes_sentence(r, words()), "");
+        r.effects.on.set(Effect::aberration, true), r.frozen = true;
+        EXPECT_EQ(minutes_sentence(r, words()), "");
+    }
+    EXPECT_EQ(said.size(), 17u); // each of the numbers, and none
+    EXPECT_TRUE(said.contains("2 minutes for you are 3 outside."));
+    EXPECT_TRUE(said.contains("One minute for you is 2 minutes outside."));
+    Readings r = at_rapidity(std::acosh(4.0));
+    r.effects = effects_of(true, true, true), r.ship_s = 13;
+    EXPECT_EQ(minutes_sentence(r, words("de")), "Eine Minute für dich sind draußen 4 Minuten.");
+    bool shown = false;
+    for (const Lettering& line : lettering_of(Typesetter(), r, words()))
+        shown |= line.text.starts_with("One minute for you");
+    EXPECT_TRUE(shown);
 }
 
 // Each sentence about the way to look against the picture's own numbers: the sine and cosine of an angle on board, and D.

@@ -25,11 +25,11 @@ TEST(ChoicesTest, ACommandChangesItsOwnChoice)
         EXPECT_EQ(chooses, choices != Choices()) << rule.name;
         EXPECT_EQ(static_cast<const Choices&>(after(ExhibitState(), command)), choices) << rule.name;
         const int changed = (choices.language == "de") + (choices.information == Information::guide)
-            + (choices.inset == InsetView::telescope) + choices.range + choices.sky_names + choices.one_button
-            + choices.left_handed;
+            + (choices.inset == InsetView::telescope) + choices.range + choices.sky_names + choices.filter
+            + choices.one_button + choices.left_handed;
         EXPECT_EQ(changed, chooses) << rule.name;
     }
-    EXPECT_EQ(choosing, 7);
+    EXPECT_EQ(choosing, 8);
 }
 
 TEST(ChoicesTest, SwitchesLeadThroughAllValuesAndBack)

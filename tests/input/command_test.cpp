@@ -35,6 +35,7 @@ TEST(Command, EveryKindComesBackFromItsWords)
         {{"information", "guide"}, {CommandKind::information, false, 0, "guide"}},
         {{"exposure", "-1.5"}, {CommandKind::exposure, false, -1.5}}, {{"range", "on"}, {CommandKind::range, true, 0, ""}},
         {{"sky-names", "on"}, {CommandKind::sky_names, true, 0, ""}},
+        {{"filter", "on"}, {CommandKind::filter, true, 0, ""}},
         {{"slow-motion", "on"}, {CommandKind::slow_motion, true, 0, ""}},
         {{"one-button", "on"}, {CommandKind::one_button, true, 0, ""}},
         {{"left-handed", "off"}, {CommandKind::left_handed, false, 0, ""}},

@@ -151,7 +151,7 @@ TEST(Messages, StatusesAndAnswersAreJson)
     now.caption = "\xff\"</script>";
     now.gamma = std::numeric_limits<double>::infinity();
     now.doing = Doing::attract_tour, now.left_s = 41.2, now.calm = true, now.max_gamma = 5.0 / 3;
-    now.item = 2, now.items = 6, now.item_s = 83.9, now.next_caption = "Next.";
+    now.item = 2, now.items = 6, now.item_s = 83.9, now.next_caption = {{"en", "Next."}, {"de", "Gleich."}};
     now.error = "A sentence.";
     const json docent = json::parse(status_text(now, false))["status"],
                engineer = json::parse(status_text(now, true))["status"];
@@ -164,7 +164,7 @@ TEST(Messages, StatusesAndAnswersAreJson)
     EXPECT_NEAR(docent["max-speed"].get<double>(), 0.8, 1e-12);
     EXPECT_EQ(docent["item"], 2);
     EXPECT_EQ(docent["item-s"], 83);
-    EXPECT_EQ(docent["next-caption"], "Next.");
+    EXPECT_EQ(docent["next-caption"], json::parse(R"({ "en": "Next.", "de": "Gleich." })"));
     EXPECT_EQ(docent["comparison"], "no-light-delay");
     EXPECT_EQ(docent["gamma"], 0);
     EXPECT_FALSE(docent.contains("error"));

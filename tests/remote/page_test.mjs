@@ -185,6 +185,9 @@ async function testCommands(browser) {
     await page.click('[data-choose="tour"]');
     await shows("does", "A tour is running · The rainbow · step 1 of 12 · 0:42 left");
     await shows("next-caption", "Soon we fly past it");
+    await page.click('#languages button[lang="de"]');
+    await shows("next-caption", "Gleich fliegen wir");
+    await page.click('#languages button[lang="en"]');
     await page.waitForFunction(() => document.getElementById("said").textContent === "The rainbow: done");
     await page.click('[data-do="next"]');
     await shows("does", "step 2");

@@ -42,7 +42,8 @@ std::string apply(const Command& command, Snapshot& now, int items)
         break;
     case tour:
         now.doing = Doing::tour, now.tour = command.text, now.step = 1, now.steps = 12, now.left_s = 42, now.shot.clear();
-        now.next_caption = "Soon we fly past it, to the left. Watch its colour.";
+        now.next_caption = {{"en", "Soon we fly past it, to the left. Watch its colour."},
+            {"de", "Gleich fliegen wir links daran vorbei. Achten Sie auf seine Farbe."}};
         break;
     case next:
         now.step = std::min(now.step + 1, now.steps);
