@@ -485,6 +485,10 @@ inline constexpr auto description<Layout> = describe_file<Layout>("layout",
     field("stereo", Object<Stereo>{}, "", &Layout::stereo), field("blend", Object<Blend>{}, "", &Layout::blend),
     field("hud", Object<HudPlacement>{}, "", &Layout::hud),
     field("head_tracker", Object<HeadTracking>{}, "", &Layout::head_tracker),
+    field("surrounds", Flag{},
+        "true: the display surrounds the visitor, as a dome or a room of screens does; tours come nearer to what would be "
+        "small there.",
+        &Layout::surrounds),
     needed("outputs", List{Object<Output>{}, 1, 64, "outputs"}, "The exhibit's windows, or pictures when drawn off-screen.",
         &Layout::outputs),
     not_in_file(&Layout::name, &Layout::file));

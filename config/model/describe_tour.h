@@ -134,6 +134,17 @@ static_assert(is_complete<Try>());
 /// Seconds of the ship's clock in each of the visitor's.
 constexpr Range ship_rate{0, 1e12};
 /// Two motions exclude each other.
+template <>
+inline constexpr auto description<Around> = with_rules(
+    describe<Around>("around",
+        "A step's motion on a display that surrounds the visitor, such as a dome, instead of its own: "
+        "nearer to what would be small there.",
+        field("cut", CutForm{}, "As the step's.", &Around::motion),
+        again("glide", GlideForm{}, "As the step's.", &Around::motion)),
+    R"({ "oneOf": [{ "required": ["cut"] }, { "required": ["glide"] }] })");
+static_assert(is_complete<Around>());
+void check_members(const Place& place, const Around*);
+
 constexpr const char* one_motion = R"({ "not": { "anyOf": [
     { "required": ["cut", "glide"] }, { "required": ["cut", "thrust"] }, { "required": ["cut", "turn"] },
     { "required": ["cut", "try"] }, { "required": ["glide", "thrust"] }, { "required": ["glide", "turn"] },
@@ -170,7 +181,7 @@ inline constexpr auto description<Step> = with_rules(
             "beside a "
             "glide, which is smooth by itself, or a try.",
             &Step::ease_s),
-        field("question", Object<Question>{}, "", &Step::question)),
+        field("question", Object<Question>{}, "", &Step::question), field("around", Object<Around>{}, "", &Step::around)),
     one_motion);
 static_assert(is_complete<Step>());
 void check_members(const Place& place, const Step*);

@@ -237,6 +237,7 @@ struct Layout {
     Blend blend;
     std::optional<HudPlacement> hud; ///< none: found from the views, by placed_hud in runtime/hud/hud_place.h
     std::optional<HeadTracking> head_tracker;
+    bool surrounds = false; ///< the visitor, as a dome does: tours come nearer
     std::vector<Output> outputs;
 };
 

@@ -118,6 +118,12 @@ Json GlideForm::schema(Json& definitions) const { return name_or(Object<Glide>{}
 
 void check(const Place& place, Turning& turning, const Folder&) { turning.ship_from_cockpit = read_orientation(place); }
 
+void check_members(const Place& place, const Around*)
+{
+    if (find_member(place, "cut").has_value() == find_member(place, "glide").has_value())
+        fail_at(place, "needs one motion; exactly one of \"cut\" and \"glide\" is right");
+}
+
 void check_members(const Place& place, const Step*)
 {
     std::vector<std::string> given;
@@ -166,8 +172,20 @@ void check(const Place& place, Tour& tour, const Folder&)
     for (std::size_t i = 0; i < steps.size(); ++i)
         if (!find_member(steps[i], "ship_s_per_s"))
             tour.steps[i].ship_s_per_s = rate;
+    if (tour.steps[0].around && !std::holds_alternative<Cut>(tour.steps[0].around->motion))
+        fail_at(member(steps[0], "around"), "begins nowhere; a \"cut\" in the first step is right");
     if (!std::holds_alternative<Cut>(tour.steps[0].motion))
         fail_at(steps[0], "begins nowhere; a \"cut\" in the first step is right");
+}
+
+Tour surrounding(Tour tour)
+{
+    for (Step& step : tour.steps)
+        if (step.around) {
+            std::visit([&](auto& motion) { step.motion = std::move(motion); }, step.around->motion);
+            step.around.reset();
+        }
+    return tour;
 }
 
 Tour load_tour(const std::filesystem::path& file, const Words& words, const FindShot& find_shot)

@@ -74,6 +74,11 @@ struct Try {
     std::optional<double> max_gamma; ///< at most the exhibit's
 };
 
+/// A step's motion on displays that surround the visitor.
+struct Around {
+    std::variant<Coast, Cut, Glide> motion; ///< a cut or a glide
+};
+
 struct Step {
     double seconds; ///< of the visitor's time
     double ship_s_per_s
@@ -88,6 +93,7 @@ struct Step {
     std::optional<Effects> effects; ///< nullopt: as before
     std::optional<double> exposure_ev; ///< reached at once with a cut, else by the step's end; nullopt: as before
     std::optional<Question> question;
+    std::optional<Around> around; ///< instead of `motion`, by surrounding
 };
 
 /// A timeline: the tour shows, explains, lets the visitor try, and puts questions.
@@ -100,6 +106,9 @@ struct Tour {
 
 /// Finds the file of a named shot.
 using FindShot = std::function<std::filesystem::path(const std::string& name)>;
+
+/// The same tour on displays that surround the visitor (Layout::surrounds): nearer to what would be small there.
+Tour surrounding(Tour tour);
 
 /// Reads and checks a tour, its texts in the words' language. Throws InputError.
 Tour load_tour(const std::filesystem::path& file, const Words& words, const FindShot& find_shot);

@@ -179,7 +179,7 @@ Session::Session(const ExhibitOptions& given)
     , words(given.words)
     , content(given.visiting ? attraction_of(given, given.words, 0) : given.content)
     , rules(given.replay.empty() ? rules_in(given, given.rules, content) : given.rules)
-    , source(source_of(content, rules, !given.visiting, given.speech))
+    , source(source_of(content, rules, {!given.visiting, given.speech, given.layout.surrounds}))
     , tutorial(tutorial_at(flight()))
     , record_replay(record_replay_of(given, rules))
     , devices(given.profiles, given.layout.head_tracker, write_log)
@@ -196,13 +196,13 @@ Session::Session(const ExhibitOptions& given)
 {
 }
 
-std::unique_ptr<FlightSource> source_of(const SessionContent& content, const Flying& rules, bool visitors, bool read_aloud)
+std::unique_ptr<FlightSource> source_of(const SessionContent& content, const Flying& rules, const Staging& staging)
 {
-    if (!content.record.empty() && !visitors)
+    if (!content.record.empty() && !staging.visitors)
         return std::make_unique<ShownRecord>(content.record);
     const double unit_s = open_scene(content.scene).seconds_per_time_unit();
     if (content.tour)
-        return std::make_unique<TourPlayer>(*content.tour, rules, unit_s, visitors, read_aloud);
+        return std::make_unique<TourPlayer>(*content.tour, rules, unit_s, staging);
     return std::make_unique<HandFlight>(content.start, rules, unit_s);
 }
 

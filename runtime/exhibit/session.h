@@ -117,9 +117,8 @@ std::unique_ptr<Recorder> recorder_of(const ExhibitOptions& options, const Flyin
 /// The rules in the content's world, which has its globes' grounds, a boundary where nobody attends to the visitors, and a
 /// pace where the exhibit has one.
 Flying rules_in(const ExhibitOptions& options, Flying rules, const SessionContent& content);
-/// The source of the content's flight, at its beginning. visitors: false where nobody is there to fly, and to answer a
-/// tour's questions. read_aloud: a tour's steps last until their texts are read. Throws InputError.
-std::unique_ptr<FlightSource> source_of(const SessionContent& content, const Flying& rules, bool visitors, bool read_aloud);
+/// The source of the content's flight, at its beginning. Throws InputError.
+std::unique_ptr<FlightSource> source_of(const SessionContent& content, const Flying& rules, const Staging& staging);
 /// The options of an exhibit's device, with windows.
 Device::Options device_of(const ExhibitOptions& options);
 /// Logs the remarks on a newly loaded world and its spectral level.

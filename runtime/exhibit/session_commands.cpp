@@ -152,7 +152,7 @@ void begin_content(Session& session, SessionContent content, bool visitors)
 {
     Flying rules = rules_in(session.options, session.options.rules, content);
     rules.max_gamma = session.docent.max_gamma().value_or(rules.max_gamma);
-    session.source = source_of(content, rules, visitors, session.speaker != nullptr);
+    session.source = source_of(content, rules, {visitors, session.speaker != nullptr, session.layout.surrounds});
     session.content = std::move(content);
     session.rules = std::move(rules);
     session.attendance.count_by(counted_by(session.content));

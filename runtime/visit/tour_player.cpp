@@ -31,10 +31,17 @@ void TourPlayer::again()
     automatic_ = over_s_ = 0;
 }
 
+Tour TourPlayer::staged(Tour tour) const
+{
+    if (staging_.surrounds)
+        tour = surrounding(std::move(tour));
+    return staging_.read_aloud ? paced_to_be_read(std::move(tour)) : tour;
+}
+
 void TourPlayer::reword(Tour tour)
 {
     const double before_s = tour_.steps[touring_.step()].seconds;
-    tour_ = paced(std::move(tour));
+    tour_ = staged(std::move(tour));
     const double longer = tour_.steps[touring_.step()].seconds / before_s;
     touring_.into_ns = std::llround(longer * double(touring_.into_ns));
     touring_.answered_ns = std::llround(longer * double(touring_.answered_ns));

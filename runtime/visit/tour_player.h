@@ -13,15 +13,21 @@ namespace starbow {
 /// The text of a step before it is shown: its question, or its caption, with … where a number is still to be measured.
 std::string announced(const Step& step);
 
+/// How a tour is shown.
+struct Staging {
+    bool visitors = true; ///< false where nobody is there to fly and to answer
+    bool read_aloud = false; ///< its steps last until their texts are read
+    bool surrounds = false; ///< the display does, the visitor
+};
+
 /// A tour as the source of an exhibit's flight.
 class TourPlayer : public FlightSource {
 public:
-    /// seconds_per_time_unit: of the tour's scene. visitors: false where nobody is there to fly and to answer. read_aloud:
-    /// its steps last until their texts are read.
-    TourPlayer(Tour tour, const Flying& rules, double seconds_per_time_unit, bool visitors = true, bool read_aloud = false)
-        : read_aloud_(read_aloud)
-        , tour_(paced(std::move(tour)))
-        , show_{tour_, rules, seconds_per_time_unit, visitors}
+    /// seconds_per_time_unit: of the tour's scene.
+    TourPlayer(Tour tour, const Flying& rules, double seconds_per_time_unit, const Staging& staging = {})
+        : staging_(staging)
+        , tour_(staged(std::move(tour)))
+        , show_{tour_, rules, seconds_per_time_unit, staging.visitors}
         , touring_(touring_at(show_))
     {
     }
@@ -61,9 +67,9 @@ public:
     std::string prompt(const Words& words) const;
 
 private:
-    Tour paced(Tour tour) const { return read_aloud_ ? paced_to_be_read(std::move(tour)) : std::move(tour); }
+    Tour staged(Tour tour) const;
 
-    bool read_aloud_;
+    Staging staging_;
     Tour tour_;
     Show show_;
     Touring touring_;

@@ -181,6 +181,9 @@ TEST(TourFile, WrongToursAreRefusedByReaderAndSchema)
                 "/steps/1/measure/at: [0,0,0] is a place too many"},
             {with(R"("cut": "start", "thrust": { "rapidity_per_s": 1 })"), "/steps/1/thrust: "},
             {with(R"("glide": { "effects": {} })"), "/steps/1/glide/effects"},
+            {with(R"("around": {})"), "/steps/1/around: {} needs one motion; exactly one of"},
+            {with(R"("around": { "cut": "start", "glide": {} })"), "needs one motion"},
+            {with(R"("around": { "thrust": { "rapidity_per_s": 1 } })"), "/steps/1/around"},
             {with(R"("highlights": [{ "name": { "en": "x" }, "at": [0, 0, 0], "across": 1, "globe": "Earth" }])"),
                 "has a globe, whose place and size are known, and \"at\""},
             {with(R"("highlights": [{ "name": { "en": "x" }, "body": "train" }])"), "/steps/1/highlights/0: "},
@@ -196,6 +199,8 @@ TEST(TourFile, WrongToursAreRefusedByReaderAndSchema)
     for (const auto& [text, problem] :
         std::vector<std::pair<std::string, std::string>>{
             {R"({ "scene": "avenue", "steps": [{ "seconds": 1 }] })", "/steps/0: {\"seconds\":1} begins nowhere"},
+            {R"({ "scene": "avenue", "steps": [{ "seconds": 1, "cut": "start", "around": { "glide": {} } }] })",
+                "/steps/0/around: {\"glide\":{}} begins nowhere"},
             {R"({ "scene": "clocks", "steps": [{ "seconds": 1, "cut": "start" }] })",
                 "/steps/0/cut: \"start\" is a shot in the scene avenue"},
             {with(R"("caption": "tour.no.such")"), "is not a text in en.json"},

@@ -181,8 +181,7 @@ TEST(Highlights, EveryHighlightOfEveryTourIsAtItsThingAndInThePicture)
         long in = 0, all = 0;
     };
     std::map<std::tuple<std::filesystem::path, std::size_t, std::string>, InView> steps;
-    for (const auto& file : shipped("config/tours")) {
-        const Tour tour = tour_in(file.string(), words());
+    for (const auto& [file, tour, half_view_deg] : shown_tours()) {
         const SceneFile scene = open_scene(scene_of(tour));
         EXPECT_NO_THROW(check_highlights(tour, scene));
         const World world = bare_world(scene);

@@ -1,12 +1,16 @@
 #pragma once
 // What is seen during a tour, by formulas that share no code with the program's measures.
 #include "config/model/angles.h"
+#include "config/model/shipped.h"
 #include "runtime/flight/tour.h"
+#include "tests/support/files.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace starbow::testing {
 
@@ -19,6 +23,25 @@ inline constexpr double light_year_s = 365.25 * 86400;
 inline double unit_s_of(const std::filesystem::path& tour)
 {
     return tour.stem() == "voyage" ? light_year_s : tour.stem() == "street" ? 0.2 : 1;
+}
+
+/// A shipped tour as it is shown.
+struct ShownTour {
+    std::filesystem::path file;
+    Tour tour;
+    double half_view_deg; ///< from the middle of the view to its edge: of a desk's picture upwards, or of a dome all around
+};
+/// All tours on a desk, and those that have other places on a surrounding display there, too.
+inline std::vector<ShownTour> shown_tours()
+{
+    std::vector<ShownTour> all;
+    for (const std::filesystem::path& file : shipped("config/tours")) {
+        const Tour tour = tour_in(file.string(), words());
+        all.push_back({file, tour, 30});
+        if (std::ranges::any_of(tour.steps, [](const Step& step) { return step.around.has_value(); }))
+            all.push_back({file, surrounding(tour), 60});
+    }
+    return all;
 }
 
 /// The state while a caption is shown.
@@ -44,11 +67,12 @@ struct Frame {
         }
         return glm::normalize(glm::conjugate(cockpit) * n);
     }
-    /// True in a view of 4 to 3 with 60 degrees from top to bottom.
+    inline static double half_view_deg = 30; ///< ShownTour's
+    /// True in a view of 4 to 3.
     bool sees(const dvec3& place) const
     {
         const dvec3 n = seen(place);
-        const double half = std::tan(30 * degree);
+        const double half = std::tan(half_view_deg * degree);
         const bool in_view = n.z < 0 && std::abs(n.y / n.z) < half && std::abs(n.x / n.z) < half * 4 / 3;
         if (in_view && when_seen)
             when_seen(*this, place);

@@ -121,7 +121,8 @@ TEST(ReadAloud, AWaitingTourShowsTheSameFlight)
     for (const std::string& name : tours()) {
         const Tour silent = tour_in(name, words_in("en")), tour = paced_to_be_read(silent);
         const double unit_s = open_scene(scene_of(silent)).seconds_per_time_unit();
-        TourPlayer as_written(silent, {}, unit_s, false), read(silent, {}, unit_s, false, true);
+        TourPlayer as_written(silent, {}, unit_s, {.visitors = false}),
+            read(silent, {}, unit_s, {.visitors = false, .read_aloud = true});
         for (std::size_t i = 0; i < tour.steps.size(); ++i) {
             if (std::holds_alternative<Try>(tour.steps[i].motion) || tour.steps[i].question)
                 continue;
@@ -151,7 +152,7 @@ TEST(ReadAloud, AWaitingTourShowsTheSameFlight)
 TEST(ReadAloud, AnotherLanguageLeavesTheShipWhereItIs)
 {
     const Tour english = tour_in("first-minute", words_in("en")), german = tour_in("first-minute", words_in("de"));
-    TourPlayer player(english, {}, open_scene(scene_of(english)).seconds_per_time_unit(), true, true);
+    TourPlayer player(english, {}, open_scene(scene_of(english)).seconds_per_time_unit(), {.read_aloud = true});
     for (int frame = 0; frame < 1000 && player.step() < 1; ++frame)
         player.advance({}, 50'000'000);
     for (int frame = 0; frame < 60; ++frame)

@@ -42,10 +42,28 @@ TEST(TourPlayerTest, TheTourBeginsAnewForTheNextVisitor)
     EXPECT_EQ(guide.advance({}, 1).ship.u.total(), glm::dvec3(0));
 }
 
+// On a dome a step has its other place; it keeps its texts and its time, and the first step's cut counts as well.
+TEST(TourPlayerTest, ASurroundingDisplayHasItsOwnPlaces)
+{
+    const Tour tour = tour_of(R"({ "seconds": 1, "cut": { "position": [0, 0, 5], "look": [0, 0, -1] },
+            "around": { "cut": { "position": [0, 0, 2], "look": [0, 0, -1] } } },
+        { "seconds": 2, "ship_s_per_s": 0, "glide": { "position": [1, 0, 5] }, "around": { "glide": { "position": [0, 3, 2] } } },
+        { "seconds": 1, "ship_s_per_s": 0 })");
+    TourPlayer flat(tour, {}, 1), around(tour, {}, 1, {.surrounds = true});
+    EXPECT_EQ(flat.flight().ship.position.total(), glm::dvec3(0, 0, 5));
+    EXPECT_EQ(around.flight().ship.position.total(), glm::dvec3(0, 0, 2));
+    pass(flat, 3.5), pass(around, 3.5);
+    EXPECT_EQ(flat.step(), around.step());
+    EXPECT_EQ(flat.flight().ship.position.total(), glm::dvec3(1, 0, 5));
+    EXPECT_EQ(around.flight().ship.position.total(), glm::dvec3(0, 3, 2));
+    around.again();
+    EXPECT_EQ(around.flight().ship.position.total(), glm::dvec3(0, 0, 2));
+}
+
 TEST(TourPlayerTest, WithoutVisitorsNobodyFlies)
 {
     const Tour tour = tour_of(R"({ "seconds": 1, "cut": "start" }, { "seconds": 30, "try": {} }, { "seconds": 1 })");
-    TourPlayer attended(tour, {}, 1), alone(tour, {}, 1, false);
+    TourPlayer attended(tour, {}, 1), alone(tour, {}, 1, {.visitors = false});
     pass(attended, 3), pass(alone, 3);
     EXPECT_TRUE(attended.by_hand());
     EXPECT_TRUE(alone.over());

@@ -201,10 +201,9 @@ int measure(const FlashOptions& options, const Film& film, const Draw& draw)
 int measure_tour(const FlashOptions& options)
 {
     const Words words = words_in("en");
-    const Tour tour = tour_in(options.film, words);
-    const Film film{tour.file.stem().string(), scene_of(tour),
-        seen_layout(
-            load_layout(shipped_file("layouts", options.layout.empty() ? "desk" : options.layout)), pixel_deg * degree)};
+    const Layout layout = load_layout(shipped_file("layouts", options.layout.empty() ? "desk" : options.layout));
+    const Tour as_written = tour_in(options.film, words), tour = layout.surrounds ? surrounding(as_written) : as_written;
+    const Film film{tour.file.stem().string(), scene_of(tour), seen_layout(layout, pixel_deg * degree)};
     const SceneFile scene = open_scene(film.scene);
     check_highlights(tour, scene);
     const Show show{tour, {}, scene.seconds_per_time_unit(), false};

@@ -54,11 +54,11 @@ int render_tour(const TourOptions& options)
     if (options.film.movie.empty())
         throw InputError("--tour is given without --movie; the movie's file, such as out/tour.mp4, is right");
     const Words words = words_in(options.language);
-    const Tour tour = tour_in(options.tour, words);
+    const Layout layout = layout_in_size(options.layout, options.size);
+    const Tour as_written = tour_in(options.tour, words), tour = layout.surrounds ? surrounding(as_written) : as_written;
     const std::filesystem::path scene = scene_of(tour);
     const SceneFile opened = open_scene(scene);
     check_highlights(tour, opened);
-    const Layout layout = layout_in_size(options.layout, options.size);
     check_film(options.film, layout);
     const Show show{tour, {}, opened.seconds_per_time_unit(), false};
     TourFilm states(show, options.film.frames_per_s);
