@@ -2,7 +2,6 @@
 #include <algorithm>
 
 namespace starbow {
-
 namespace {
 
 struct SwitchedChoice {
@@ -13,12 +12,16 @@ constexpr SwitchedChoice switched_choices[]{{CommandKind::range, &Choices::range
     {CommandKind::sky_names, &Choices::sky_names}, {CommandKind::filter, &Choices::filter},
     {CommandKind::one_button, &Choices::one_button}, {CommandKind::left_handed, &Choices::left_handed}};
 
+/// The choice that a command switches; null: none.
+const SwitchedChoice* switched_by(CommandKind kind)
+{
+    const auto found = std::ranges::find(switched_choices, kind, &SwitchedChoice::kind);
+    return found == std::end(switched_choices) ? nullptr : found;
+}
+
 } // namespace
 
-bool switches_choice(CommandKind kind)
-{
-    return std::ranges::find(switched_choices, kind, &SwitchedChoice::kind) != std::end(switched_choices);
-}
+bool switches_choice(CommandKind kind) { return switched_by(kind) != nullptr; }
 
 bool apply(Choices& choices, const Command& command)
 {
@@ -35,10 +38,10 @@ bool apply(Choices& choices, const Command& command)
     default:
         break;
     }
-    if (!switches_choice(command.kind))
-        return false;
-    choices.*std::ranges::find(switched_choices, command.kind, &SwitchedChoice::kind)->member = command.on;
-    return true;
+    const SwitchedChoice* const switched = switched_by(command.kind);
+    if (switched)
+        choices.*switched->member = command.on;
+    return switched != nullptr;
 }
 
 void apply(Choices& choices, Switches pressed)

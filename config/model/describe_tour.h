@@ -133,7 +133,6 @@ static_assert(is_complete<Try>());
 
 /// Seconds of the ship's clock in each of the visitor's.
 constexpr Range ship_rate{0, 1e12};
-/// Two motions exclude each other.
 template <>
 inline constexpr auto description<Around> = with_rules(
     describe<Around>("around",
@@ -145,6 +144,7 @@ inline constexpr auto description<Around> = with_rules(
 static_assert(is_complete<Around>());
 void check_members(const Place& place, const Around*);
 
+/// Two motions exclude each other.
 constexpr const char* one_motion = R"({ "not": { "anyOf": [
     { "required": ["cut", "glide"] }, { "required": ["cut", "thrust"] }, { "required": ["cut", "turn"] },
     { "required": ["cut", "try"] }, { "required": ["glide", "thrust"] }, { "required": ["glide", "turn"] },

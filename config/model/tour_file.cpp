@@ -178,13 +178,11 @@ void check(const Place& place, Tour& tour, const Folder&)
         fail_at(steps[0], "begins nowhere; a \"cut\" in the first step is right");
 }
 
-Tour surrounding(Tour tour)
+Tour seen_on(Tour tour, bool surrounds)
 {
     for (Step& step : tour.steps)
-        if (step.around) {
+        if (surrounds && step.around)
             std::visit([&](auto& motion) { step.motion = std::move(motion); }, step.around->motion);
-            step.around.reset();
-        }
     return tour;
 }
 

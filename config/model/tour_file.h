@@ -93,7 +93,7 @@ struct Step {
     std::optional<Effects> effects; ///< nullopt: as before
     std::optional<double> exposure_ev; ///< reached at once with a cut, else by the step's end; nullopt: as before
     std::optional<Question> question;
-    std::optional<Around> around; ///< instead of `motion`, by surrounding
+    std::optional<Around> around; ///< instead of `motion`, by seen_on
 };
 
 /// A timeline: the tour shows, explains, lets the visitor try, and puts questions.
@@ -107,8 +107,9 @@ struct Tour {
 /// Finds the file of a named shot.
 using FindShot = std::function<std::filesystem::path(const std::string& name)>;
 
-/// The same tour on displays that surround the visitor (Layout::surrounds): nearer to what would be small there.
-Tour surrounding(Tour tour);
+/// The same tour on a display that surrounds the visitor (Layout::surrounds), nearer to what would be small there, or on
+/// another.
+Tour seen_on(Tour tour, bool surrounds);
 
 /// Reads and checks a tour, its texts in the words' language. Throws InputError.
 Tour load_tour(const std::filesystem::path& file, const Words& words, const FindShot& find_shot);

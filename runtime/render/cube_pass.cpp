@@ -112,7 +112,7 @@ SurfaceVariant CubePass::variant_of(const Draw& draw, StoredLight light) const
 {
     const Primitive& primitive = world_.world.primitives[draw.primitive];
     SurfaceVariant variant = world_.variant(primitive.material, light);
-    variant.topology = primitive.topology, variant.coloured = primitive.coloured;
+    variant.topology = primitive.topology;
     const bool plain = light == StoredLight::plain;
     variant.finite_existence = draw.finite_existence && !plain;
     variant.several_rest_frames = use_.several_rest_frames;

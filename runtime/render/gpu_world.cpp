@@ -228,6 +228,8 @@ void put_materials(Device& device, Pipelines& pipelines, GpuWorld& gpu, const Wo
         const auto [known, fresh] = sets.try_emplace(
             {material.base_texture, material.emissive_texture, material.mapped() ? int(i) : -1}, gpu.material_sets.size());
         gpu.set_of_material.push_back(known->second);
+        gpu.needs_of_set.resize(gpu.material_sets.size() + std::size_t(fresh));
+        gpu.needs_of_set[known->second].light |= material.emissive != glm::vec3(0);
         if (!fresh)
             continue;
         const vk::raii::DescriptorSet& set = gpu.material_sets.emplace_back(
@@ -239,6 +241,8 @@ void put_materials(Device& device, Pipelines& pipelines, GpuWorld& gpu, const Wo
         writes.emplace_back(*set, pictures, 0, vk::DescriptorType::eUniformBuffer, nullptr, surface);
         device.device.updateDescriptorSets(writes, {});
     }
+    for (const Primitive& primitive : world.primitives)
+        gpu.needs_of_set[gpu.set_of_material[std::size_t(primitive.material)]].colours |= primitive.coloured;
 }
 
 /// Sixteen bits where the device reads them, else floats.
@@ -303,7 +307,8 @@ SurfaceVariant GpuWorld::variant(int material, StoredLight light) const
     const Material& m = world.materials[material];
     SurfaceVariant variant;
     variant.base_texture = m.base_texture >= 0, variant.emissive_texture = m.emissive_texture >= 0;
-    variant.emits = m.emissive != glm::vec3(0);
+    const Needs& needs = needs_of_set[set_of_material[std::size_t(material)]];
+    variant.emits = needs.light, variant.coloured = needs.colours;
     variant.masked = m.alpha_cutoff > 0;
     variant.unlit = m.unlit, variant.lights = m.unlit ? 0 : int(world.lamps.size());
     variant.point_lamps = m.unlit ? 0 : point_lamps;

@@ -47,6 +47,11 @@ struct GpuWorld {
     vk::raii::DescriptorPool pool = nullptr;
     std::vector<vk::raii::DescriptorSet> material_sets; ///< materials with the same pictures share one
     std::vector<std::size_t> set_of_material; ///< index of `material_sets`; last the sky's, which is like a material
+    /// What some surface of a set needs is in the variant of all: one draw for all is cheaper than a shader for each.
+    struct Needs {
+        bool light = false, colours = false; ///< of its own; of the corners
+    };
+    std::vector<Needs> needs_of_set;
 
     int shadows = 0; ///< SurfaceVariant::shadows of still surfaces
     int point_lamps = 0; ///< SurfaceVariant's, of surfaces that lamps illuminate

@@ -234,8 +234,14 @@ static glm::dmat3 moved(const glm::dmat3& panel_from_cockpit, const glm::dvec2& 
 
 PanelPass::Place ViewSet::place_over_middle(const glm::dvec2& half) const
 {
-    const HudPlacement there{.azimuth_deg = hud_.azimuth_deg, .elevation_deg = 3};
-    return {moved(panel_from_cockpit(there, compiled_views()), {0, half.y}), half};
+    PanelPass::Place place;
+    for (const double elevation_deg : {12.0, 9.0, 6.0, 3.0}) { // a ring around what a tour speaks of lies below 9 at most
+        const HudPlacement there{.azimuth_deg = hud_.azimuth_deg, .elevation_deg = elevation_deg};
+        place = {moved(panel_from_cockpit(there, compiled_views()), {0, half.y}), half};
+        if (shows_whole(place))
+            break;
+    }
+    return place;
 }
 
 PanelPass::Place ViewSet::place_at(const glm::dvec3& towards, const glm::dvec2& half) const

@@ -79,8 +79,8 @@ public:
     /// The place of the instruments' panel, and the width in pixels that makes it sharp. aspect: height over width.
     PanelPass::Place lab_place(double aspect) const;
     int lab_panel_width(double aspect) const;
-    /// The place of a panel right above the middle of the picture, straight above the head-up display: where that is seen
-    /// whole, so is a panel there that is no wider. half: its extent.
+    /// The place of a panel straight above the head-up display, from 3 to 12 degrees above the middle of the picture, as high
+    /// as it is seen whole. half: its extent.
     PanelPass::Place place_over_middle(const glm::dvec2& half) const;
     /// The place of a panel whose middle is in a direction of the cockpit.
     PanelPass::Place place_at(const glm::dvec3& towards, const glm::dvec2& half) const;

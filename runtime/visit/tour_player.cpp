@@ -33,8 +33,7 @@ void TourPlayer::again()
 
 Tour TourPlayer::staged(Tour tour) const
 {
-    if (staging_.surrounds)
-        tour = surrounding(std::move(tour));
+    tour = seen_on(std::move(tour), staging_.surrounds);
     return staging_.read_aloud ? paced_to_be_read(std::move(tour)) : tour;
 }
 

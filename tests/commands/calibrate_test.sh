@@ -34,7 +34,7 @@ play() { # STATUS SCRIPT ARGUMENTS...: runs the program with a script, and puts 
     local expected=$1 script=$2 file=$folder/script$BASHPID status
     shift 2
     printf '%s\n' "$script" > "$file"
-    said=$(timeout 60 umockdev-wrapper "$rig/fake_sticks" "$hid" "$file" "$starbow" "$@" 2>&1)
+    said=$(timeout 600 umockdev-wrapper "$rig/fake_sticks" "$hid" "$file" "$starbow" "$@" 2>&1)
     status=$?
     [ $status = "$expected" ] || fail "$*: exit $status, not $expected: $said"
 }

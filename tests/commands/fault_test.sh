@@ -73,7 +73,7 @@ ok
 
 # A level of quality that has no room is left at once for one that has it, and is not tried again. The machine's speed decides
 # which level is tried first: the highest, or one that a slow frame allows.
-STARBOW_LARGEST_KIB=40000 timeout 60 "$program" run --layout desk --scene warm-wall --frame-budget-ms 1000 --frames 60 >"$folder/log" 2>&1 \
+STARBOW_LARGEST_KIB=40000 timeout 600 "$program" run --layout desk --scene warm-wall --frame-budget-ms 1000 --frames 60 >"$folder/log" 2>&1 \
     || fail "a level without room: exit $?"
 refused=$(grep -o 'quality: level [0-9]* of 16 has no room' "$folder/log")
 [ -n "$refused" ] || fail "a level without room: no line says so"
@@ -84,11 +84,11 @@ ok
 
 # A use of memory beyond the driver's budget, which no call refuses: the governor leaves levels until one fits, and with a fixed
 # quality one line says so.
-STARBOW_BUDGET_KIB=60000 timeout 100 "$program" run --layout desk --scene warm-wall --frame-budget-ms 1000 --frames 700 >"$folder/log" 2>&1 \
+STARBOW_BUDGET_KIB=60000 timeout 600 "$program" run --layout desk --scene warm-wall --frame-budget-ms 1000 --frames 700 >"$folder/log" 2>&1 \
     || fail "beyond the budget: exit $?"
 grep -q 'quality: level [0-9]* of 16 has no room on the GPU (.* of the GPU.s memory are used' "$folder/log" || fail "beyond the budget: no level is left"
 grep -q 'pictures may come slowly' "$folder/log" && fail "beyond the budget: no level was small enough"
-STARBOW_BUDGET_KIB=20000 timeout 60 "$program" run --layout desk --scene warm-wall --quality balanced --frames 300 >"$folder/log" 2>&1 \
+STARBOW_BUDGET_KIB=20000 timeout 600 "$program" run --layout desk --scene warm-wall --quality balanced --frames 300 >"$folder/log" 2>&1 \
     || fail "far beyond the budget: exit $?"
 [ "$(grep -c 'quality: .* of the GPU.s memory are used, and its driver gives this program 20 MiB now: pictures may' "$folder/log")" = 1 ] \
     || fail "far beyond the budget: not one line"
@@ -96,7 +96,7 @@ STARBOW_BUDGET_KIB=20000 "$program" doctor 2>/dev/null | grep -q 'of which this 
 ok
 
 # Shadows without room are left out, and the world is shown.
-STARBOW_LARGEST_KIB=60000 timeout 100 "$program" run --layout desk --scene gamow --frame-budget-ms 1000 --frames 20 >"$folder/log" 2>&1 \
+STARBOW_LARGEST_KIB=60000 timeout 600 "$program" run --layout desk --scene gamow --frame-budget-ms 1000 --frames 20 >"$folder/log" 2>&1 \
     || fail "shadows without room: exit $?"
 grep -q 'its shadows have no room on the GPU: it is drawn without them' "$folder/log" || fail "shadows without room: no line says so"
 ok
@@ -113,7 +113,7 @@ ok
 # grow NAME WxH FAULTS [WARM-UP]: flies in a window that grows, for a moment. A warm-up at rest would meet the faults first.
 grow() {
     rm -f "$folder/flight.jsonl"
-    STARBOW_FAULTS=$3 timeout 60 "$program" run --layout "$folder/sizes.json" --warm-up "${4:-never}" --record "$folder/flight.jsonl" >"$folder/log" 2>&1 &
+    STARBOW_FAULTS=$3 timeout 600 "$program" run --layout "$folder/sizes.json" --warm-up "${4:-never}" --record "$folder/flight.jsonl" >"$folder/log" 2>&1 &
     exhibit=$!
     "$rig/wait_flown.py" "$folder/flight.jsonl" 0.3 || fail "$1: no flight"
     xdotool windowsize "$(xdotool search --name '^Starbow a' | head -n 1)" ${2/x/ }
@@ -169,7 +169,7 @@ cat >"$folder/over.json" <<'END'
 ] } ] }
 END
 for flight in "--shot avenue-gamma4" "--shot gamma100" "--shot twins-meeting" "--layout $folder/over.json"; do
-    LD_PRELOAD=$tools/libstarbow_early_free.so timeout 180 "$program" run $flight --frames 12 >"$folder/log" 2>&1 ||
+    LD_PRELOAD=$tools/libstarbow_early_free.so timeout 600 "$program" run $flight --frames 12 >"$folder/log" 2>&1 ||
         fail "early frees, $flight: exit $?"
     grep -Eq '^early frees: 0 in [0-9]{4,} unlocks' "$folder/log" || fail "$flight: $(grep '^early frees' "$folder/log")"
     ok
@@ -194,7 +194,7 @@ ok
 
 # The X server ends: so does the program, in order, with a status of its own, and without a crash's trace. The service manager
 # starts both anew.
-STATE_DIRECTORY=$folder/state timeout 60 "$program" run --layout "$folder/two.json" --record "$folder/end.jsonl" --trace "$folder/end.json" \
+STATE_DIRECTORY=$folder/state timeout 600 "$program" run --layout "$folder/two.json" --record "$folder/end.jsonl" --trace "$folder/end.json" \
     >"$folder/log" 2>&1 &
 exhibit=$!
 "$rig/wait_flown.py" "$folder/end.jsonl" 0.3 || fail "the X server ends: no flight"

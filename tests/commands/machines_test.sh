@@ -267,7 +267,7 @@ until_true 60 lit 0 || fail "left: no picture"
 mkdir "$folder/other"
 sed 's/"yaw": -30/"yaw": -31/' "$folder/walls.json" >"$folder/other/walls.json"
 cp "$folder/exhibit.json" "$folder/other/"
-said=$(timeout 60 "$program" run --exhibit "$folder/other/exhibit.json" --node right --quality fine 2>&1)
+said=$(timeout 600 "$program" run --exhibit "$folder/other/exhibit.json" --node right --quality fine 2>&1)
 [ $? = 2 ] || fail "a node with another layout is not refused: $said"
 [[ $said == *"node 'right' has a different walls.json ("*") from the master 'left' ("*"); the same file on both is right"* ]] || fail "'$said' does not name the file"
 ok
@@ -276,12 +276,12 @@ ok
 refused() { # TEXT OPTIONS...
     local text=$1 said
     shift
-    said=$(timeout 60 "$program" run "$@" 2>&1)
+    said=$(timeout 600 "$program" run "$@" 2>&1)
     [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]] || fail "'$text' is not the message: $said"
     ok
 }
 sed 's/"interface": "lo"/"interface": "10.0.0.0\/99"/' "$folder/exhibit.json" >"$folder/no-network.json"
-said=$(timeout 60 "$program" check "$folder/no-network.json" --svg "$folder/none.svg" 2>&1)
+said=$(timeout 600 "$program" check "$folder/no-network.json" --svg "$folder/none.svg" 2>&1)
 [ $? = 2 ] && [[ $said == *'interface "10.0.0.0/99" is not a network; one such as "192.168.7.0/24" is right'* ]] && [ ! -e "$folder/none.svg" ] || fail "check of what is not a network: $said"
 ok
 # check reads an exhibit, and says who shows what on which network.
@@ -296,7 +296,7 @@ refused '"machines" in its file is right' --exhibit desk --node left
 sed 's/"interface": "lo"/"interface": "none0"/' "$folder/exhibit.json" >"$folder/none.json"
 sed 's/"master": "left"/"master": "up"/' "$folder/exhibit.json" >"$folder/up.json"
 refused 'is not a node of the layout walls; one of these is right: left, middle, right' --exhibit "$folder/up.json" --node right
-said=$(timeout 60 "$program" check "$folder/up.json" 2>&1)
+said=$(timeout 600 "$program" check "$folder/up.json" 2>&1)
 [ $? = 2 ] && [[ $said == *'is not a node of the layout walls'* ]] || fail "check of a wrong master: $said"
 "$program" check "$folder/none.json" --svg "$folder/plan.svg" | grep -q 'note: interface "none0" is none of this machine' || fail "check at a desk"
 ok

@@ -115,7 +115,7 @@ ok
 ip addr del 192.168.77.20/24 dev show0
 refused() { # TEXT
     local said
-    said=$(timeout 60 "$program" run --exhibit "$folder/wrong.json" --node front 2>&1)
+    said=$(timeout 600 "$program" run --exhibit "$folder/wrong.json" --node front 2>&1)
     [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$1"* ]] || fail "'$1' is not the message: $said"
 }
 sed 's/"pins": "pins"/"pins": "none"/' "$folder/exhibit.json" >"$folder/wrong.json"

@@ -16,7 +16,7 @@ END
 fly() {
     local frames=$1
     shift
-    timeout 60 "$program" run --layout "$folder/small.json" --scene chart --frames "$frames" "$@"
+    timeout 600 "$program" run --layout "$folder/small.json" --scene chart --frames "$frames" "$@"
 }
 frames() { grep -c '"dt_ns"' "$1"; }
 
@@ -26,7 +26,7 @@ none() { # WHAT ARGUMENTS...
     local what=$1 said used status
     shift
     TIMEFORMAT='%U %S'
-    used=$({ time timeout 60 "$program" "$@" 2>"$folder/said" >/dev/null; } 2>&1; exit $?)
+    used=$({ time timeout 600 "$program" "$@" 2>"$folder/said" >/dev/null; } 2>&1; exit $?)
     status=$?
     said=$(<"$folder/said")
     [ $status = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$what"*" is right"* || $said == *"$what"*"should be"* ]] || fail "$*: $said"
@@ -86,10 +86,10 @@ mount -t tmpfs -o size=64k none "$folder/disk"
 mkdir "$folder/disk/cache" "$folder/disk/state"
 dd if=/dev/zero of="$folder/disk/rest" bs=4096 2>/dev/null
 export STARBOW_CACHE=$folder/disk/cache STATE_DIRECTORY=$folder/disk/state NOTIFY_SOCKET=$folder/manager
-timeout 60 "$program" run --layout "$folder/small.json" --scene chart --frames 30 --log "$folder/disk/a.csv" --log-every 0.02 --record "$folder/disk/a.jsonl" 2>"$folder/disk-log"
+timeout 600 "$program" run --layout "$folder/small.json" --scene chart --frames 30 --log "$folder/disk/a.csv" --log-every 0.02 --record "$folder/disk/a.jsonl" 2>"$folder/disk-log"
 echo "full $?"
 mount -o remount,ro "$folder/disk"
-HOME=$folder/disk timeout 60 "$program" run --layout "$folder/small.json" --scene chart --frames 10 2>"$folder/read-only-log"
+HOME=$folder/disk timeout 600 "$program" run --layout "$folder/small.json" --scene chart --frames 10 2>"$folder/read-only-log"
 echo "read-only $?"
 umount "$folder/disk"
 END

@@ -35,7 +35,7 @@ lateness() {
 
 # play SCRIPT_NAME: runs the program with a script; the log has each line with its time.
 play() {
-    timeout 120 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/$1" \
+    timeout 600 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/$1" \
         "$program" run --exhibit "$folder/exhibit.json" --record "$folder/record" 2>&1 </dev/null \
         | while IFS= read -r line; do echo "$EPOCHREALTIME $line"; done >"$folder/log"
 }
@@ -163,7 +163,7 @@ run for i in \$(seq 200); do [ \$(ls $folder/visits | wc -l) = 2 ] && break; sle
 run $here/rig/wait_flown.py \$(ls $folder/visits/* | tail -n 1) 1
 interrupt
 END
-timeout 240 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/left" \
+timeout 600 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/left" \
     "$program" run --exhibit "$folder/visited.json" --record "$folder/visits" >"$folder/left-log" 2>&1 </dev/null
 turned() { grep -c '"turn"' "$1"; }
 first=$(ls "$folder/visits"/* | head -n 1) second=$(ls "$folder/visits"/* | tail -n 1)

@@ -39,7 +39,7 @@ inline std::vector<ShownTour> shown_tours()
         const Tour tour = tour_in(file.string(), words());
         all.push_back({file, tour, 30});
         if (std::ranges::any_of(tour.steps, [](const Step& step) { return step.around.has_value(); }))
-            all.push_back({file, surrounding(tour), 60});
+            all.push_back({file, seen_on(tour, true), 60});
     }
     return all;
 }

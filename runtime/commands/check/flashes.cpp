@@ -202,7 +202,7 @@ int measure_tour(const FlashOptions& options)
 {
     const Words words = words_in("en");
     const Layout layout = load_layout(shipped_file("layouts", options.layout.empty() ? "desk" : options.layout));
-    const Tour as_written = tour_in(options.film, words), tour = layout.surrounds ? surrounding(as_written) : as_written;
+    const Tour tour = seen_on(tour_in(options.film, words), layout.surrounds);
     const Film film{tour.file.stem().string(), scene_of(tour), seen_layout(layout, pixel_deg * degree)};
     const SceneFile scene = open_scene(film.scene);
     check_highlights(tour, scene);

@@ -55,7 +55,7 @@ int render_tour(const TourOptions& options)
         throw InputError("--tour is given without --movie; the movie's file, such as out/tour.mp4, is right");
     const Words words = words_in(options.language);
     const Layout layout = layout_in_size(options.layout, options.size);
-    const Tour as_written = tour_in(options.tour, words), tour = layout.surrounds ? surrounding(as_written) : as_written;
+    const Tour tour = seen_on(tour_in(options.tour, words), layout.surrounds);
     const std::filesystem::path scene = scene_of(tour);
     const SceneFile opened = open_scene(scene);
     check_highlights(tour, opened);
