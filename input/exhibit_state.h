@@ -37,7 +37,7 @@ struct ExhibitState : Choices {
     Doing doing = Doing::waits;
     int step = 0, steps = 0; ///< of the running tour, the first one 1; 0: none runs
     double left_s = 0; ///< of the step
-    /// Of the tour's next step, whole: languages and texts; empty: none.
+    /// The whole caption of the tour's next step, in each language: its name and the text; empty where there is none.
     std::vector<std::pair<std::string, std::string>> next_caption;
     int item = 0, items = 0; ///< of the programme, begun last, the first one 1; 0: none yet, and no programme
     double item_s = 0; ///< since the item began

@@ -321,7 +321,8 @@ void main()
                 lit_normal += off.x * dFdx(normal) + off.y * dFdy(normal);
             }
         }
-        float unit = inversesqrt(dot(lit_normal, lit_normal));
+        float squares = fma(lit_normal.x, lit_normal.x, 1e-37); // a normal of length 0, of a flattened thing, stays 0
+        float unit = inversesqrt(fma(lit_normal.z, lit_normal.z, fma(lit_normal.y, lit_normal.y, squares)));
         vec3 n = lit_normal * (gl_FrontFacing ? unit : -unit);
         float daylight = SHADOWS == 0 ? 1.0 : ambient_part(lit_place, n);
         vec3 above = uintBitsToFloat(draw.z) * n; // to a place that is on the lit side of the full surface, or on it

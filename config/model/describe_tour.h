@@ -133,6 +133,7 @@ static_assert(is_complete<Try>());
 
 /// Seconds of the ship's clock in each of the visitor's.
 constexpr Range ship_rate{0, 1e12};
+
 template <>
 inline constexpr auto description<Around> = with_rules(
     describe<Around>("around",

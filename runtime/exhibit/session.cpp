@@ -85,9 +85,10 @@ void describe(const Session& session, ExhibitState& out)
     out.step = runs ? int(tour->step()) + 1 : 0, out.steps = runs ? int(tour->steps().size()) : 0;
     out.left_s = runs ? tour->left_s() : 0;
     out.next_caption.clear();
-    for (const auto& [language, texts] : content.announcements)
-        if (runs && tour->step() + 1 < texts.size() && !texts[tour->step() + 1].empty())
-            out.next_caption.emplace_back(language, texts[tour->step() + 1]);
+    const std::size_t next = runs ? tour->step() + 1 : 0;
+    for (const auto& [language, texts] : session.announcements)
+        if (runs && next < texts.size() && !texts[next].empty())
+            out.next_caption.emplace_back(language, texts[next]);
     out.item = session.item, out.items = session.options.programme ? int(session.options.programme->items.size()) : 0;
     out.item_s = session.item > 0 ? seconds(Session::Clock::now() - session.item_began) : 0;
     out.calm = session.options.exposure.calm;
@@ -172,12 +173,18 @@ std::unique_ptr<Recorder> recorder_of(const ExhibitOptions& options, const Flyin
         write_log);
 }
 
+std::vector<Announcements> announced_on(const ExhibitOptions& options, const SessionContent& content)
+{
+    return announcements_of(options.remote.port > 0 ? content.tour_name : "");
+}
+
 Session::Session(const ExhibitOptions& given)
     : options(given)
     , attendance(given.visiting.value_or(counted_by(given.content)), given.visiting.has_value())
     , choices(first_choices(given))
     , words(given.words)
     , content(given.visiting ? attraction_of(given, given.words, 0) : given.content)
+    , announcements(announced_on(given, content))
     , rules(given.replay.empty() ? rules_in(given, given.rules, content) : given.rules)
     , source(source_of(content, rules, {!given.visiting, given.speech, given.layout.surrounds}))
     , tutorial(tutorial_at(flight()))

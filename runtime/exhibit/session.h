@@ -49,6 +49,7 @@ struct Session {
     std::string coming{}; ///< the name of a world that is being read; empty: none
 
     SessionContent content; ///< the shown one
+    std::vector<Announcements> announcements; ///< of the content's tour, where a remote shows them
     int item = 0; ///< of the programme, begun last, the first one 1; 0: none yet
     Clock::time_point item_began{}; ///< by the guide's clock: frames that come late do not stop it
     Flying rules; ///< of the visitors' flight in it
@@ -117,6 +118,8 @@ std::unique_ptr<Recorder> recorder_of(const ExhibitOptions& options, const Flyin
 /// The rules in the content's world, which has its globes' grounds, a boundary where nobody attends to the visitors, and a
 /// pace where the exhibit has one.
 Flying rules_in(const ExhibitOptions& options, Flying rules, const SessionContent& content);
+/// The announcements of the content's tour where the exhibit has a remote, which alone shows them; otherwise none.
+std::vector<Announcements> announced_on(const ExhibitOptions& options, const SessionContent& content);
 /// The source of the content's flight, at its beginning. Throws InputError.
 std::unique_ptr<FlightSource> source_of(const SessionContent& content, const Flying& rules, const Staging& staging);
 /// The options of an exhibit's device, with windows.

@@ -154,6 +154,7 @@ void begin_content(Session& session, SessionContent content, bool visitors)
     rules.max_gamma = session.docent.max_gamma().value_or(rules.max_gamma);
     session.source = source_of(content, rules, {visitors, session.speaker != nullptr, session.layout.surrounds});
     session.content = std::move(content);
+    session.announcements = announced_on(session.options, session.content);
     session.rules = std::move(rules);
     session.attendance.count_by(counted_by(session.content));
     session.tutorial = tutorial_at(session.flight());

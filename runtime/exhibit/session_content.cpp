@@ -32,29 +32,28 @@ SessionContent content_of_record(const std::filesystem::path& record)
         .record = record};
 }
 
-/// A language that a site's own words or the tour's own texts lack is left out: the remote's page then takes another.
-static std::vector<std::pair<std::string, std::vector<std::string>>> announcements_of(const std::string& tour)
-{
-    std::vector<std::pair<std::string, std::vector<std::string>>> all;
-    for (const std::string& language : shipped_names("words"))
-        try {
-            std::vector<std::string> texts;
-            for (const Step& step : tour_in(tour, words_in(language)).steps)
-                texts.push_back(announced(step));
-            all.emplace_back(language, std::move(texts));
-        } catch (const InputError&) {
-        }
-    return all;
-}
-
 SessionContent content_of_tour(const std::string& name, const Words& words)
 {
     Tour tour = tour_in(name, words);
     const std::filesystem::path scene = scene_of(tour);
     check_highlights(tour, open_scene(scene));
     const Shot start = std::get<Cut>(tour.steps[0].motion).shot;
-    return {
-        .scene = scene, .start = start, .tour_name = name, .tour = std::move(tour), .announcements = announcements_of(name)};
+    return {.scene = scene, .start = start, .tour_name = name, .tour = std::move(tour)};
+}
+
+std::vector<Announcements> announcements_of(const std::string& tour)
+{
+    std::vector<Announcements> all;
+    for (const std::string& language : tour.empty() ? std::vector<std::string>() : shipped_names("words"))
+        try {
+            Announcements one{language, {}};
+            for (const Step& step : tour_in(tour, words_in(language)).steps)
+                one.texts.push_back(announced(step));
+            all.push_back(std::move(one));
+        } catch (const InputError&) {
+            // A site's own words, or the tour's own texts, lack it: the remote's page takes another language.
+        }
+    return all;
 }
 
 } // namespace starbow

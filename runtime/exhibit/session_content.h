@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace starbow {
@@ -17,10 +16,17 @@ struct SessionContent {
     std::string shot{}; ///< name or path of the start's shot; empty: the scene's own start, or the tour's
     std::string tour_name{}; ///< name or path; empty: no tour
     std::optional<Tour> tour{};
-    /// The tour's texts before they are shown, of each step, by language.
-    std::vector<std::pair<std::string, std::vector<std::string>>> announcements{};
     std::filesystem::path record{}; ///< a flight that is shown as it was flown; empty: none
 };
+
+/// The captions and questions of a tour's steps in one language, before they are shown.
+struct Announcements {
+    std::string language; ///< its name
+    std::vector<std::string> texts; ///< one for each step
+};
+
+/// Those of a tour, by name or path, in all languages that have its texts; none for an empty name.
+std::vector<Announcements> announcements_of(const std::string& tour);
 
 /// Each reads and checks the files of the content, by the name of a shipped one or a path. Throws InputError.
 SessionContent content_of_scene(const std::string& scene);

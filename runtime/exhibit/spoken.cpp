@@ -12,16 +12,9 @@ std::string moment_of(const Session& session, const TourPlayer& tour)
 
 std::string text_of_tour(const Session& session, const TourPlayer& tour)
 {
-    std::vector<std::string> texts;
-    if (!tour.answered()) // the moment begins with the step
-        texts = {tour.title(), tour.description()};
-    if (const auto caption = tour.caption(session.words, session.devices.hid().capabilities())) {
-        texts.push_back(caption->text);
-        const auto& question = tour.steps()[tour.step()].question;
-        if (question && !tour.answered() && std::holds_alternative<std::vector<Choice>>(question->answer))
-            texts.insert(texts.end(), caption->choices.begin(), caption->choices.end());
-    }
-    return sentences(texts);
+    const auto caption = tour.caption(session.words, session.devices.hid().capabilities());
+    const std::string text = caption ? caption->text : "";
+    return tour.answered() ? sentences({text}) : text_to_read(tour.steps()[tour.step()], text);
 }
 
 } // namespace

@@ -73,7 +73,7 @@ std::vector<std::uint8_t> smaller(const std::vector<std::uint8_t>& rgba)
     return small;
 }
 
-/// Of size 0 where the file is not there or can't be read.
+/// The picture in a file; its size is 0 where the file is not there or can't be read.
 SmallPicture picture_in(const fs::path& file)
 {
     try {

@@ -195,6 +195,14 @@ void put_surfaces(Device& device, GpuWorld& gpu, const World& world)
     name_object(device, gpu.surfaces, "world: surfaces");
 }
 
+/// True for a surface that has a corner of another colour than white.
+bool has_colours(const World& world, const Primitive& primitive)
+{
+    constexpr std::uint32_t white = 0xffffffff;
+    return std::ranges::any_of(std::span(world.indices).subspan(primitive.first_index, primitive.index_count),
+        [&](std::uint32_t corner) { return world.vertices[corner + std::size_t(primitive.vertex_offset)].colour != white; });
+}
+
 /// The descriptors of all materials, and of the sky. A set holds pictures, and the material's maps where it has any.
 void put_materials(Device& device, Pipelines& pipelines, GpuWorld& gpu, const World& world)
 {
@@ -241,8 +249,10 @@ void put_materials(Device& device, Pipelines& pipelines, GpuWorld& gpu, const Wo
         writes.emplace_back(*set, pictures, 0, vk::DescriptorType::eUniformBuffer, nullptr, surface);
         device.device.updateDescriptorSets(writes, {});
     }
-    for (const Primitive& primitive : world.primitives)
-        gpu.needs_of_set[gpu.set_of_material[std::size_t(primitive.material)]].colours |= primitive.coloured;
+    for (const Primitive& primitive : world.primitives) {
+        bool& colours = gpu.needs_of_set[gpu.set_of_material[std::size_t(primitive.material)]].colours;
+        colours = colours || has_colours(world, primitive);
+    }
 }
 
 /// Sixteen bits where the device reads them, else floats.

@@ -47,9 +47,9 @@ struct GpuWorld {
     vk::raii::DescriptorPool pool = nullptr;
     std::vector<vk::raii::DescriptorSet> material_sets; ///< materials with the same pictures share one
     std::vector<std::size_t> set_of_material; ///< index of `material_sets`; last the sky's, which is like a material
-    /// What some surface of a set needs is in the variant of all: one draw for all is cheaper than a shader for each.
+    /// The surfaces of a set have one variant, which does what any of them needs: a draw for each variant would cost more.
     struct Needs {
-        bool light = false, colours = false; ///< of its own; of the corners
+        bool light = false, colours = false; ///< some emit light; some have colours at their corners
     };
     std::vector<Needs> needs_of_set;
 

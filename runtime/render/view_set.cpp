@@ -234,11 +234,13 @@ static glm::dmat3 moved(const glm::dmat3& panel_from_cockpit, const glm::dvec2& 
 
 PanelPass::Place ViewSet::place_over_middle(const glm::dvec2& half) const
 {
+    const std::vector<std::vector<CompiledView>> views = compiled_views();
     PanelPass::Place place;
-    for (const double elevation_deg : {12.0, 9.0, 6.0, 3.0}) { // a ring around what a tour speaks of lies below 9 at most
+    // Most rings around the subjects of tours, with their names, reach up to less than 12 degrees.
+    for (const double elevation_deg : {12.0, 9.0, 6.0, 3.0}) {
         const HudPlacement there{.azimuth_deg = hud_.azimuth_deg, .elevation_deg = elevation_deg};
-        place = {moved(panel_from_cockpit(there, compiled_views()), {0, half.y}), half};
-        if (shows_whole(place))
+        place = {moved(panel_from_cockpit(there, views), {0, half.y}), half};
+        if (is_seen_whole(place.panel_from_cockpit, place.half, views))
             break;
     }
     return place;

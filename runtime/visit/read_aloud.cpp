@@ -6,10 +6,10 @@
 namespace starbow {
 namespace {
 
-/// Measured with espeak-ng 1.51 on all shipped tours; the program's start is in the first.
-/// As long as a measured number is when it is shown.
-const std::string number = "0.123";
+/// A number as long as those that captions show.
+constexpr const char* number = "0.123";
 
+/// Measured with espeak-ng 1.51 on all shipped tours; beginning_s includes the start of the program.
 constexpr double beginning_s = 1.0, letter_s = 0.073, figure_s = 0.3, mark_s = 0.1, verdict_s = 1.5;
 
 } // namespace
@@ -26,15 +26,19 @@ std::string sentences(const std::vector<std::string>& texts)
     return all;
 }
 
-std::string text_to_read(const Step& step)
+std::string text_to_read(const Step& step, const std::string& caption)
 {
-    const std::string& caption = step.question ? step.question->ask : step.caption;
-    std::vector<std::string> texts{step.title, step.description, filled(caption, {{"measured", number}})};
+    std::vector<std::string> texts{step.title, step.description, caption};
     if (step.question)
         if (const auto* choices = std::get_if<std::vector<Choice>>(&step.question->answer))
             for (const Choice& choice : *choices)
                 texts.push_back(choice.text);
     return sentences(texts);
+}
+
+std::string text_to_read(const Step& step)
+{
+    return text_to_read(step, filled(step.question ? step.question->ask : step.caption, {{"measured", number}}));
 }
 
 double reading_s(std::string_view text)
@@ -50,13 +54,13 @@ double reading_s(std::string_view text)
 Tour paced_to_be_read(Tour tour)
 {
     for (Step& step : tour.steps) {
-        const double longer = std::max(1.0, reading_s(text_to_read(step)) / step.seconds);
+        const double read_s = reading_s(text_to_read(step)), longer = std::max(1.0, read_s / step.seconds);
         step.seconds *= longer;
         step.ease_s *= longer;
         if (!std::holds_alternative<Try>(step.motion))
             step.ship_s_per_s /= longer;
         if (Question* question = step.question ? &*step.question : nullptr) {
-            question->unattended_s = std::max(question->unattended_s, reading_s(text_to_read(step)));
+            question->unattended_s = std::max(question->unattended_s, read_s);
             question->explanation_s = std::max(
                 question->explanation_s, verdict_s + reading_s(filled(question->explanation, {{"measured", number}})));
         }

@@ -194,7 +194,6 @@ struct Primitive {
     int deforming = -1; ///< index into World::deforming of its first DeformingVertex; -1: its shape is rigid
     int displacements = -1; ///< index of its first Displacement there; a vertex has one for each target, one after another
     BlendedRange blended{}; ///< of the full surface, if it is blended
-    bool coloured = false; ///< its vertices have colours of their own; otherwise all are white
     Topology topology
         = Topology::triangles; ///< lines and points are as wide as a pixel, cast no shadow, have no coarser levels
 };

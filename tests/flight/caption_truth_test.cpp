@@ -346,12 +346,11 @@ TEST(CaptionTruth, EveryNumberAndThingIsThatOfTheFrame)
     const nlohmann::json english = words_file("en");
     std::set<std::string> met;
     for (const auto& [file, tour, half_view_deg] : shown_tours()) {
-        Frame::half_view_deg = half_view_deg;
         const double unit_s = unit_s_of(file);
         const Show timed{tour, {}, unit_s, false};
         for (Touring touring = touring_at(timed); !touring.over; touring = advance(touring, timed, {}, 250'000'000)) {
             const Step& step = tour.steps[touring.step()];
-            const Frame frame = frame_of(touring);
+            const Frame frame = frame_of(touring, half_view_deg);
             const std::string shown = caption_of(touring, timed, words(), {}).text;
             std::vector<std::string> patterns;
             if (!step.question)
@@ -397,7 +396,6 @@ TEST(CaptionTruth, EveryNumberAndThingIsThatOfTheFrame)
             }
         }
     }
-    Frame::half_view_deg = 30;
     for (const auto& [key, said] : facts())
         EXPECT_TRUE(key.ends_with(".try") || met.contains(key)) << key << " is never shown";
 }

@@ -432,7 +432,7 @@ const std::map<std::string, Description>& descriptions()
                 {{"The whole Earth",
                      [](const Spoken& s) {
                          const double radius = s.end().ball_deg(dvec3(0), earth_s) / 2;
-                         return s.end().off_middle_deg(dvec3(0)) + radius < Frame::half_view_deg && radius > 10;
+                         return s.end().off_middle_deg(dvec3(0)) + radius < s.end().half_view_deg && radius > 10;
                      }},
                     {"most of it in daylight",
                         [](const Spoken& s) {
@@ -505,7 +505,7 @@ const std::map<std::string, Description>& descriptions()
                 {{"Saturn with its rings", // 136,780 km, to the A ring's edge; all of it in view
                     [](const Spoken& s) {
                         return s.end().off_middle_deg(saturn) < 5
-                            && s.end().ball_deg(saturn, 136780 / 299792.458) < 2 * Frame::half_view_deg + 4
+                            && s.end().ball_deg(saturn, 136780 / 299792.458) < 2 * s.end().half_view_deg + 4
                             && s.end().ball_deg(saturn, saturn_s) > 10;
                     }}}}},
         {"solar-system.see-7",
@@ -822,12 +822,12 @@ const std::map<std::string, Description>& descriptions()
 }
 
 /// The description's steps of a tour, one after the other; those that visitors fly are left out.
-std::vector<std::pair<std::string, Spoken>> spoken_of(
-    const std::filesystem::path& file, const Tour& tour, const nlohmann::json& english)
+std::vector<std::pair<std::string, Spoken>> spoken_of(const ShownTour& shown, const nlohmann::json& english)
 {
+    const auto& [file, tour, half_view_deg] = shown;
     const Show show{tour, {}, unit_s_of(file), false};
     std::vector<std::pair<std::string, Spoken>> all;
-    const Frame first = frame_of(touring_at(show));
+    const Frame first = frame_of(touring_at(show), half_view_deg);
     for (Touring touring = touring_at(show); !touring.over;) {
         const std::string text = tour.steps[touring.step()].description;
         std::string key = "?";
@@ -836,13 +836,13 @@ std::vector<std::pair<std::string, Spoken>> spoken_of(
                 key = name.substr(5);
         if (all.empty() || all.back().first != key)
             all.emplace_back(key, Spoken{first, {}});
-        all.back().second.frames.push_back(frame_of(touring));
+        all.back().second.frames.push_back(frame_of(touring, half_view_deg));
         Touring next = advance(touring, show, {}, 100'000'000);
         if (next.step() != touring.step() || next.over)
             for (std::int64_t ms = 99; ms > 0; --ms)
                 if (const Touring last = advance(touring, show, {}, ms * 1'000'000);
                     last.step() == touring.step() && !last.over) {
-                    all.back().second.frames.push_back(frame_of(last));
+                    all.back().second.frames.push_back(frame_of(last, half_view_deg));
                     break;
                 }
         touring = next;
@@ -879,16 +879,13 @@ TEST(SeeTruth, EveryStatementIsThatOfTheStep)
 {
     const nlohmann::json english = words_file("en");
     std::set<std::string> met;
-    for (const auto& [file, tour, half_view_deg] : shown_tours()) {
-        Frame::half_view_deg = half_view_deg;
-        for (const auto& [key, spoken] : spoken_of(file, tour, english)) {
-            ASSERT_TRUE(descriptions().contains(key)) << file << " " << key;
+    for (const ShownTour& shown : shown_tours())
+        for (const auto& [key, spoken] : spoken_of(shown, english)) {
+            ASSERT_TRUE(descriptions().contains(key)) << shown.file << " " << key;
             met.insert(key);
             for (const Statement& statement : descriptions().at(key).statements)
                 EXPECT_TRUE(statement.holds(spoken)) << key << ": " << statement.words;
         }
-    }
-    Frame::half_view_deg = 30;
     for (const auto& [key, one] : descriptions())
         EXPECT_TRUE(met.contains(key) || one.statements.empty()) << key << " is never said";
 }
@@ -899,10 +896,8 @@ TEST(SeeTruth, NoStillThingHidesWhatADescriptionNames)
 {
     const nlohmann::json english = words_file("en");
     std::size_t worlds = 0, looks = 0;
-    for (const auto& [file, tour, half_view_deg] : shown_tours()) {
-        Frame::half_view_deg = half_view_deg;
-        const bool path = tour.scene.find('/') != tour.scene.npos;
-        const SceneFile scene = load_scene_file(path ? file.parent_path() / tour.scene : shipped_file("scenes", tour.scene));
+    for (const ShownTour& shown : shown_tours()) {
+        const SceneFile scene = load_scene_file(scene_of(shown.tour));
         World world = load_world(scene);
         place_bodies(world, scene);
         const Occluders things(world, world.instances);
@@ -920,7 +915,7 @@ TEST(SeeTruth, NoStillThingHidesWhatADescriptionNames)
                 = places[std::to_string(place.x) + " " + std::to_string(place.y) + " " + std::to_string(place.z)];
             ++all, ++looks, misses += hidden;
         };
-        for (const auto& [key, spoken] : spoken_of(file, tour, english))
+        for (const auto& [key, spoken] : spoken_of(shown, english))
             for (const Statement& statement : descriptions().at(key).statements) {
                 places.clear();
                 statement.holds(spoken);
@@ -933,7 +928,6 @@ TEST(SeeTruth, NoStillThingHidesWhatADescriptionNames)
             }
         Frame::when_seen = {};
     }
-    Frame::half_view_deg = 30;
     EXPECT_GE(worlds, 5u);
     EXPECT_GT(looks, 1000u);
     std::printf("  %zu looks in %zu worlds\n", looks, worlds);

@@ -118,7 +118,7 @@ constexpr Ceiling ceilings[] = {
     {"sky pipeline", 74, 222, 79, 24},
     {"star meter pipeline", 28, 28, 88035, 48},
     {"stars pipeline", 44, 64, 88498, 48},
-    {"surface pipeline", 30, 6285, 18574, 80},
+    {"surface pipeline", 30, 6289, 18574, 80},
     {"vignette pipeline", 130, 174, 62, 24},
     {"warp pipeline", 304, 71588, 62, 128},
 };

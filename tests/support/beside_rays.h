@@ -13,15 +13,11 @@ struct BesideRays {
     std::vector<double> light_off; ///< by pixel, rising: the light's difference over the light
 };
 
-/// Draws a document's world. scene: its scene file's members without gltf and unit_m: a unit is a light-second. surfaces:
-/// light_off has no pixels of the sky. least: light below it counts as that much.
+/// Draws a scene's file. surfaces: light_off has no pixels of the sky. least: light below it counts as that much.
 inline BesideRays beside_rays(
-    const Doc& doc, Json scene, const Layout& layout, const Shot& shot, int samples, bool surfaces, double least)
+    const std::filesystem::path& file, const Layout& layout, const Shot& shot, int samples, bool surfaces, double least)
 {
-    testing::write_text("inset.gltf", doc.text());
-    scene["gltf"] = "inset.gltf";
-    scene["unit_m"] = 299792458;
-    const ReferenceWorld world = open_reference_world(testing::write_text("inset.json", scene.dump()));
+    const ReferenceWorld world = open_reference_world(file);
     const GpuWorld gpu = upload(device(), pipelines(), load_world(world.scene), world.scene);
     OffscreenRenderer live = renderer(gpu, layout, true);
     const auto picture = live.picture(shot)[0];
@@ -37,6 +33,16 @@ inline BesideRays beside_rays(
     }
     std::sort(out.light_off.begin(), out.light_off.end());
     return out;
+}
+
+/// The same of a document's world. scene: its scene file's members without gltf and unit_m: a unit is a light-second.
+inline BesideRays beside_rays(
+    const Doc& doc, Json scene, const Layout& layout, const Shot& shot, int samples, bool surfaces, double least)
+{
+    testing::write_text("inset.gltf", doc.text());
+    scene["gltf"] = "inset.gltf";
+    scene["unit_m"] = 299792458;
+    return beside_rays(testing::write_text("inset.json", scene.dump()), layout, shot, samples, surfaces, least);
 }
 
 } // namespace starbow::gpu_test

@@ -31,7 +31,7 @@ struct ShownTour {
     Tour tour;
     double half_view_deg; ///< from the middle of the view to its edge: of a desk's picture upwards, or of a dome all around
 };
-/// All tours on a desk, and those that have other places on a surrounding display there, too.
+/// Every tour on a desk; a tour with other places on a surrounding display there, too.
 inline std::vector<ShownTour> shown_tours()
 {
     std::vector<ShownTour> all;
@@ -50,6 +50,7 @@ struct Frame {
     dvec3 at{0}, u{0};
     glm::dquat cockpit{1, 0, 0, 0};
     bool aberration = true;
+    double half_view_deg = 30; ///< ShownTour's
 
     double gamma() const { return std::sqrt(1 + glm::dot(u, u)); }
     double beta() const { return glm::length(u) / gamma(); }
@@ -67,7 +68,6 @@ struct Frame {
         }
         return glm::normalize(glm::conjugate(cockpit) * n);
     }
-    inline static double half_view_deg = 30; ///< ShownTour's
     /// True in a view of 4 to 3.
     bool sees(const dvec3& place) const
     {
@@ -148,7 +148,7 @@ inline double travellers_light(const Frame& frame)
     return g * (travellers_clock(frame) - v * astern);
 }
 
-inline Frame frame_of(const Touring& touring)
+inline Frame frame_of(const Touring& touring, double half_view_deg = 30)
 {
     const Ship& ship = touring.flight.ship;
     return {.time = ship.time.total(),
@@ -157,7 +157,8 @@ inline Frame frame_of(const Touring& touring)
         .at = ship.position.total(),
         .u = ship.u.total(),
         .cockpit = ship.ship_from_cockpit,
-        .aberration = touring.flight.effects[Effect::aberration]};
+        .aberration = touring.flight.effects[Effect::aberration],
+        .half_view_deg = half_view_deg};
 }
 
 } // namespace starbow::testing

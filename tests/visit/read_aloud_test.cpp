@@ -24,7 +24,7 @@ struct Speech {
     double seconds, level_db; ///< of full scale, the root of the mean square
 };
 
-/// What espeak-ng speaks, as Speaker has it speak, into a file.
+/// The speech of espeak-ng, which has Speaker's options here and writes into a file.
 Speech spoken(const std::string& text, const std::string& language)
 {
     const auto words = write_text("spoken.txt", text), wave = scratch("spoken.wav");

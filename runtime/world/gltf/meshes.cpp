@@ -325,7 +325,6 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
     made.vertex_offset = std::int32_t(source.vertex_offset);
     made.material = material;
     made.topology = topology;
-    made.coloured = source.attributes.has_colour;
     for (std::size_t i = 0; i < source.parts && topology == Topology::points; ++i)
         add_shared(build, source, std::array{read_index(build, source, i)});
     for (std::size_t i = 0; i < source.parts && topology == Topology::lines; ++i) {
