@@ -182,13 +182,13 @@ Ground detailed(GlobeEntry g, vec3 normal, vec2 place, float level)
     vec4 map = textureLod(fine_globe_maps, vec3(place, 0.0), level);
     vec3 sky = textureLod(fine_globe_maps, vec3(place, 1.0), level).rgb;
     Ground here;
-    here.cloud = detail_cover(sky.r, detail.value.x, detail.variance);
-    here.water = detail_cover(map.a, detail.value.y, detail.variance);
+    here.cloud = detail_cover(sky.r, detail.value.x, detail.variance.x);
+    here.water = detail_cover(map.a, detail.value.y, detail.variance.y);
     float light = max(1.0 + GLOBE_LAND_CONTRAST * detail.value.y, 0.2);
     here.kinds = map.rgb * (g.shape.x * (1.0 - here.water) / max(1.0 - map.a, 1e-3) * light);
     here.wind = 7.0 * clamp(1.0 + GLOBE_WIND_CONTRAST * detail.value.y, 0.2, 1.8);
     here.lamps = (sky.g * (65280.0 / 65535.0) + sky.b * (255.0 / 65535.0)) * ((1.0 - here.cloud) / max(1.0 - sky.r, 1e-3))
-        * detail_spots(detail.value.y, detail.variance, GLOBE_LAMP_CONTRAST);
+        * detail_spots(detail.value.y, detail.variance.y, GLOBE_LAMP_CONTRAST);
     here.land_sun = max(cosine - detail_slope(detail.slope.y, GLOBE_LAND_RELIEF * cells), 0.0);
     here.cloud_sun = max(cosine - detail_slope(detail.slope.x, GLOBE_CLOUD_RELIEF * cells), 0.0);
     return here;

@@ -68,7 +68,7 @@
 #define GLOBE_PER_OCTAVE 64.0
 #define GLOBE_AIR_STEPS 12
 #define GLOBE_AIR_DEPTH 0.0973 // optical depth of the Earth's air at 550 nm, from the ground upwards (Bucholtz 1995)
-#define GLOBE_CLOUD_RELIEF 8e-5 // standard deviation of the heights of clouds and of land, radii: 500 m and 300 m of the Earth
+#define GLOBE_CLOUD_RELIEF 3.2e-5 // standard deviation of the heights of clouds and of land, radii: 200 m and 300 m of the Earth
 #define GLOBE_LAND_RELIEF 5e-5
 #define GLOBE_LAND_CONTRAST 0.3 // of land's detail: standard deviation of its factor of light
 #define GLOBE_WIND_CONTRAST 0.5 // of the wind on water, of its mean

@@ -146,15 +146,15 @@ struct Detailed {
         const glm::dvec3 place = normal * cells, sunward = to_sun - normal * cosine;
         const physics::Detail here = physics::detail_at(place, sunward, octaves);
         const double field = here.value.y;
-        clouds = physics::detail_cover(sky.x, here.value.x, here.variance);
-        parts.w = physics::detail_cover(map.w, field, here.variance);
+        clouds = physics::detail_cover(sky.x, here.value.x, here.variance.x);
+        parts.w = physics::detail_cover(map.w, field, here.variance.y);
         const double land = (1 - parts.w) / std::max(1 - map.w, 1e-3) * std::max(1 + 0.3 * field, 0.2);
         for (int k = 0; k < 3; ++k)
             parts[k] *= land;
         wind *= std::clamp(1 + 0.5 * field, 0.2, 1.8);
-        lamps *= physics::detail_spots(field, here.variance, 1.2);
+        lamps *= physics::detail_spots(field, here.variance.y, 1.2);
         land_sun = std::max(cosine - physics::detail_slope(here.slope.y, 5e-5 * cells), 0.0);
-        cloud_sun = std::max(cosine - physics::detail_slope(here.slope.x, 8e-5 * cells), 0.0);
+        cloud_sun = std::max(cosine - physics::detail_slope(here.slope.x, 3.2e-5 * cells), 0.0);
     }
 };
 

@@ -1,18 +1,22 @@
-// Detail that a globe's maps are too coarse for. It is not measured: a sum of octaves of value noise, each half as wide and
-// DETAIL_GAIN as strong as the one before (Perlin, "An image synthesizer", 1985). It keeps each
-// map's mean, because the noise has the mean 0 and the variance 1 over the ground.
+// Detail that a globe's maps are too coarse for. It is not measured: sums of octaves of value noise, each half as wide as
+// the one before (Perlin, "An image synthesizer", 1985). They keep each map's mean, because the noise has the mean 0 and the
+// variance 1 over the ground. The first sum is that of clouds. Its widest octaves are weak, because clouds as wide as a texel
+// are in the map: the map's part of clouds is thin or broken cloud, which looks grey from afar.
 
 const int DETAIL_MOST = 9; // octaves
-const real DETAIL_GAIN = real(0.62); // of an octave, over the one before
-// The standard deviation of all octaves together: of the cells' corners 1/3, between them (26/35)^3 of that, and the series.
-const real DETAIL_SPREAD = real(0.47114);
+const int DETAIL_CLOUD_PEAK = 4; // the clouds' strongest octave, as wide as a sixteenth of a texel
+const rvec2 DETAIL_FIRST = rvec2(real(0.23877), real(0.78461)); // strengths of the first octave; all have the variance 1
+const real DETAIL_GAIN = real(0.62); // of an octave over the one before
+const real DETAIL_CLOUD_RISE = real(1.24); // the same of clouds up to their peak
+// The standard deviation of an octave: of the cells' corners 1/3, and between them (26/35)^3 of that.
+const real DETAIL_SPREAD = real(0.36965);
 const real DETAIL_LEFT = real(0.12); // the variance that stays hidden, however near the eye is: an edge's softness
 
-// Two fields at a place.
+// Two fields at a place, the clouds' and the ground's.
 struct Detail {
     rvec2 value; // each with the mean 0, and a variance that grows to 1 with the octaves
     rvec2 slope; // its change along a vector
-    real variance; // of the octaves that are seen
+    rvec2 variance; // of the octaves that are seen
 };
 
 FN uint detail_mixed(uint h)
@@ -59,22 +63,21 @@ FN rvec3 detail_turned(rvec3 p)
 FN Detail detail_at(rvec3 p, rvec3 along, real octaves)
 {
     Detail all;
-    all.value = rvec2(real(0.0)), all.slope = rvec2(real(0.0)), all.variance = real(0.0);
-    real strength = real(1.0);
-    for (real left = min(octaves, real(DETAIL_MOST)); left > real(0.0); left -= real(1.0)) {
-        real part = strength * min(left, real(1.0));
+    all.value = rvec2(real(0.0)), all.slope = rvec2(real(0.0)), all.variance = rvec2(real(0.0));
+    rvec2 strength = DETAIL_FIRST;
+    for (int i = 0; i < DETAIL_MOST && real(i) < octaves; ++i) {
+        rvec2 part = strength * min(octaves - real(i), real(1.0));
         rvec4 here = detail_octave(p, along);
         all.value += part * rvec2(here.x, here.y);
         all.slope += part * rvec2(here.z, here.w);
         all.variance += part * part;
-        strength *= DETAIL_GAIN;
+        strength *= rvec2(i < DETAIL_CLOUD_PEAK ? DETAIL_CLOUD_RISE : DETAIL_GAIN, DETAIL_GAIN);
         // Twice as fine, and turned, so that the cells' sides lie elsewhere.
         rvec3 q = detail_turned(p);
         p = rvec3(q.x + real(17.3), q.y + real(5.9), q.z + real(9.7));
         along = detail_turned(along);
     }
     all.value *= real(1.0) / DETAIL_SPREAD, all.slope *= real(1.0) / DETAIL_SPREAD;
-    all.variance *= real(1.0) - DETAIL_GAIN * DETAIL_GAIN;
     return all;
 }
 

@@ -108,19 +108,19 @@ constexpr Ceiling ceilings[] = {
     {"layer pipeline", 25, 25, 62, 24},
     {"lookup pipeline", 48, 48, 62, 24},
     {"mapped surface pipeline", 216, 8134, 9341, 128},
-    {"measure pipeline", 290, 199276, 62, 128},
-    {"meter pipeline", 74, 31077, 62, 128},
+    {"measure pipeline", 290, 199438, 62, 128},
+    {"meter pipeline", 74, 31128, 62, 128},
     {"mip pipeline", 35, 35, 62, 24},
     {"overlay pipeline", 707, 780, 62, 24},
     {"pattern pipeline", 94, 94, 62, 24},
-    {"probe pipeline", 290, 31345, 62, 128},
+    {"probe pipeline", 290, 31411, 62, 128},
     {"scaled pipeline", 24, 24, 62, 24},
     {"sky pipeline", 74, 222, 79, 24},
     {"star meter pipeline", 28, 28, 88035, 48},
     {"stars pipeline", 44, 64, 88498, 48},
     {"surface pipeline", 30, 6289, 18574, 80},
     {"vignette pipeline", 130, 174, 62, 24},
-    {"warp pipeline", 304, 71588, 62, 128},
+    {"warp pipeline", 304, 71760, 62, 128},
 };
 
 bool made_with_mesa_22_3(const Device& card)
