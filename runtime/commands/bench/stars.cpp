@@ -3,6 +3,8 @@
 #include "config/model/angles.h"
 #include "config/model/shipped.h"
 #include "runtime/commands/median.h"
+#include "runtime/exhibit/callouts.h"
+#include "runtime/exhibit/picture_setup.h"
 #include "runtime/render/pass_timer.h"
 #include "runtime/render/render_context.h"
 #include "runtime/world/detail.h"
@@ -32,6 +34,7 @@ std::vector<Star> swarm(int count)
 struct StarsCase {
     const char* name;
     GpuWorld world;
+    bool names; ///< of the sky, with the constellations' lines
     std::vector<double> ms;
 };
 
@@ -43,15 +46,17 @@ void bench_stars(int rounds)
     Pipelines pipelines(device);
     const SceneFile scene = load_scene_file(shipped_file("scenes", "avenue"));
     const Layout layout = window_of({800, 600});
-    auto under = [&](const char* name, const std::vector<Star>& stars) {
+    const Words words = words_in("en");
+    auto under = [&](const char* name, const std::vector<Star>& stars, bool names = false) {
         World world = load_world(scene);
         add_detail_levels(world);
-        return StarsCase{name, upload(device, pipelines, std::move(world), scene, stars), {}};
+        return StarsCase{name, upload(device, pipelines, std::move(world), scene, stars), names, {}};
     };
     std::vector<StarsCase> cases;
     cases.push_back(under("no stars", {}));
     std::vector<Star> stars = load_stars(scene.stars.value().catalogue); // the brightest first
     cases.push_back(under("118,216 stars", stars));
+    cases.push_back(under("with names", stars, true));
     stars.resize(5'000);
     cases.push_back(under("5,000 of them", stars));
     cases.push_back(under("1,000,000 stars", swarm(1'000'000)));
@@ -64,10 +69,16 @@ void bench_stars(int rounds)
         Shot shot = load_shot(shipped_file("shots", "orion"));
         shot.u = shot.ship_from_cockpit * glm::dvec3(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
         shot.exposure_ev = gamma > 1 ? -3 : 0;
-        std::deque<OffscreenRenderer> renderers; // which never moves them
+        std::deque<PictureSetup> setups; // with the names' letters; a deque never moves them
+        std::deque<OffscreenRenderer> renderers;
         for (StarsCase& c : cases) {
             c.ms.clear();
             renderers.emplace_back(device, pipelines, c.world, layout, default_quality(device, false), false);
+            if (c.names) {
+                PictureState named{.shot = shot};
+                name_sky(c.world, "en", named);
+                setups.emplace_back().set_up(named, words, renderers.back().frame());
+            }
             renderers.back().picture(shot); // warms every cache
         }
         // In turn within each round, so that the machine's other work falls on all alike.

@@ -13,7 +13,8 @@ struct MovingShot {
     const char *scene, *shot;
 };
 constexpr MovingShot moving_shots[]
-    = {{"gamow", "gamow-cycling"}, {"train", "train-roof"}, {"twins", "twins-meeting"}, {"alice-and-bob", "alice-and-bob"}};
+    = {{"gamow", "gamow-cycling"}, {"train", "train-roof"}, {"twins", "twins-meeting"}, {"alice-and-bob", "alice-and-bob"},
+        {"solar-system", "earth-10km"}, {"solar-system", "earth-400km"}, {"solar-system", "saturn"}};
 
 double time_shot(const MovingShot& one, int rounds)
 {
