@@ -95,7 +95,8 @@
 #define GLOBE_CONSTANTS(CONSTANT) \
     CONSTANT(49, int, GLOBES, globes, 0) /* of the world */ \
     CONSTANT(54, bool, EACH_GLOBE, each_globe, false) /* in turn for all pixels of a group, which then share its numbers: \
-                                                        faster on a GPU; otherwise those alone that a pixel meets */
+                                                        faster on a GPU; otherwise those alone that a pixel meets */ \
+    CONSTANT(55, bool, GLOWS, glows, false) /* what shines above a globe's air shows */
 #define RANGE_CONSTANTS(CONSTANT) CONSTANT(50, bool, RANGE, range, false) /* through the curve that shows all at once */
 #define PART_CONSTANTS(CONSTANT) CONSTANT(51, bool, LAYERED, layered, false) /* by the view's part of each pixel */
 // Light for the glow, before the tone curve; alpha 0: shows nothing.

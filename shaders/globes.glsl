@@ -2,6 +2,7 @@
 // the cube map's sky. Needs received_light.glsl's constants; docs/physics/solar-system.md has the formulas and their sources.
 #include "panorama.glsl"
 #include "physics/detail.glsl"
+#include "physics/aurora.glsl"
 #include "physics/eclipse.glsl"
 #include "physics/sun_surface.glsl"
 
@@ -168,6 +169,63 @@ float left_by_other(GlobeEntry g, vec3 at)
     return left_of_sun(g.shade.w / (distance * g.ring.w), length(to / distance - sun) / g.ring.w);
 }
 
+// Half of a ray's chord through a ball around a globe's middle, the mean over the pixel.
+float half_chord_in(float radius, GlobeRay ray)
+{
+    float left = radius - ray.off, half_ = max(0.5 * ray.pixel, 0.01 * abs(left)); // else the difference would cancel
+    float far = max(left + half_, 0.0), near = max(left - half_, 0.0);
+    return sqrt(radius + ray.off) * (far * sqrt(far) - near * sqrt(near)) / (3.0 * half_);
+}
+// The direction of a ray's place from the globe's middle, own axes. along: from its place nearest to the middle.
+vec3 above_globe(vec3 own, GlobeRay ray, float along) { return normalize((ray.nearest + ray.way * along) * own); }
+// The middle of the oval on a direction's half.
+vec3 oval_towards(vec3 up) { return dot(up, globes.aurora.xyz) < 0.0 ? -globes.aurora.xyz : globes.aurora.xyz; }
+// True where a ray's way between two places may meet an aurora.
+bool meets_aurora(vec3 own, GlobeRay ray, float begin, float end)
+{
+    vec3 middle = above_globe(own, ray, 0.5 * (begin + end)), first = above_globe(own, ray, begin);
+    float reach = AURORA_REACH + acos(min(dot(middle, first), 1.0));
+    return begin < end && abs(acos(min(dot(middle, oval_towards(middle)), 1.0)) - AURORA_RADIUS) < reach;
+}
+// The light of what shines above the air: before the ray's nearest place to the middle, and behind it. The layers of aurora lie
+// on each other: a ray meets their boundaries from the highest to the lowest, and again upwards.
+void add_glows(vec3 own, GlobeRay ray, ShiftColumn column, float disc, inout vec3 before, inout vec3 behind)
+{
+    int even = int(globes.first.y), layers = int(globes.first.z);
+    for (int i = 0; i < even; ++i) {
+        vec4 layer = globes.glows[i];
+        float low = half_chord_in(layer.x, ray), high = half_chord_in(layer.y, ray);
+        vec2 way = max(vec2(-low, high) - max(vec2(-high, low), -ray.ahead), 0.0);
+        vec3 light = globe_colour(column, layer.w, 0.0) * (layer.z * disc);
+        before += light * way.x, behind += light * way.y;
+    }
+    float lowest = half_chord_in(globes.glows[even].x, ray), highest = half_chord_in(globes.aurora.w, ray);
+    bool far = meets_aurora(own, ray, max(lowest, -ray.ahead), highest) && ray.off > 1.0 - ray.pixel;
+    bool near = meets_aurora(own, ray, max(-highest, -ray.ahead), -lowest);
+    // A driver in software computes a branch that no pixel takes, but ends a loop.
+    int last = far ? 2 * layers + 1 : near ? layers : -1;
+    float from_along = 0.0;
+    AuroraPlace from = AuroraPlace(0.0, 0.0, 0.0);
+    for (int k = 0; k <= last; ++k) {
+        bool down = k <= layers;
+        int boundary = down ? layers - k : k - layers - 1;
+        float half_ = half_chord_in(boundary < layers ? globes.glows[even + boundary].x : globes.aurora.w, ray);
+        float along = max(down ? -half_ : half_, -ray.ahead), way = along - from_along;
+        vec3 up = above_globe(own, ray, along);
+        AuroraPlace here = aurora_place(up, oval_towards(up));
+        if (k > 0 && k != layers + 1 && way > 0.0) {
+            // The rays are those of the place nearest to the outer arc.
+            float at = mix(from_along, along, clamp(from.outer / (from.outer - here.outer), 0.0, 1.0));
+            float pixel = ray.pixel / max(ray.ahead, 1e-9) * max(ray.ahead + at, 0.0);
+            vec4 layer = globes.glows[even + (down ? boundary : boundary - 1)];
+            vec3 light = globe_colour(column, layer.w, 0.0)
+                * (layer.z * disc * way * aurora(from, here, aurora_rays(above_globe(own, ray, at), pixel), pixel));
+            before += down ? light : vec3(0.0), behind += down ? vec3(0.0) : light;
+        }
+        from_along = along, from = here;
+    }
+}
+
 // The ground of a globe with air, and what is above it.
 struct Ground {
     vec3 kinds; // the parts of land
@@ -246,6 +304,9 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
     float air = 0.0;
     vec3 scattered = vec3(0.0);
     if (g.air.x > 0.0) {
+        vec3 glow = vec3(0.0);
+        if (GLOWS)
+            add_glows(own, ray, column, disc, glow, light);
         float top = 1.0 + g.air.y, x = 1.0 / g.air.x, cosine = dot(way, g.light.xyz), through = 1.0;
         AirWays ways = air_ways(ray, top, x);
         for (int k = ways.first; k <= ways.last; ++k) {
@@ -276,7 +337,7 @@ void add_globe(GlobeEntry g, vec3 n, float angle, float disc, ShiftColumn column
                 through -= one.y * (1.0 - exp(-GLOBE_AIR_DEPTH * mass)) / ways.beside;
         }
         // Rayleigh's phase function over 4, for a sunlit white surface sends a part of 1 / pi.
-        scattered *= 0.1875 * (1.0 + cosine * cosine) * g.light.w * disc;
+        scattered = scattered * (0.1875 * (1.0 + cosine * cosine) * g.light.w * disc) + glow;
         light *= mix(1.0, ways.last > 0 ? through : exp(-GLOBE_AIR_DEPTH * air), disc);
     }
 

@@ -62,6 +62,7 @@
 #define LEAST_ROUGHNESS 0.05 // the highlight of a perfect mirror is then as wide as the Sun
 
 #define MAX_GLOBES 16
+#define MAX_GLOWS 8
 #define GLOBE_LEVELS 8 // of a kind of light, through more and more air, or towards the middle of the Sun's disc
 #define GLOBE_COLUMNS 1024 // over log2 D
 #define GLOBE_FIRST_LOG2_D (-8.0)
@@ -261,9 +262,12 @@ struct GlobeEntry {
 
 // The globes before one view's sky, the farthest first.
 struct GlobeConstants {
-    vec4 first; // x: pre-exposure; w: 0, see above
+    vec4 first; // x: pre-exposure; y: even glows; z: those of aurora, after them; w: 0, see above
     vec4 sun; // direction in which the ship sees the Sun's middle, motion axes; w: its radius there, degrees
     vec4 sunlight; // illuminance from there, as starlight in star.vert, pre-exposed
+    vec4 aurora; // the middle of the northern oval, axes of the globe with air, unit; the southern one is opposite; w: its highest radius
+    vec4 glows[MAX_GLOWS]; // layers above the air of that globe, which shine by themselves, those of aurora last; x: inner, y: outer
+                           // radius; z: radiance of a radius of way, over a sunlit white surface's; w: row of globe_light
     GlobeEntry entries[MAX_GLOBES];
 };
 

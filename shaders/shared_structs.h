@@ -30,7 +30,7 @@ static_assert(sizeof(DrawEntry) == 8);
 static_assert(sizeof(SurfaceEntry) == 64);
 static_assert(sizeof(ViewPush) == 128);
 static_assert(sizeof(GlobeEntry) == 192);
-static_assert(sizeof(GlobeConstants) == 48 + MAX_GLOBES * 192);
+static_assert(sizeof(GlobeConstants) == 4 * 16 + 16 * MAX_GLOWS + MAX_GLOBES * 192);
 static_assert(sizeof(StarEntry) == 32);
 static_assert(sizeof(StarConstants) == 48);
 static_assert(sizeof(RangeConstants) == 16 * RANGE_KNOTS);

@@ -104,11 +104,39 @@ std::vector<NamedTable> read_kinds(const Place& place, const char* member_name)
     return kinds;
 }
 
+/// The name of one of the system's lights.
+std::string light_of(const Place& at, const SolarSystem& system)
+{
+    const std::string name = text(at);
+    if (std::none_of(system.lights.begin(), system.lights.end(), [&](const NamedTable& one) { return one.name == name; }))
+        fail_at(at, "is not a light of the file of \"spectra\"; one of its \"lights\" is right");
+    return name;
+}
+
+/// The layers that shine above a globe's air; without the member none.
+std::vector<Glow> read_glows(const Place& air, const SolarSystem& system)
+{
+    std::vector<Glow> glows;
+    const auto list = find_member(air, "glows");
+    for (const Place& at : list ? items(*list, 0, most_glows, "glows") : std::vector<Place>()) {
+        reject_unknown_members(at, {"from_km", "to_km", "zenith", "light", "aurora"});
+        Glow glow{number(member(at, "from_km"), {0, 10000}) * 1000, number(member(at, "to_km"), {0, 10000}) * 1000,
+            number(member(at, "zenith"), {0, 1}), light_of(member(at, "light"), system), false};
+        read_optional(at, "aurora", glow.aurora);
+        if (!(glow.to_m > glow.from_m))
+            fail_at(member(at, "to_km"), "is not above \"from_km\"; a greater height is right");
+        if (!glows.empty() && glows.back().aurora && (!glow.aurora || glow.from_m != glows.back().to_m))
+            fail_at(at, "stands after a layer of aurora; a layer of aurora that begins at that one's \"to_km\" is right");
+        glows.push_back(std::move(glow));
+    }
+    return glows;
+}
+
 /// All measured spectra.
 void read_spectra(const Place& place, SolarSystem& system)
 {
     system.kinds = read_kinds(member(place, "kinds"), "reflectance");
-    system.lamps = read_kinds(member(place, "lights"), "relative_power");
+    system.lights = read_kinds(member(place, "lights"), "relative_power");
     const Place limb_darkening = member(place, "sun_limb_darkening");
     for (const Place& row : items(member(limb_darkening, "rows"), 0, 1000, "rows")) {
         const std::vector<Place> at = items(row, 7, 7, "numbers (wavelength in nm, six coefficients)");
@@ -222,10 +250,12 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
             globe.dimming_per_deg = number(two[0], {0, 1}), globe.dimming_per_deg4 = number(two[1], {0, 1});
         }
         if (auto p = find_member(at, "air")) {
-            reject_unknown_members(*p, {"scale_height_km", "clouds", "water", "lamps", "brightest_lamps"});
+            reject_unknown_members(*p, {"scale_height_km", "clouds", "water", "lamps", "brightest_lamps", "lamp", "glows"});
             globe.air = {number(member(*p, "scale_height_km"), {0.1, 1000}) * 1000, folder / text(member(*p, "clouds")),
                 folder / text(member(*p, "water")), folder / text(member(*p, "lamps")),
-                number(member(*p, "brightest_lamps"), {0, 1})};
+                number(member(*p, "brightest_lamps"), {0, 1}), {}, read_glows(*p, system)};
+            if (auto lamp = find_member(*p, "lamp"))
+                globe.air->lamp = light_of(*lamp, system);
             if (std::any_of(
                     system.globes.begin(), system.globes.end(), [](const Globe& other) { return other.air.has_value(); }))
                 fail_at(*p, "is a second globe's; one globe with air is right");

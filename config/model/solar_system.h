@@ -60,11 +60,23 @@ struct PlanetRing {
     std::string kind;
 };
 
+/// A layer above a globe's air that shines by itself: airglow, or a part of an aurora's height. zenith: radiance as seen
+/// from right below, over a sunlit white surface's; of an aurora, of a full arc. light: a name in SolarSystem::lights.
+struct Glow {
+    double from_m, to_m, zenith;
+    std::string light;
+    bool aurora;
+};
+
+constexpr std::size_t most_glows = 8;
+
 /// A globe's air: the height over which its density falls to 1/e. Only one globe has air, and the maps for it.
 struct Air {
     double scale_height_m;
     std::filesystem::path clouds, water, lamps; ///< grey maps; lamps: the root of their radiance
     double brightest_lamps; ///< radiance of that map's white, over a sunlit white surface's
+    std::string lamp; ///< the lamps' light: a name in SolarSystem::lights; empty: they are dark
+    std::vector<Glow> glows; ///< at most most_glows; layers of aurora are the last, each on the one before
 };
 
 /// The Sun, a planet or a moon.
@@ -99,7 +111,7 @@ struct LimbDarkening {
 /// The Sun and all that goes around it, as plain data.
 struct SolarSystem {
     std::vector<Globe> globes; ///< at most MAX_GLOBES; the Sun is one
-    std::vector<NamedTable> kinds, lamps;
+    std::vector<NamedTable> kinds, lights;
     std::vector<LimbDarkening> limb; ///< rising wavelengths
     OrbitElements::Element jupiter_deg{}, saturn_deg{}; ///< mean longitudes
     std::vector<LunarTerm> moon_longitude, moon_latitude, moon_distance;

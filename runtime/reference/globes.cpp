@@ -164,7 +164,6 @@ GlobeColours::GlobeColours(const Globes& globes, const StandardObserver& observe
     : globes_(globes)
     , observer_(observer)
     , sun_(std::pow(astronomical_unit_m / globes.system.globes.front().radius_m, 2))
-    , lamps_(0)
     , coarse_(observer)
 {
     if (&observer == &eye()) {
@@ -174,14 +173,16 @@ GlobeColours::GlobeColours(const Globes& globes, const StandardObserver& observe
             coarse_.samples.back().width_nm *= 5;
         }
     }
-    if (!globes.system.lamps.empty()) {
-        lamps_ = 1;
+    const int first_light = first_kind + int(globes.system.kinds.size());
+    for (const NamedTable& one : globes.system.lights) {
+        const int index = light(one.name);
+        lights_.push_back(1);
         const double luminance = starbow::seen(
-            eye(), [&](double nm) { return spectrum(lamps, nm); }, 1)
+            eye(), [&](double nm) { return spectrum(index, nm); }, 1)
                                      .y;
-        lamps_ = 1 / luminance;
+        lights_.back() = 1 / luminance;
     }
-    for (int i = 0; i < first_kind + int(globes.system.kinds.size()); ++i)
+    for (int i = 0; i < first_light + int(lights_.size()); ++i)
         seen_.push_back(std::make_unique<ByShift>(
             1,
             [this, i](double D, glm::dvec3* out) {
@@ -189,7 +190,7 @@ GlobeColours::GlobeColours(const Globes& globes, const StandardObserver& observe
                     * starbow::seen(
                         observer_, [this, i](double nm) { return spectrum(i, nm); }, D);
             },
-            i != lamps));
+            i < first_light));
 }
 
 int GlobeColours::kind(const std::string& name) const
@@ -197,6 +198,13 @@ int GlobeColours::kind(const std::string& name) const
     const std::vector<NamedTable>& kinds = globes_.system.kinds;
     const auto at = std::find_if(kinds.begin(), kinds.end(), [&](const NamedTable& one) { return one.name == name; });
     return at == kinds.end() ? -1 : first_kind + int(at - kinds.begin());
+}
+
+int GlobeColours::light(const std::string& name) const
+{
+    const std::vector<NamedTable>& lights = globes_.system.lights;
+    const auto at = std::find_if(lights.begin(), lights.end(), [&](const NamedTable& one) { return one.name == name; });
+    return first_kind + int(globes_.system.kinds.size()) + int(at - lights.begin());
 }
 
 double GlobeColours::optical_depth(double nm)
@@ -232,8 +240,9 @@ std::array<double, 6> limb_at(const SolarSystem& system, double nm)
 double GlobeColours::spectrum(int index, double nm) const
 {
     static const Spectrum sunlight = sunlit_white();
-    if (index == lamps) // per frequency; the table is per wavelength
-        return globes_.system.lamps.empty() ? 0 : lamps_ * lamp(globes_.system.lamps.front().points, nm) * nm * nm;
+    if (const int at = index - first_kind - int(globes_.system.kinds.size());
+        at >= 0) // per frequency; tables are per wavelength
+        return lights_[std::size_t(at)] * lamp(globes_.system.lights[std::size_t(at)].points, nm) * nm * nm;
     const double light = sunlight(nm);
     if (index == white)
         return light;
@@ -281,8 +290,10 @@ glm::dvec3 GlobeColours::seen(std::span<const Term> terms, double D) const
 
 double GlobeSight::Body::outer_m() const
 {
-    return std::max(globe->radius_m + (globe->air ? top_heights * globe->air->scale_height_m : 0),
-        globe->ring ? globe->ring->outer_m : 0);
+    double top = globe->air ? top_heights * globe->air->scale_height_m : 0;
+    for (std::size_t i = 0; i < glows.size(); ++i)
+        top = std::max(top, globe->air->glows[i].to_m);
+    return std::max(globe->radius_m + top, globe->ring ? globe->ring->outer_m : 0);
 }
 
 GlobeSight::GlobeSight(
@@ -331,6 +342,18 @@ GlobeSight::GlobeSight(
         for (std::size_t k = 0; k < 4; ++k)
             body.kinds[k] = colours.kind(globe.kinds[k]);
         body.clouds = colours.kind("cloud");
+        if (globe.air && !globe.air->lamp.empty())
+            body.lamps = colours.light(globe.air->lamp);
+        for (const Glow& glow : globe.air ? globe.air->glows : std::vector<Glow>())
+            body.glows.push_back(colours.light(glow.light));
+        if (!body.glows.empty()) {
+            // 4 degrees from the geomagnetic pole of 80.65 N, 72.68 W, on the great circle to the point under the midnight
+            // Sun.
+            const double up = 80.65 * degree, east = -72.68 * degree;
+            const glm::dvec3 pole(std::cos(up) * std::cos(east), std::cos(up) * std::sin(east), std::sin(up));
+            const glm::dvec3 axis = glm::normalize(glm::cross(pole, -body.to_sun));
+            body.oval = std::cos(4 * degree) * pole + std::sin(4 * degree) * glm::cross(axis, pole);
+        }
         if (globe.ring)
             body.rings = colours.kind(globe.ring->kind);
         bodies_.push_back(body);
@@ -401,6 +424,47 @@ double GlobeSight::sun_left(const Body& body, const glm::dvec3& place) const
         left += light * mu * (1 - std::acos(std::clamp(cosine, -1.0, 1.0)) / pi);
     }
     return left / whole;
+}
+
+/// The glowing layers on one side of the ray's place nearest to the middle. last: its end; air: before them.
+void GlobeSight::add_glows(const Body& body, const Sight& sight, bool behind, double last, double air, const Pixel& pixel,
+    Ray& out, const Through& through) const
+{
+    const double nearest = std::max(sight.nearest / sight.ball_scale, 0.0), first = behind ? nearest : 0;
+    if (!behind)
+        last = std::min(last, nearest);
+    const Globe& globe = *body.globe;
+    for (std::size_t i = 0; i < body.glows.size(); ++i) {
+        const Glow& glow = globe.air->glows[i];
+        // What lies within the outer ball and not within the inner one.
+        const auto [enters, leaves] = sight.within(globe.radius_m + glow.to_m);
+        const auto [hole_begins, hole_ends] = sight.within(globe.radius_m + glow.from_m);
+        double begin = std::max(enters, first), end = std::min(leaves, last);
+        if (hole_begins < hole_ends) {
+            if (behind)
+                begin = std::max(begin, hole_ends);
+            else
+                end = std::min(end, hole_begins);
+        }
+        if (begin >= end)
+            continue;
+        double light = glow.zenith / (glow.to_m - glow.from_m) * (end - begin);
+        if (glow.aurora) {
+            // Place by place; the live picture takes an arc between a layer's two ends at once.
+            constexpr int places = 32;
+            double sum = 0;
+            for (int k = 0; k < places; ++k) {
+                const double way = begin + (end - begin) * (k + 0.5) / places, width = pixel.rad * way / globe.radius_m;
+                const glm::dvec3 up = glm::normalize(sight.from + sight.direction * way);
+                const auto here = physics::aurora_place(up, (glm::dot(up, body.oval) < 0 ? -1.0 : 1.0) * body.oval);
+                if (here.strength > 0)
+                    sum += physics::aurora(here, here, physics::aurora_rays(up, width), width);
+            }
+            light *= sum / places;
+        }
+        if (light > 0)
+            out.terms.push_back({body.glows[i], light * pixel.part * through.grey, air});
+    }
 }
 
 /// Returns the air between the start and the end of the ray.
@@ -541,7 +605,7 @@ void GlobeSight::add_ground(
             add(GlobeColours::white, sunlight * risen * glint * here.parts.w * (1 - clouds), all);
         }
     }
-    add(GlobeColours::lamps, globe.air->brightest_lamps * here.lamps * (1 - clouds) * std::exp(-lamps_depth * air), 0);
+    add(body.lamps, globe.air->brightest_lamps * here.lamps * (1 - clouds) * std::exp(-lamps_depth * air), 0);
 }
 
 GlobeSight::Ray GlobeSight::ray(
@@ -572,8 +636,12 @@ GlobeSight::Ray GlobeSight::ray(
         if (ring < ground)
             add_ring(body, sight, ring, part, out, through);
         double air = 0;
-        if (body.globe->air)
+        if (body.globe->air) {
+            add_glows(body, sight, false, ground, through.air, {part, pixel_rad}, out, through);
             air = add_air(body, sight, ground, part, out, through);
+            if (!hit)
+                add_glows(body, sight, true, INFINITY, through.air + air, {part, pixel_rad}, out, through);
+        }
         if (hit) {
             add_ground(body, sight, ground, air, {part, pixel_rad}, out, through);
             if (part >= 0.5)

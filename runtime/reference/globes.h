@@ -13,15 +13,16 @@ public:
 
     /// A part of a ray's light: weight * spectrum * exp(-air * optical depth of a vertical column of air).
     struct Term {
-        int spectrum; ///< white, scattered, sun + a power, lamps or one of kind()
+        int spectrum; ///< white, scattered, sun + a power, or one of kind() or light()
         double weight, air;
     };
     static constexpr int white = 0; ///< sunlight on a white matt surface
     static constexpr int scattered = 1; ///< the same times the optical depth
     static constexpr int sun = 2; ///< and the next five: the Sun's mean surface, by powers of the cosine
-    static constexpr int lamps = 8; ///< a lamp of luminance 1
     /// The number of a kind of ground: sunlight times its reflectance. -1 for an empty name.
     int kind(const std::string& name) const;
+    /// The number of a light of the system's file, with the luminance 1.
+    int light(const std::string& name) const;
 
     /// The colour of the light seen at D, Rec. 709 linear, without the headlight effect. Several threads may call it.
     glm::dvec3 seen(std::span<const Term> terms, double D) const;
@@ -31,12 +32,13 @@ public:
     static double optical_depth(double nm);
 
 private:
-    static constexpr int first_kind = 9;
+    static constexpr int first_kind = 8;
     double spectrum(int index, double nm) const;
 
     const Globes& globes_;
     const StandardObserver& observer_;
-    double sun_, lamps_; ///< factors of the Sun's surface and of the lamps' table
+    double sun_; ///< factor of the Sun's surface
+    std::vector<double> lights_; ///< factors of the lights' tables
     StandardObserver coarse_; ///< every 5 nm, for light through air
     std::vector<std::unique_ptr<ByShift>> seen_; ///< without air
 };
@@ -69,7 +71,9 @@ public:
         glm::dvec3 to_sun; ///< unit, its own axes: the Sun as the globe sees it
         double sun_m = 0, phase_deg = 0, dimming = 1;
         std::array<int, 4> kinds{-1, -1, -1, -1};
-        int rings = -1, clouds = -1;
+        int rings = -1, clouds = -1, lamps = -1;
+        glm::dvec3 oval{0}; ///< the middle of the northern aurora, own axes
+        std::vector<int> glows; ///< light() of each of the air's
         /// The globe that may hide the Sun from it: its place from the middle, own axes.
         struct Other {
             glm::dvec3 place_m;
@@ -89,6 +93,8 @@ private:
     };
     void add_ground(
         const Body& body, const Sight& sight, double way, double air, const Pixel& pixel, Ray& out, Through& through) const;
+    void add_glows(const Body& body, const Sight& sight, bool behind, double last, double air, const Pixel& pixel, Ray& out,
+        const Through& through) const;
     double add_air(const Body& body, const Sight& sight, double end, double part, Ray& out, const Through& through) const;
     void add_ring(const Body& body, const Sight& sight, double way, double part, Ray& out, Through& through) const;
     double sun_left(const Body& body, const glm::dvec3& place) const;

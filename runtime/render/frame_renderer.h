@@ -71,6 +71,7 @@ public:
     /// The curve by which everything shows at once, from the next frame on, and by which the shot's EV moves the shown
     /// light; none: the shot's exposure.
     void range(const std::optional<RangeCurve>& curve) { state_.range = curve; }
+    void glows(bool always) { state_.glows = always; } ///< FrameState::glows
     void meter(bool on) { state_.meters = on; }
     /// Lays callouts over all views, beside the head-up display, from the next frame on. They must last until it is drawn.
     void place(std::span<const Callout> callouts) { passes_.place(callouts); }

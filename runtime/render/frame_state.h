@@ -29,6 +29,7 @@ struct FrameState {
     std::optional<RangeCurve> range;
     Shot shot; ///< the instant that is drawn
     bool all_light = false; ///< light counts however dim; otherwise none is drawn that no screen shows
+    bool glows = false; ///< shaders have what shines above a globe's air in any case
     double pre_exposure = 1; ///< every radiance in the cube map is stored times this
 
     double exposure_of(const Shot& shown) const { return range ? 1 : std::exp2(shown.exposure_ev); } ///< of light, as drawn

@@ -111,6 +111,32 @@ static_assert(
 /// How much air still counts: 10 scale heights hold all but 5e-5 of it.
 constexpr double scale_heights = 10;
 
+/// The height above a globe's ground up to which light comes from.
+double top_m(const Air& air)
+{
+    double top = scale_heights * air.scale_height_m;
+    for (const Glow& glow : air.glows)
+        top = std::max(top, glow.to_m);
+    return top;
+}
+
+static_assert(most_glows == MAX_GLOWS);
+
+/// The angle of an aurora's oval's middle from the geomagnetic pole, towards midnight: Feldstein, "The discovery and the
+/// first studies of the auroral oval", 2016.
+constexpr double oval_offset_deg = 4;
+
+/// The middle of the northern oval, own axes of the Earth; to_sun: unit, the same. The geomagnetic pole is that of the
+/// International Geomagnetic Reference Field of 2020.
+glm::dvec3 oval_middle(const glm::dvec3& to_sun)
+{
+    constexpr double latitude_deg = 80.65, longitude_deg = -72.68;
+    const glm::dvec3 pole(std::cos(latitude_deg * degree) * std::cos(longitude_deg * degree),
+        std::cos(latitude_deg * degree) * std::sin(longitude_deg * degree), std::sin(latitude_deg * degree));
+    const glm::dvec3 to_midnight = glm::normalize(glm::dot(to_sun, pole) * pole - to_sun);
+    return std::cos(oval_offset_deg * degree) * pole + std::sin(oval_offset_deg * degree) * to_midnight;
+}
+
 } // namespace
 
 GpuGlobes::GpuGlobes(Device& device, std::shared_ptr<const Globes> globes, const GlobeSky& sky, double seconds_per_time_unit,
@@ -145,7 +171,7 @@ void GpuGlobes::upload_maps(Device& device)
         const Texture& map = globes_->maps[i];
         layers_.push_back(map.rgba.empty() || globe.air ? -1 : int(plain.size()));
         if (globe.air)
-            fine = {&map, &globes_->sky};
+            fine = {&map, &globes_->sky}, have_glows_ = !globe.air->glows.empty();
         else if (!map.rgba.empty())
             plain.push_back(&map);
         if (globe.ring) {
@@ -196,7 +222,7 @@ shared::GlobeConstants GpuGlobes::constants(const Seen& all_seen, double pre_exp
         const double radius = globe.radius_m / unit_m_, polar = 1 - globe.flattening;
         const glm::dvec3 from_eye = cube_from_world * one.from_eye;
         const double distance = glm::length(from_eye);
-        double reach = radius * (globe.air ? 1 + scale_heights * globe.air->scale_height_m / globe.radius_m : 1);
+        double reach = radius * (globe.air ? 1 + top_m(*globe.air) / globe.radius_m : 1);
         if (globe.ring)
             reach = globe.ring->outer_m / unit_m_;
         const double angle = reach < distance ? std::asin(reach / distance) : pi;
@@ -223,9 +249,15 @@ shared::GlobeConstants GpuGlobes::constants(const Seen& all_seen, double pre_exp
         if (globe.air) {
             const double height = globe.air->scale_height_m / globe.radius_m;
             entry.air = glm::vec4(height, scale_heights * height, row_of("air"), row_of("cloud"));
-            entry.lamps = globes_->system.lamps.empty()
-                ? glm::vec4(0)
-                : glm::vec4(row_of(globes_->system.lamps.front().name), globe.air->brightest_lamps, 0, 0);
+            if (!globe.air->lamp.empty())
+                entry.lamps = glm::vec4(row_of(globe.air->lamp), globe.air->brightest_lamps, 0, 0);
+            const std::vector<Glow>& glows = globe.air->glows;
+            for (std::size_t i = 0; i < glows.size(); ++i) {
+                const double inner = 1 + glows[i].from_m / globe.radius_m, outer = 1 + glows[i].to_m / globe.radius_m;
+                all.glows[i] = glm::vec4(inner, outer, glows[i].zenith / (outer - inner), row_of(glows[i].light));
+                (glows[i].aurora ? all.first.z : all.first.y) += 1;
+                all.aurora = glm::vec4(oval_middle(sun), outer);
+            }
         }
         if (far > 0)
             entry.lamps.z = float(globe.radius_m / (far * astronomical_unit_m));
@@ -243,6 +275,29 @@ shared::GlobeConstants GpuGlobes::constants(const Seen& all_seen, double pre_exp
                         globes[other.globe].radius_m / globe.radius_m);
     }
     return all;
+}
+
+double GpuGlobes::brightest_glow(const Seen& all, double E) const
+{
+    constexpr double farthest_radii = 100; // from there the airglow is 3 seconds of arc wide
+    constexpr double most_aurora = 3; // over a full arc, where arcs and rays meet
+    double most = 0;
+    for (const SeenGlobe& one : all.globes) {
+        const Globe& globe = globes_->system.globes[one.globe];
+        if (!globe.air || one.distance * unit_m_ > farthest_radii * globe.radius_m)
+            continue;
+        for (const Glow& glow : globe.air->glows) {
+            double light = 0;
+            for (double D = 1; D <= std::max(E, 1.0) * 1.1; D *= 1.1) {
+                const glm::dvec3 colour = starbow::globe_colour(light_texels_, rows_.first.at(glow.light), D);
+                light = std::max(light, std::max({colour.r, colour.g, colour.b}) * physics::headlight(D));
+            }
+            // Through the layer and out again, past its lower side.
+            const double thick = (glow.to_m - glow.from_m) / globe.radius_m, way = 2 * std::sqrt(3 * thick) / thick;
+            most += light * glow.zenith * way * (glow.aurora ? most_aurora : 1);
+        }
+    }
+    return most;
 }
 
 void GpuGlobes::as_stars(const Seen& all_seen, std::span<shared::StarEntry> entries) const

@@ -14,6 +14,7 @@ public:
     GpuGlobes(Device& device, std::shared_ptr<const Globes> globes, const GlobeSky& sky, double seconds_per_time_unit,
         double unit_m, const glm::dmat3& world_from_equatorial);
 
+    bool have_glows() const { return have_glows_; } ///< something shines above some globe's air
     int count() const { return int(globes_->system.globes.size()); }
     const Globes& globes() const { return *globes_; }
 
@@ -30,6 +31,9 @@ public:
     glm::dvec3 from_sun(double time) const { return world_from_equatorial_ * origin_.at(time * seconds_) / unit_m_; }
     /// The shaders' constants of the globes that one eye sees.
     shared::GlobeConstants constants(const Seen& seen, double pre_exposure) const;
+    /// The greatest light that what shines above the air has in a picture, over white; 0 where that globe is so far that it
+    /// fills no pixel. E: e^rapidity.
+    double brightest_glow(const Seen& seen, double E) const;
     /// Adds the Sun's glare for an observer. motion_from_world: turn; E: e^rapidity.
     void add_glare(shared::GlobeConstants& constants, const Seen& seen, const glm::dmat3& motion_from_world, double E,
         const Effects& on) const;
@@ -46,6 +50,7 @@ private:
     double seconds_, unit_m_;
     glm::dmat3 world_from_equatorial_;
     GlobeRows rows_;
+    bool have_glows_ = false;
     std::vector<glm::vec4> light_texels_, false_texels_;
     std::vector<int> layers_; ///< of maps; -1: none
     void upload_maps(Device& device);

@@ -62,7 +62,7 @@ WarpVariant ViewConstants::variant(const ViewState& view) const
     variant.unaligned = !std::all_of(read.begin(), variant.several_rest_frames ? read.end() : read.begin() + 1,
         [](const RestFrameView& one) { return one.aligned(); });
     if (world_.globes)
-        variant.globes = world_.globes->count(), variant.each_globe = world_.as_gpu;
+        variant.globes = world_.globes->count(), variant.each_globe = world_.as_gpu, variant.glows = view.brightest_glow > 0;
     variant.galilean = on.comparison == Comparison::galilean;
     variant.by_table = variant.doppler || needs_table(on, light);
     return variant;
@@ -89,13 +89,17 @@ WarpVariant ViewConstants::variant_shown(const ViewState& view) const
     WarpVariant all = variant(view);
     all.rays = eyes_.rays_of(view);
     all.sampled_response = world_.as_gpu;
+    constexpr double unseen = 1.0 / 8192; // of white: less than half of an 8-bit step
+    const double exposure = state_.exposure_of(eyes_.observer_of(view).shot);
+    const bool dim = !state_.all_light && !state_.range && view.brightest_glow * exposure < unseen;
+    all.glows = (all.glows && !dim) || (state_.glows && world_.globes && world_.globes->have_glows());
     return all;
 }
 
 WarpVariant ViewConstants::variant_of_stars(const ViewState& view) const
 {
     WarpVariant all = variant(view);
-    all.mips = all.single = false;
+    all.mips = all.single = all.glows = false;
     all.cut = all.unaligned = true; // no pipeline for each kind of plan
     return all;
 }
@@ -104,7 +108,7 @@ WarpVariant ViewConstants::variant_metered(const ViewState& view, const Effects&
 {
     WarpVariant all = in_flight(variant_of_stars(view), on);
     all.mips = true;
-    all.range = state_.range.has_value();
+    all.range = state_.range.has_value(), all.glows = view.brightest_glow > 0;
     all.layered = views_.outputs[view.output].layers() > 1;
     return all;
 }

@@ -61,6 +61,8 @@ std::vector<WarmUp::State> states_of(bool combined)
     for (State state : {rest, slow, aside, brisk, few, fast, faster, fewer, fastest}) {
         state.range = true;
         states.push_back(state);
+        state.range = false, state.glows = true;
+        states.push_back(state);
     }
     for (std::size_t pattern = 1; pattern < pattern_names.size(); ++pattern)
         states.push_back({.pattern = Pattern(pattern)});
@@ -157,6 +159,7 @@ bool WarmUp::step(const Panel* hud)
         frame_.show(state.pattern);
         frame_.fade(state.fade);
         frame_.range(state.range ? std::optional(RangeCurve()) : std::nullopt);
+        frame_.glows(state.glows);
         frame_.vignette({}, state.fade);
         frame_.measure({}); // the device has finished the overlay before
         if (state.figures)

@@ -35,6 +35,7 @@ public:
         Pattern pattern = Pattern::none;
         double fade = 0;
         bool range = false; ///< a curve shows everything at once
+        bool glows = false; ///< what shines above a globe's air shows
         bool cut = false, mips = true; ///< tiles of several images; images with coarser levels, where the quality has any
     };
 

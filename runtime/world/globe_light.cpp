@@ -88,7 +88,7 @@ GlobeRows globe_rows(const SolarSystem& system, std::span<const glm::dvec4> part
         return through_air([white](double nm) { return white(nm) * rayleigh_depth(nm); }, air_mass(level));
     });
     add(rows, "white", [&](int level) { return through_air(white, air_mass(level)); });
-    for (const NamedTable& lamp : system.lamps) {
+    for (const NamedTable& lamp : system.lights) {
         const SpectralTable table{lamp.points};
         const Spectrum spectrum = law_of(table).spectrum;
         // A globe's "brightest_lamps" is a ratio of luminances. With the energy of sunlight, sodium has 1.45 times its

@@ -255,6 +255,22 @@ def cloud(w):
     t = np.tanh(k2 * tau)
     return gamma2 * t / (k2 + gamma1 * t)
 
+# What shines above the air: wavelength in nm, power per nm.
+AIRGLOW = [
+    (300, 0), (400, 0.9), (450, 1), (500, 1), (555.7, 1), (557.7, 42), (559.7, 1), (587.3, 0.95), (589.3, 8.8),
+    (591.3, 0.95), (650, 0.9), (700, 2), (760, 10), (840, 30), (1000, 120), (1300, 450), (1600, 800), (1800, 700),
+    (2100, 600), (2300, 0), (2500, 0),
+]
+AURORA = [
+    (300, 0), (389.4, 0.3), (391.4, 35), (393.4, 0.3), (425.8, 0.2), (427.8, 9.8), (429.8, 0.1), (468.9, 0.1),
+    (470.9, 1.9), (472.9, 0.05), (555.7, 0.05), (557.7, 49), (559.7, 0.05), (590, 0.2), (600, 0.4), (660, 0.5),
+    (690, 0.3), (750, 1.1), (900, 0.7), (1100, 0.4), (1300, 0), (2500, 0),
+]
+HIGH_AURORA = [
+    (300, 0), (425.8, 0), (427.8, 3), (429.8, 0), (555.7, 0), (557.7, 4.9), (559.7, 0), (628, 0), (630, 32.7),
+    (632, 0.3), (634.4, 0.3), (636.4, 10.8), (638.4, 0), (2500, 0),
+]
+
 
 def main(folder, out):
     kinds = {}
@@ -339,7 +355,25 @@ def main(folder, out):
         "lights": {"city-lights": {
             "source": "an estimate of a high-pressure sodium lamp's spectrum, not a measured table: self-reversed sodium D "
                       "lines, sodium lines at 498, 515, 568, 616, 818 and 1138 nm, on a weak continuum",
-            "measured_nm": [], "relative_power": [[float(x), float(y)] for x, y in zip(*SODIUM)]}},
+            "measured_nm": [], "relative_power": [[float(x), float(y)] for x, y in zip(*SODIUM)]},
+            "airglow": {
+                "source":
+                    "an estimate from typical strengths, not a measured table: a continuum of 3 R/nm with the lines "
+                    "of oxygen at 557.7 nm, 250 R, and of sodium at 589.3 nm, 50 R (Roach and Gordon 1973, The light "
+                    "of the night sky), and the hydroxyl's bands from 700 nm, 4.5 MR in all; lines are 2 nm wide",
+                "measured_nm": [], "relative_power": [[float(x), float(y)] for x, y in AIRGLOW]},
+            "aurora": {
+                "source":
+                    "an estimate from typical strengths, not a measured table: 100 R of oxygen at 557.7 nm go with "
+                    "50 R of ionized nitrogen at 391.4 nm, 15 R at 427.8 nm, 3 R at 470.9 nm, and nitrogen's bands "
+                    "from 590 nm (Vallance Jones 1974, Aurora); lines are 2 nm wide",
+                "measured_nm": [], "relative_power": [[float(x), float(y)] for x, y in AURORA]},
+            "high-aurora": {
+                "source":
+                    "an estimate from typical strengths, not a measured table: oxygen at 630.0 and 636.4 nm, three "
+                    "to one, with a tenth as much at 557.7 nm and some nitrogen at 427.8 nm (Vallance Jones 1974, "
+                    "Aurora); lines are 2 nm wide",
+                "measured_nm": [], "relative_power": [[float(x), float(y)] for x, y in HIGH_AURORA]}},
         "sun_limb_darkening": {
             "source": "Neckel and Labs 1994, Solar Physics 153, 91, table 1. The printed A2 at 365.875 nm, 0.17482, breaks "
                       "the paper's own sum; 0.17682 mends it. All rows: sum of A is 1 within 2e-5, disc mean over "

@@ -52,7 +52,10 @@ void make_views(Pipelines& pipelines)
     });
     also([](WarpVariant& v) { v.reproject = v.turning = v.stars = true; });
     also([](WarpVariant& v) { v.globes = 9, v.each_globe = v.stars = v.map = true; });
-    also([](WarpVariant& v) { v.globes = 9, v.rays = 2, v.each_globe = v.several_rest_frames = v.reproject = true; });
+    also([](WarpVariant& v) { v.globes = 9, v.each_globe = v.stars = v.map = v.glows = true; });
+    also([](WarpVariant& v) {
+        v.globes = 9, v.rays = 2, v.each_globe = v.several_rest_frames = v.reproject = v.glows = true;
+    });
     also([](WarpVariant& v) { v.several_rest_frames = true, v.rays = 2, v.rest_frames = MAX_REST_FRAMES; });
     also([](WarpVariant& v) { v.reproject = true, v.rays = 2; });
     also([](WarpVariant& v) { v.galilean = true; });
@@ -108,19 +111,19 @@ constexpr Ceiling ceilings[] = {
     {"layer pipeline", 25, 25, 62, 24},
     {"lookup pipeline", 48, 48, 62, 24},
     {"mapped surface pipeline", 216, 8134, 9341, 128},
-    {"measure pipeline", 290, 199438, 62, 128},
-    {"meter pipeline", 74, 31128, 62, 128},
+    {"measure pipeline", 290, 277595, 62, 128},
+    {"meter pipeline", 74, 49174, 62, 128},
     {"mip pipeline", 35, 35, 62, 24},
     {"overlay pipeline", 707, 780, 62, 24},
     {"pattern pipeline", 94, 94, 62, 24},
-    {"probe pipeline", 290, 31411, 62, 128},
+    {"probe pipeline", 290, 49457, 62, 128},
     {"scaled pipeline", 24, 24, 62, 24},
     {"sky pipeline", 74, 222, 79, 24},
     {"star meter pipeline", 28, 28, 88035, 48},
     {"stars pipeline", 44, 64, 88498, 48},
     {"surface pipeline", 30, 6289, 18574, 80},
     {"vignette pipeline", 130, 174, 62, 24},
-    {"warp pipeline", 304, 71760, 62, 128},
+    {"warp pipeline", 304, 108017, 62, 128},
 };
 
 bool made_with_mesa_22_3(const Device& card)

@@ -1062,13 +1062,55 @@ TEST(Physics, DetailsSlopeIsItsDifference)
         // The second derivative jumps at the cells' sides: by 6 of the finest octave, of 0.02 * 512 * 512.
         for (int field = 0; field < 2; ++field)
             EXPECT_NEAR((next.value[field] - before.value[field]) / (2 * step), here.slope[field], 0.05);
-        // A float knows the place to 3e-5 of a cell. The slopes of all octaves together are below 1,000, or 200 of the ground.
+        // A float knows the place to 3e-5 of a cell. The slopes of all octaves together are below 1,000, or 200 of the
+        // ground.
         const glm::vec3 rough(p);
         const pd::Detail exact = pd::detail_at(dvec3(rough), along, octaves);
         const pf::Detail floats = pf::detail_at(rough, glm::vec3(along), float(octaves));
         EXPECT_NEAR(floats.value.x, exact.value.x, 0.03);
         EXPECT_NEAR(floats.value.y, exact.value.y, 0.006);
     }
+}
+
+// An arc's light between two places is the mean of its light at the places between; a wider pixel has as much light.
+TEST(Physics, AnAurorasArcIsTheMeanOfItsPlaces)
+{
+    const double width = 0.0035;
+    for (const double from : {-0.03, -0.004, -1e-5, 0.002})
+        for (const double length : {1e-6, 5e-5, 1e-3, 0.02}) {
+            double mean = 0;
+            constexpr int count = 2000;
+            for (int i = 0; i < count; ++i)
+                mean += std::pow(std::cosh((from + length * (i + 0.5) / count) / width), -2) / count;
+            EXPECT_NEAR(pd::aurora_arc(from, from + length, width), mean, 1e-4) << from << " " << length;
+            EXPECT_NEAR(pd::aurora_arc(from + length, from, width), mean, 1e-4);
+            EXPECT_NEAR(pf::aurora_arc(float(from), float(from + length), float(width)), mean, 1e-3);
+        }
+    const pd::AuroraPlace far{-0.15, -0.13, 1}, farther{0.15, 0.17, 1};
+    EXPECT_NEAR(pd::aurora(far, farther, 1, 0), pd::aurora(far, farther, 1, 0.01), 1e-4);
+}
+
+// Both ovals lie around their middles, 16 to 25 degrees from them, and nowhere else is light.
+TEST(Physics, AurorasLieInTheirOvals)
+{
+    const dvec3 centre = glm::normalize(dvec3(0.1, 0.2, 0.95));
+    std::mt19937_64 random(11);
+    int bright = 0, near = 0;
+    for (int i = 0; i < 100000; ++i) {
+        std::normal_distribution<double> number;
+        const dvec3 up = glm::normalize(dvec3(number(random), number(random), number(random)));
+        const double off_deg = std::acos(glm::dot(up, centre)) / degree;
+        const pd::AuroraPlace at = pd::aurora_place(up, centre);
+        const double light = at.strength > 0 ? pd::aurora(at, at, 1, 0) : 0;
+        EXPECT_GE(light, 0);
+        if (light > 0.05) {
+            ++bright;
+            EXPECT_NEAR(off_deg, 20.6, 8.0);
+        }
+        near += std::abs(off_deg - 20.6) < 8;
+    }
+    EXPECT_GT(bright, near / 20);
+    EXPECT_LT(bright, near * 6 / 10);
 }
 
 TEST(Physics, DetailIsTheMapWhereAPixelIsWider)
