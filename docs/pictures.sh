@@ -51,6 +51,11 @@ END
 still names-flight --shot "$work/names-flight.json" --size 640x480 --sky-names
 convert "$work/names-rest/desk.png" "$work/names-flight/desk.png" -splice 4x0+0+0 +append -chop 4x0 -quality 85 docs/sky-names.jpg
 
+# The Earth by day and by night: clouds from the height of an airliner, aurora from a space station's.
+still clouds --shot earth-10km --size 640x400
+still aurora --shot aurora --size 640x400
+convert "$work/clouds/desk.png" "$work/aurora/desk.png" -splice 4x0+0+0 +append -chop 4x0 -quality 88 docs/earth.jpg
+
 # The worlds.
 while read -r world shot; do
     still "world-$world" --shot "$shot" --size 640x400
