@@ -200,7 +200,8 @@ void add_glows(vec3 own, GlobeRay ray, ShiftColumn column, float disc, inout vec
         before += light * way.x, behind += light * way.y;
     }
     float lowest = half_chord_in(globes.glows[even].x, ray), highest = half_chord_in(globes.aurora.w, ray);
-    bool far = meets_aurora(own, ray, max(lowest, -ray.ahead), highest) && ray.off > 1.0 - ray.pixel;
+    bool hidden = ray.ahead > 0.0 && ray.off < 1.0 - ray.pixel; // by the ground
+    bool far = !hidden && meets_aurora(own, ray, max(lowest, -ray.ahead), highest);
     bool near = meets_aurora(own, ray, max(-highest, -ray.ahead), -lowest);
     // A driver in software computes a branch that no pixel takes, but ends a loop.
     int last = far ? 2 * layers + 1 : near ? layers : -1;

@@ -463,7 +463,7 @@ void GlobeSight::add_glows(const Body& body, const Sight& sight, bool behind, do
             light *= sum / places;
         }
         if (light > 0)
-            out.terms.push_back({body.glows[i], light * pixel.part * through.grey, air});
+            out.terms.push_back({body.glows[i], light * pixel.part * through.grey * std::exp(-lamps_depth * air), 0});
     }
 }
 

@@ -162,6 +162,8 @@ std::vector<Subject> subjects()
     const dvec3 south = glm::normalize(s.on_earth(-60, 118, southern_midnight));
     all.push_back({"aurora from 420 km", s.place("Earth", southern_midnight) + south * earth * (1 + 420e3 / 6378e3),
         tilted(tilted(south, -north, 90), -south, 26), 50, southern_midnight});
+    all.push_back({"aurora above the sea", s.place("Earth", southern_midnight) + south * earth * (1 + 2e3 / 6378e3),
+        tilted(tilted(south, -north, 90), south, 35), 80, southern_midnight});
     for (Subject& one : all) {
         const std::string name = one.name;
         const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
