@@ -199,6 +199,8 @@ void add_glows(vec3 own, GlobeRay ray, ShiftColumn column, float disc, inout vec
         vec3 light = globe_colour(column, layer.w, 0.0) * (layer.z * disc);
         before += light * way.x, behind += light * way.y;
     }
+    if (layers == 0)
+        return;
     float lowest = half_chord_in(globes.glows[even].x, ray), highest = half_chord_in(globes.aurora.w, ray);
     bool hidden = ray.ahead > 0.0 && ray.off < 1.0 - ray.pixel; // by the ground
     bool far = !hidden && meets_aurora(own, ray, max(lowest, -ray.ahead), highest);

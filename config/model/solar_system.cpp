@@ -104,12 +104,12 @@ std::vector<NamedTable> read_kinds(const Place& place, const char* member_name)
     return kinds;
 }
 
-/// The name of one of the system's lights.
-std::string light_of(const Place& at, const SolarSystem& system)
+/// The name of one of the tables of a member of the file of spectra. what: such as "kind" of "kinds".
+std::string name_in(const std::vector<NamedTable>& tables, const Place& at, const std::string& what)
 {
     const std::string name = text(at);
-    if (std::none_of(system.lights.begin(), system.lights.end(), [&](const NamedTable& one) { return one.name == name; }))
-        fail_at(at, "is not a light of the file of \"spectra\"; one of its \"lights\" is right");
+    if (std::none_of(tables.begin(), tables.end(), [&](const NamedTable& one) { return one.name == name; }))
+        fail_at(at, "is not a " + what + " of the file of \"spectra\"; one of its \"" + what + "s\" is right");
     return name;
 }
 
@@ -121,7 +121,7 @@ std::vector<Glow> read_glows(const Place& air, const SolarSystem& system)
     for (const Place& at : list ? items(*list, 0, most_glows, "glows") : std::vector<Place>()) {
         reject_unknown_members(at, {"from_km", "to_km", "zenith", "light", "aurora"});
         Glow glow{number(member(at, "from_km"), {0, 10000}) * 1000, number(member(at, "to_km"), {0, 10000}) * 1000,
-            number(member(at, "zenith"), {0, 1}), light_of(member(at, "light"), system), false};
+            number(member(at, "zenith"), {0, 1}), name_in(system.lights, member(at, "light"), "light"), false};
         read_optional(at, "aurora", glow.aurora);
         if (!(glow.to_m > glow.from_m))
             fail_at(member(at, "to_km"), "is not above \"from_km\"; a greater height is right");
@@ -231,19 +231,12 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
         if (auto p = find_member(at, "map"))
             globe.map = folder / text(*p);
         read_optional(at, "map_scale", globe.map_scale, {0, 100, true});
-        const auto known = [&](const Place& kind) {
-            const std::string own = text(kind);
-            if (std::none_of(
-                    system.kinds.begin(), system.kinds.end(), [&](const NamedTable& one) { return one.name == own; }))
-                fail_at(kind, "is not a kind of the file of \"spectra\"; one of its \"kinds\" is right");
-            return own;
-        };
         if (globe.scattering != Scattering::sun) {
             const std::vector<Place> kinds
                 = items(member(at, "kinds"), 4, 4, "kinds (of red, green, blue and the rest; null: none)");
             for (std::size_t k = 0; k < 4; ++k)
                 if (!kinds[k].json->is_null())
-                    globe.kinds[k] = known(kinds[k]);
+                    globe.kinds[k] = name_in(system.kinds, kinds[k], "kind");
         }
         if (auto p = find_member(at, "dimming")) {
             const std::vector<Place> two = items(*p, 2, 2, "numbers (magnitudes per degree, per its fourth power)");
@@ -255,7 +248,7 @@ SolarSystem load_solar_system(const std::filesystem::path& file)
                 folder / text(member(*p, "water")), folder / text(member(*p, "lamps")),
                 number(member(*p, "brightest_lamps"), {0, 1}), {}, read_glows(*p, system)};
             if (auto lamp = find_member(*p, "lamp"))
-                globe.air->lamp = light_of(*lamp, system);
+                globe.air->lamp = name_in(system.lights, *lamp, "light");
             if (std::any_of(
                     system.globes.begin(), system.globes.end(), [](const Globe& other) { return other.air.has_value(); }))
                 fail_at(*p, "is a second globe's; one globe with air is right");

@@ -70,6 +70,11 @@ struct Glow {
 
 constexpr std::size_t most_glows = 8;
 
+/// The Earth's geomagnetic pole in the north, latitude and longitude (International Geomagnetic Reference Field, 2020), and
+/// the angle from there, towards midnight, of the middle of an aurora's oval (docs/physics/solar-system.md).
+constexpr glm::dvec2 geomagnetic_pole_deg{80.65, -72.68};
+constexpr double oval_from_pole_deg = 4;
+
 /// A globe's air: the height over which its density falls to 1/e. Only one globe has air, and the maps for it.
 struct Air {
     double scale_height_m;

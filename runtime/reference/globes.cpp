@@ -164,6 +164,7 @@ GlobeColours::GlobeColours(const Globes& globes, const StandardObserver& observe
     : globes_(globes)
     , observer_(observer)
     , sun_(std::pow(astronomical_unit_m / globes.system.globes.front().radius_m, 2))
+    , first_light_(first_kind + int(globes.system.kinds.size()))
     , coarse_(observer)
 {
     if (&observer == &eye()) {
@@ -173,7 +174,6 @@ GlobeColours::GlobeColours(const Globes& globes, const StandardObserver& observe
             coarse_.samples.back().width_nm *= 5;
         }
     }
-    const int first_light = first_kind + int(globes.system.kinds.size());
     for (const NamedTable& one : globes.system.lights) {
         const int index = light(one.name);
         lights_.push_back(1);
@@ -182,7 +182,7 @@ GlobeColours::GlobeColours(const Globes& globes, const StandardObserver& observe
                                      .y;
         lights_.back() = 1 / luminance;
     }
-    for (int i = 0; i < first_light + int(lights_.size()); ++i)
+    for (int i = 0; i < first_light_ + int(lights_.size()); ++i)
         seen_.push_back(std::make_unique<ByShift>(
             1,
             [this, i](double D, glm::dvec3* out) {
@@ -190,22 +190,17 @@ GlobeColours::GlobeColours(const Globes& globes, const StandardObserver& observe
                     * starbow::seen(
                         observer_, [this, i](double nm) { return spectrum(i, nm); }, D);
             },
-            i < first_light));
+            i < first_light_));
 }
 
-int GlobeColours::kind(const std::string& name) const
+/// first plus a table's place in the list; -1 for an empty name.
+static int numbered(int first, const std::vector<NamedTable>& tables, const std::string& name)
 {
-    const std::vector<NamedTable>& kinds = globes_.system.kinds;
-    const auto at = std::find_if(kinds.begin(), kinds.end(), [&](const NamedTable& one) { return one.name == name; });
-    return at == kinds.end() ? -1 : first_kind + int(at - kinds.begin());
+    const auto at = std::find_if(tables.begin(), tables.end(), [&](const NamedTable& one) { return one.name == name; });
+    return at == tables.end() ? -1 : first + int(at - tables.begin());
 }
-
-int GlobeColours::light(const std::string& name) const
-{
-    const std::vector<NamedTable>& lights = globes_.system.lights;
-    const auto at = std::find_if(lights.begin(), lights.end(), [&](const NamedTable& one) { return one.name == name; });
-    return first_kind + int(globes_.system.kinds.size()) + int(at - lights.begin());
-}
+int GlobeColours::kind(const std::string& name) const { return numbered(first_kind, globes_.system.kinds, name); }
+int GlobeColours::light(const std::string& name) const { return numbered(first_light_, globes_.system.lights, name); }
 
 double GlobeColours::optical_depth(double nm)
 {
@@ -240,9 +235,10 @@ std::array<double, 6> limb_at(const SolarSystem& system, double nm)
 double GlobeColours::spectrum(int index, double nm) const
 {
     static const Spectrum sunlight = sunlit_white();
-    if (const int at = index - first_kind - int(globes_.system.kinds.size());
-        at >= 0) // per frequency; tables are per wavelength
-        return lights_[std::size_t(at)] * lamp(globes_.system.lights[std::size_t(at)].points, nm) * nm * nm;
+    if (index >= first_light_) { // per frequency; tables are per wavelength
+        const std::size_t at = std::size_t(index - first_light_);
+        return lights_[at] * lamp(globes_.system.lights[at].points, nm) * nm * nm;
+    }
     const double light = sunlight(nm);
     if (index == white)
         return light;
@@ -342,17 +338,16 @@ GlobeSight::GlobeSight(
         for (std::size_t k = 0; k < 4; ++k)
             body.kinds[k] = colours.kind(globe.kinds[k]);
         body.clouds = colours.kind("cloud");
-        if (globe.air && !globe.air->lamp.empty())
+        if (globe.air) {
             body.lamps = colours.light(globe.air->lamp);
-        for (const Glow& glow : globe.air ? globe.air->glows : std::vector<Glow>())
-            body.glows.push_back(colours.light(glow.light));
-        if (!body.glows.empty()) {
-            // 4 degrees from the geomagnetic pole of 80.65 N, 72.68 W, on the great circle to the point under the midnight
-            // Sun.
-            const double up = 80.65 * degree, east = -72.68 * degree;
+            for (const Glow& glow : globe.air->glows)
+                body.glows.push_back(colours.light(glow.light));
+            // On the great circle from the pole to the point opposite to the Sun.
+            const double up = geomagnetic_pole_deg.x * degree, east = geomagnetic_pole_deg.y * degree;
+            const double off = oval_from_pole_deg * degree;
             const glm::dvec3 pole(std::cos(up) * std::cos(east), std::cos(up) * std::sin(east), std::sin(up));
             const glm::dvec3 axis = glm::normalize(glm::cross(pole, -body.to_sun));
-            body.oval = std::cos(4 * degree) * pole + std::sin(4 * degree) * glm::cross(axis, pole);
+            body.oval = std::cos(off) * pole + std::sin(off) * glm::cross(axis, pole);
         }
         if (globe.ring)
             body.rings = colours.kind(globe.ring->kind);
@@ -436,7 +431,7 @@ void GlobeSight::add_glows(const Body& body, const Sight& sight, bool behind, do
     const Globe& globe = *body.globe;
     for (std::size_t i = 0; i < body.glows.size(); ++i) {
         const Glow& glow = globe.air->glows[i];
-        // What lies within the outer ball and not within the inner one.
+        // The layer is the part of the outer ball that lies outside of the inner one.
         const auto [enters, leaves] = sight.within(globe.radius_m + glow.to_m);
         const auto [hole_begins, hole_ends] = sight.within(globe.radius_m + glow.from_m);
         double begin = std::max(enters, first), end = std::min(leaves, last);

@@ -21,7 +21,7 @@ public:
     static constexpr int sun = 2; ///< and the next five: the Sun's mean surface, by powers of the cosine
     /// The number of a kind of ground: sunlight times its reflectance. -1 for an empty name.
     int kind(const std::string& name) const;
-    /// The number of a light of the system's file, with the luminance 1.
+    /// The number of a light of the system's file, with the luminance 1. -1 for an empty name.
     int light(const std::string& name) const;
 
     /// The colour of the light seen at D, Rec. 709 linear, without the headlight effect. Several threads may call it.
@@ -38,6 +38,7 @@ private:
     const Globes& globes_;
     const StandardObserver& observer_;
     double sun_; ///< factor of the Sun's surface
+    int first_light_; ///< light() of the first one
     std::vector<double> lights_; ///< factors of the lights' tables
     StandardObserver coarse_; ///< every 5 nm, for light through air
     std::vector<std::unique_ptr<ByShift>> seen_; ///< without air

@@ -122,19 +122,18 @@ double top_m(const Air& air)
 
 static_assert(most_glows == MAX_GLOWS);
 
-/// The angle of an aurora's oval's middle from the geomagnetic pole, towards midnight: Feldstein, "The discovery and the
-/// first studies of the auroral oval", 2016.
-constexpr double oval_offset_deg = 4;
+/// Steps of D up to 1.1^160, or 4 million, beyond that of any ship.
+constexpr double glow_step = 1.1;
+constexpr std::size_t glow_steps = 161;
 
-/// The middle of the northern oval, own axes of the Earth; to_sun: unit, the same. The geomagnetic pole is that of the
-/// International Geomagnetic Reference Field of 2020.
+/// The middle of the northern oval, own axes of the Earth; to_sun: unit, the same.
 glm::dvec3 oval_middle(const glm::dvec3& to_sun)
 {
-    constexpr double latitude_deg = 80.65, longitude_deg = -72.68;
-    const glm::dvec3 pole(std::cos(latitude_deg * degree) * std::cos(longitude_deg * degree),
-        std::cos(latitude_deg * degree) * std::sin(longitude_deg * degree), std::sin(latitude_deg * degree));
+    const auto [latitude, longitude] = std::pair(geomagnetic_pole_deg.x * degree, geomagnetic_pole_deg.y * degree);
+    const glm::dvec3 pole(
+        std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude), std::sin(latitude));
     const glm::dvec3 to_midnight = glm::normalize(glm::dot(to_sun, pole) * pole - to_sun);
-    return std::cos(oval_offset_deg * degree) * pole + std::sin(oval_offset_deg * degree) * to_midnight;
+    return std::cos(oval_from_pole_deg * degree) * pole + std::sin(oval_from_pole_deg * degree) * to_midnight;
 }
 
 } // namespace
@@ -160,6 +159,7 @@ GpuGlobes::GpuGlobes(Device& device, std::shared_ptr<const Globes> globes, const
         name_object(device, *image, "globes: light");
     }
     upload_maps(device);
+    find_brightest_glows();
 }
 
 void GpuGlobes::upload_maps(Device& device)
@@ -171,7 +171,7 @@ void GpuGlobes::upload_maps(Device& device)
         const Texture& map = globes_->maps[i];
         layers_.push_back(map.rgba.empty() || globe.air ? -1 : int(plain.size()));
         if (globe.air)
-            fine = {&map, &globes_->sky}, have_glows_ = !globe.air->glows.empty();
+            fine = {&map, &globes_->sky};
         else if (!map.rgba.empty())
             plain.push_back(&map);
         if (globe.ring) {
@@ -256,8 +256,9 @@ shared::GlobeConstants GpuGlobes::constants(const Seen& all_seen, double pre_exp
                 const double inner = 1 + glows[i].from_m / globe.radius_m, outer = 1 + glows[i].to_m / globe.radius_m;
                 all.glows[i] = glm::vec4(inner, outer, glows[i].zenith / (outer - inner), row_of(glows[i].light));
                 (glows[i].aurora ? all.first.z : all.first.y) += 1;
-                all.aurora = glm::vec4(oval_middle(sun), outer);
             }
+            if (!glows.empty())
+                all.aurora = glm::vec4(oval_middle(sun), all.glows[glows.size() - 1].y);
         }
         if (far > 0)
             entry.lamps.z = float(globe.radius_m / (far * astronomical_unit_m));
@@ -277,27 +278,39 @@ shared::GlobeConstants GpuGlobes::constants(const Seen& all_seen, double pre_exp
     return all;
 }
 
+void GpuGlobes::find_brightest_glows()
+{
+    constexpr double most_aurora = 3; // over a full arc, where arcs and rays meet
+    for (const Globe& globe : globes_->system.globes)
+        for (const Glow& glow : globe.air ? globe.air->glows : std::vector<Glow>()) {
+            // Through the layer and out again, past its lower side.
+            const double thick = (glow.to_m - glow.from_m) / globe.radius_m, way = 2 * std::sqrt(3 * thick) / thick;
+            const double most = glow.zenith * way * (glow.aurora ? most_aurora : 1);
+            const int row = rows_.first.at(glow.light);
+            brightest_glows_.resize(glow_steps);
+            double light = 0;
+            for (std::size_t i = 0; i < glow_steps; ++i) {
+                const double D = std::pow(glow_step, double(i));
+                for (const std::vector<glm::vec4>* texels : {&light_texels_, &false_texels_}) {
+                    const glm::dvec3 colour = starbow::globe_colour(*texels, row, D);
+                    light = std::max(light, std::max({colour.r, colour.g, colour.b}) * physics::headlight(D));
+                }
+                brightest_glows_[i] += light * most;
+            }
+        }
+}
+
 double GpuGlobes::brightest_glow(const Seen& all, double E) const
 {
     constexpr double farthest_radii = 100; // from there the airglow is 3 seconds of arc wide
-    constexpr double most_aurora = 3; // over a full arc, where arcs and rays meet
-    double most = 0;
-    for (const SeenGlobe& one : all.globes) {
+    const bool near = std::ranges::any_of(all.globes, [&](const SeenGlobe& one) {
         const Globe& globe = globes_->system.globes[one.globe];
-        if (!globe.air || one.distance * unit_m_ > farthest_radii * globe.radius_m)
-            continue;
-        for (const Glow& glow : globe.air->glows) {
-            double light = 0;
-            for (double D = 1; D <= std::max(E, 1.0) * 1.1; D *= 1.1) {
-                const glm::dvec3 colour = starbow::globe_colour(light_texels_, rows_.first.at(glow.light), D);
-                light = std::max(light, std::max({colour.r, colour.g, colour.b}) * physics::headlight(D));
-            }
-            // Through the layer and out again, past its lower side.
-            const double thick = (glow.to_m - glow.from_m) / globe.radius_m, way = 2 * std::sqrt(3 * thick) / thick;
-            most += light * glow.zenith * way * (glow.aurora ? most_aurora : 1);
-        }
-    }
-    return most;
+        return globe.air && one.distance * unit_m_ <= farthest_radii * globe.radius_m;
+    });
+    if (!near || !have_glows())
+        return 0;
+    const double step = std::ceil(std::log(std::max(E, 1.0)) / std::log(glow_step));
+    return brightest_glows_[std::size_t(std::min(step, double(glow_steps - 1)))];
 }
 
 void GpuGlobes::as_stars(const Seen& all_seen, std::span<shared::StarEntry> entries) const

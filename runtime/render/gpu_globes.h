@@ -14,7 +14,7 @@ public:
     GpuGlobes(Device& device, std::shared_ptr<const Globes> globes, const GlobeSky& sky, double seconds_per_time_unit,
         double unit_m, const glm::dmat3& world_from_equatorial);
 
-    bool have_glows() const { return have_glows_; } ///< something shines above some globe's air
+    bool have_glows() const { return !brightest_glows_.empty(); } ///< something shines above some globe's air
     int count() const { return int(globes_->system.globes.size()); }
     const Globes& globes() const { return *globes_; }
 
@@ -50,10 +50,11 @@ private:
     double seconds_, unit_m_;
     glm::dmat3 world_from_equatorial_;
     GlobeRows rows_;
-    bool have_glows_ = false;
+    std::vector<double> brightest_glows_; ///< brightest_glow near the globe, by E in equal ratios; empty: no glows
     std::vector<glm::vec4> light_texels_, false_texels_;
     std::vector<int> layers_; ///< of maps; -1: none
     void upload_maps(Device& device);
+    void find_brightest_glows();
 };
 
 } // namespace starbow

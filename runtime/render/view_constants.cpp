@@ -92,7 +92,7 @@ WarpVariant ViewConstants::variant_shown(const ViewState& view) const
     constexpr double unseen = 1.0 / 8192; // of white: less than half of an 8-bit step
     const double exposure = state_.exposure_of(eyes_.observer_of(view).shot);
     const bool dim = !state_.all_light && !state_.range && view.brightest_glow * exposure < unseen;
-    all.glows = (all.glows && !dim) || (state_.glows && world_.globes && world_.globes->have_glows());
+    all.glows = all.glows && !dim;
     return all;
 }
 

@@ -136,7 +136,8 @@ void ViewDescriptors::write_globes(ViewState& view)
     shared::GlobeConstants constants = world_.globes->constants(seen, state_.pre_exposure);
     world_.globes->add_glare(constants, seen, world.motion_from_frame, world.E, eyes_.observer_of(view).shot.effects);
     copy_to(view.globes, std::as_bytes(std::span(&constants, 1)));
-    view.brightest_glow = world_.globes->brightest_glow(seen, world.E);
+    const bool in_any_case = state_.glows && world_.globes->have_glows();
+    view.brightest_glow = in_any_case ? INFINITY : world_.globes->brightest_glow(seen, world.E);
 }
 
 void ViewDescriptors::write_range()

@@ -129,10 +129,11 @@ void ViewMeasurement::draw(vk::CommandBuffer commands, std::size_t output, std::
         const ViewState& view = views_.all[i];
         const glm::ivec2 corner = view.geometry().corner, size = view.geometry().size;
         shared::ViewPush constants = constants_.exposed_push(view, 1);
-        WarpVariant own = constants_.variant(view);
-        own.glows = false; // lines and scales have no light of the world
-        if (what_.over.any())
+        if (what_.over.any()) {
+            WarpVariant own = constants_.variant(view);
+            own.glows = false; // lines and scales have no light of the world
             overlay_->draw(commands, i, own, what_.over, *view.warp_set, constants, corner, size, target);
+        }
         if (what_.panel)
             panel_->draw(commands, i, view.compiled.map != nullptr,
                 constants_.push(view, panel_->place().panel_from_cockpit), corner, size, boxes_[i], what_.scale, target);

@@ -23,7 +23,7 @@ struct ViewState {
     glm::dvec3 beside_m{0}; ///< the eye's place relative to cube_m
     LitPixels pixels; ///< at which something shows, for this frame
     Buffer globes; ///< GlobeConstants; null in worlds without
-    double brightest_glow = 0; ///< GpuGlobes::brightest_glow
+    double brightest_glow = 0; ///< GpuGlobes::brightest_glow, or infinite by FrameState::glows
     Buffer rest_frames; ///< RestFrameConstants; null where no shader reads them
     const View& geometry() const { return compiled.view; }
 };

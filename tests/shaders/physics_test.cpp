@@ -1090,7 +1090,7 @@ TEST(Physics, AnAurorasArcIsTheMeanOfItsPlaces)
     EXPECT_NEAR(pd::aurora(far, farther, 1, 0), pd::aurora(far, farther, 1, 0.01), 1e-4);
 }
 
-// Both ovals lie around their middles, 16 to 25 degrees from them, and nowhere else is light.
+// An oval's light lies within 8 degrees of its circle, on some of it.
 TEST(Physics, AurorasLieInTheirOvals)
 {
     const dvec3 centre = glm::normalize(dvec3(0.1, 0.2, 0.95));
