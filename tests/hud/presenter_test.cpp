@@ -158,7 +158,8 @@ TEST(Presenter, KeysGiveTheCommandsThatTheyName)
     EXPECT_EQ(after(state, hands, {'0'}), std::nullopt); // there are no ten tours
     EXPECT_EQ(after(state, hands, {keys::escape, '0'}), (Command{.kind = scene, .text = state.scenes[9].first}));
     EXPECT_EQ(after(state, hands, {'V', 'M', '1'}), (Command{.kind = shot, .text = state.shots[10].first}));
-    EXPECT_EQ(after(state, hands, {'Y'}), std::nullopt);
+    constexpr int f25 = 314; // no letter: a later effect may have any
+    EXPECT_EQ(after(state, hands, {f25}), std::nullopt);
 }
 
 TEST(Presenter, ASecondPressWithinAFrameGoesOnFromTheFirst)
