@@ -111,6 +111,7 @@ done <<'END'
 first-minute
 street
 rainbow
+aurora
 simultaneity
 twins
 solar-system

@@ -219,8 +219,8 @@ void add_glows(vec3 own, GlobeRay ray, ShiftColumn column, float disc, inout vec
         if (k > 0 && k != layers + 1 && way > 0.0) {
             // The rays are those of the place nearest to the outer arc.
             float at = mix(from_along, along, clamp(from.outer / (from.outer - here.outer), 0.0, 1.0));
-            float pixel = ray.pixel / max(ray.ahead, 1e-9) * max(ray.ahead + at, 0.0);
             vec4 layer = globes.glows[even + (down ? boundary : boundary - 1)];
+            float pixel = aurora_pixel(ray.pixel / max(ray.ahead, 1e-9) * max(ray.ahead + at, 0.0), layer.x - 1.0);
             vec3 light = globe_colour(column, layer.w, 0.0)
                 * (layer.z * disc * way * aurora(from, here, aurora_rays(above_globe(own, ray, at), pixel), pixel));
             before += down ? light : vec3(0.0), behind += down ? vec3(0.0) : light;

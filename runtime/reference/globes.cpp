@@ -449,7 +449,8 @@ void GlobeSight::add_glows(const Body& body, const Sight& sight, bool behind, do
             constexpr int places = 32;
             double sum = 0;
             for (int k = 0; k < places; ++k) {
-                const double way = begin + (end - begin) * (k + 0.5) / places, width = pixel.rad * way / globe.radius_m;
+                const double way = begin + (end - begin) * (k + 0.5) / places,
+                             width = physics::aurora_pixel(pixel.rad * way / globe.radius_m, glow.from_m / globe.radius_m);
                 const glm::dvec3 up = glm::normalize(sight.from + sight.direction * way);
                 const auto here = physics::aurora_place(up, (glm::dot(up, body.oval) < 0 ? -1.0 : 1.0) * body.oval);
                 if (here.strength > 0)

@@ -25,6 +25,14 @@ FN AuroraPlace aurora_place(rvec3 up, rvec3 centre)
     return at;
 }
 
+// The width of a pixel with the drift of what shines. Atoms that shine red were hit 110 s before, in which winds of 500 m/s carry
+// them on. height: above the ground, radii.
+FN real aurora_pixel(real pixel, real height)
+{
+    real drift = min(max(height - real(0.02), real(0.0)), real(0.01));
+    return sqrt(pixel * pixel + drift * drift);
+}
+
 // The rays of the outer arc: the factor of its light, of the mean 1. pixel: a pixel's width there, radians.
 FN real aurora_rays(rvec3 up, real pixel)
 {

@@ -122,7 +122,7 @@ mkdir "$folder/empty"
 refused "ffmpeg, which makes movies of pictures, can't be started (No such file or directory)" env PATH="$folder/empty" "$program" render --tour "$folder/tour.json" --movie "$folder/none.mp4"
 ok [ ! -e "$folder/none.mp4.frames" ]
 refused 'one that ends in .mp4 is right' "$program" render --tour first-minute --movie "$folder/none.avi"
-refused 'there are: first-minute, rainbow, simultaneity' "$program" render --tour none --movie "$folder/none.mp4"
+refused 'there are: aurora, first-minute, rainbow, simultaneity' "$program" render --tour none --movie "$folder/none.mp4"
 refused 'there are: de, en' "$program" render --tour rainbow --movie "$folder/none.mp4" --language xx
 refused 'is not a folder' "$program" render --tour rainbow --movie "$folder/tour.json/none.mp4"
 refused '--fps' "$program" render --tour rainbow --movie "$folder/none.mp4" --fps 0
@@ -156,7 +156,7 @@ said=$("$program" check --flashes "$folder/fades.json" --out "$folder/fades.png"
 ok [ $? = 0 ]
 ok eval 'printf "%s\n" "$said" | grep -q "this keeps to that limit"'
 refused 'does not end in .png' "$program" check --flashes "$folder/flicker.json" --out "$folder/flicker.svg"
-refused 'there are: first-minute' "$program" check --flashes none
+refused 'there are: aurora, first-minute' "$program" check --flashes none
 refused 'none.jsonl' "$program" check --flashes "$folder/none.jsonl"
 refused '--flashes' "$program" check desk --flashes first-minute
 

@@ -40,7 +40,7 @@ TEST(ProgrammeFile, WrongItemsAreRefusedWithTheirPlace)
         {R"({ "tour": "rainbow", "scene": "avenue", "minutes": 3 })", "/items/0"},
         {R"({ "minutes": 3 })", "exactly one of \"tour\", \"scene\" and \"shot\" is right"},
         {R"({ "tour": "rainbow" })", "lacks \"minutes\""}, {R"({ "tour": "rainbow", "minutes": 0 })", "/items/0/minutes"},
-        {R"({ "tour": "rainbows", "minutes": 3 })", "is not among the shipped tours; one of these is right: first-minute, "},
+        {R"({ "tour": "rainbows", "minutes": 3 })", "is not among the shipped tours; one of these is right: aurora, first-minute, "},
         {R"({ "shot": "../earth", "minutes": 3 })", "is not among the shipped shots"},
         {R"({ "tour": "rainbow", "minutes": 3, "notes": "Welcome" })", "is not an object; { \"en\": \"...\""},
         {R"({ "tour": "rainbow", "minutes": 3, "note": { "en": "Welcome" } })", "stands under an unknown name; \"notes\""},

@@ -206,6 +206,12 @@ dvec3 sun()
 }
 const dvec3 saturn(-1065.36964085 + 0.582790378366, 245.286484011 + 0.338137762192, -4265.03607586 - 0.738930462672);
 
+/// The southern lights' curtain where the tour of them begins to fly at it, 120 km above the sea.
+const dvec3 curtain(0.0064587, -0.0195263, -0.0067516);
+/// The colour of its light that has a wavelength where it shines.
+std::string seen_nm(const Frame& f, double nm) { return colour_of(nm / f.D(curtain)); }
+constexpr double oxygen_green = 557.7, oxygen_red = 630.0, nitrogen = 391.4; ///< lines in air
+
 /// A glide's last thousandth of a second is not rest to the bit.
 bool rests(const Frame& f) { return glm::length(f.u) < 1e-3; }
 bool stands(const Spoken& s)
@@ -602,6 +608,52 @@ const std::map<std::string, Description>& descriptions()
                     }}}}},
         {"rainbow.see-10", {"Ihr eigener Flug", {}}},
 
+        {"aurora.see-0",
+            {"Unter uns die Nachtseite der Erde: Ein heller grüner Vorhang",
+                {{"night side below", [](const Spoken& s) { return glm::dot(glm::normalize(s.begin().at), sun()) < 0; }},
+                    {"green curtain", [](const Spoken& s) { return seen_nm(s.begin(), oxygen_green) == "green"; }},
+                    {"red veil", [](const Spoken& s) { return seen_nm(s.begin(), oxygen_red) == "red"; }}}}},
+        {"aurora.see-1",
+            {"Während wir darauf zu schneller werden, wird der rote Schleier grün",
+                {{"speed up towards it",
+                     [](const Spoken& s) { return s.grows([](const Frame& f) { return f.D(curtain); }); }},
+                    {"the red veil turns green",
+                        [](const Spoken& s) {
+                            return seen_nm(s.begin(), oxygen_red) == "red" && seen_nm(s.end(), oxygen_red) == "green";
+                        }}}}},
+        // Hydroxyl's bands: the tour's first ones are from 700 nm on, the bright ones beyond 1000.
+        {"aurora.see-2",
+            {"Die dunkle Erde unter dem Vorhang beginnt tiefrot zu leuchten",
+                {{"begins to shine, deep red",
+                    [](const Spoken& s) { return seen_nm(s.begin(), 850) == "dark" && seen_nm(s.end(), 850) == "red"; }}}}},
+        {"aurora.see-3",
+            {"Die ganze Nachtseite leuchtet orange",
+                {{"shines, orange",
+                    [](const Spoken& s) {
+                        return seen_nm(s.begin(), 1050) == "dark" && seen_nm(s.end(), 1050) == "orange";
+                    }}}}},
+        {"aurora.see-4",
+            {"Während wir bremsen, wird die Erde dunkel und der Vorhang grün",
+                {{"grows dark",
+                     [](const Spoken& s) { return seen_nm(s.begin(), 850) != "dark" && seen_nm(s.end(), 750) == "dark"; }},
+                    {"green",
+                        [](const Spoken& s) { return rests(s.end()) && seen_nm(s.end(), oxygen_green) == "green"; }}}}},
+        {"aurora.see-5",
+            {"Während wir davonfliegen, wird der Vorhang purpurn",
+                {{"fly away", [](const Spoken& s) { return glm::dot(s.end().u, curtain - s.end().at) < 0; }},
+                    {"turns purple",
+                        [](const Spoken& s) {
+                            return seen_nm(s.end(), oxygen_green) == "red" && seen_nm(s.end(), nitrogen) == "blue";
+                        }}}}},
+        {"aurora.see-6",
+            {"Der purpurne Vorhang steht still",
+                {{"purple", [](const Spoken& s) { return seen_nm(s.begin(), oxygen_green) == "red"; }},
+                    {"stands still", stands}}}},
+        {"aurora.see-7",
+            {"Der Vorhang ist wieder grün, der Schleier darüber rot, die Erde dunkel",
+                {{"green again", [](const Spoken& s) { return seen_nm(s.end(), oxygen_green) == "green"; }},
+                    {"above it red", [](const Spoken& s) { return seen_nm(s.end(), oxygen_red) == "red"; }},
+                    {"dark", [](const Spoken& s) { return rests(s.end()) && seen_nm(s.end(), 750) == "dark"; }}}}},
         {"simultaneity.see-0",
             {"Fünf große Uhren stehen in einer Reihe",
                 {{"Five great clocks in a row",
