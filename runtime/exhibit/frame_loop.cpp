@@ -42,6 +42,7 @@ FrameLoop::FrameLoop(Session& session, RemoteControl& remote, Presenter& present
     , screens_(device_, session.layout, session.options.node)
     , cold_(session.options.warms_up.value_or(!device_.on_processor()))
     , most_pipelines_(device_.on_processor() ? most_pipelines_in_software : most_pipelines)
+    , pictures_(std::bind_front(drawn_thumbnails, session.options.cache, session.options.words))
     , done_(device_.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
     , live_(device_)
     , commands_(device_.device, {*device_.pool, vk::CommandBufferLevel::ePrimary, 2})

@@ -2,6 +2,7 @@
 #include "config/json/error.h"
 #include "config/model/named_words.h"
 #include "config/model/shipped.h"
+#include "runtime/hud/small_picture.h"
 #include <algorithm>
 #include <cmath>
 
@@ -101,6 +102,9 @@ Caption caption_of(const MenuState& menu, std::span<const MenuPage> pages, const
     Caption caption{.text = page.title, .chosen = int(menu.item), .menu = true};
     for (const MenuItem& item : page.items)
         caption.choices.push_back(item.text);
+    if (const auto& [shown, item] = menu.shown; item < pages[shown].items.size())
+        if (const Command* command = std::get_if<Command>(&pages[shown].items[item].leads))
+            caption.picture = thumbnail_of(*command);
     if (with_one_button)
         caption.aside = words("scan.press_in_menu");
     else

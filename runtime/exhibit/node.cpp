@@ -39,6 +39,7 @@ public:
         , context_(scene_, device_of(options), Qualities(options).spectra())
         , screens_(context_.device, options.layout, options.node)
         , words_(options.words)
+        , pictures_(std::bind_front(drawn_thumbnails, options.cache, options.words))
         , done_(context_.device.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
         , commands_(context_.device.device, {*context_.device.pool, vk::CommandBufferLevel::ePrimary, 2})
         , log_(options.frame_log)

@@ -8,6 +8,9 @@
 
 namespace starbow {
 
+/// The part of the head-up display's width that an inset has.
+static constexpr double inset_part = 0.42;
+
 /// Pixels of the head-up display to a degree.
 static double degree_px_of(const ViewSet& views)
 {
@@ -81,7 +84,10 @@ void PictureSetup::place(const PictureState& now, FrameRenderer& frame)
             = pointer_.of({std::to_string(step)}, degree_px, [&] { return draw_pointer(step / 32.0, degree_px); });
         callouts_.push_back({.letters = &ring, .place = views.place_at(now.pointer->towards, half_of(ring, degree_px))});
     }
-    place_insets(now, frame, degree_px);
+    if (place_small_picture(now, views))
+        frame.drop_insets();
+    else
+        place_insets(now, frame, degree_px);
     frame.place(callouts_);
 }
 
@@ -124,6 +130,20 @@ struct PictureSetup::WantedInset {
     const ShownHighlight* highlight; ///< null: the inset that the visitor chose
 };
 
+/// That of the menu's choice, over the choice, in place of insets. Returns false where there is none.
+bool PictureSetup::place_small_picture(const PictureState& now, const ViewSet& views)
+{
+    if (!now.hud || !now.hud->readings.caption || now.pattern != Pattern::none)
+        return false;
+    const SmallPicture* small = thumbnails_.find(now.hud->readings.caption->picture);
+    if (!small)
+        return false;
+    const double half_x = inset_part * views.hud_place.half.x;
+    const glm::dvec2 half(half_x, half_x * small->size.y / small->size.x);
+    callouts_.push_back({.place = views.place_beside_hud(half, 0, views.hud_place.half.x - half_x), .small = small});
+    return true;
+}
+
 /// Those of the highlighted things that are to be enlarged, or else the one that the visitor chose.
 std::vector<PictureSetup::WantedInset> PictureSetup::wanted_insets(const PictureState& now)
 {
@@ -141,7 +161,7 @@ void PictureSetup::place_insets(const PictureState& now, FrameRenderer& frame, d
     const std::vector<WantedInset> wanted = now.pattern == Pattern::none ? wanted_insets(now) : std::vector<WantedInset>();
     if (wanted.empty())
         no_room_ = false;
-    const double half_x = 0.42 * frame.views().hud_place.half.x;
+    const double half_x = inset_part * frame.views().hud_place.half.x;
     const int width = std::clamp(int(2 * half_x / std::tan(degree) * degree_px), 64, 1024);
     std::size_t drawn = 0;
     try {

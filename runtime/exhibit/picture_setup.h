@@ -1,6 +1,7 @@
 #pragma once
 #include "runtime/machines/picture_state.h"
 #include "runtime/render/frame_renderer.h"
+#include "thumbnails.h"
 #include <map>
 
 namespace starbow {
@@ -28,6 +29,11 @@ Callout title_over(const ViewSet& views, const Typesetter& typesetter, const std
 /// Sets a frame renderer up for one picture after another, and draws the panels of their texts.
 class PictureSetup {
 public:
+    /// read: makes the small pictures of a menu's choices, on a thread; empty: there are none.
+    explicit PictureSetup(std::function<Thumbnails()> read = {})
+        : thumbnails_(std::move(read))
+    {
+    }
     /// The device must have finished the frame before. Returns the head-up display's panel, or null.
     const Panel* set_up(const PictureState& now, const Words& words, FrameRenderer& frame);
     /// Another world, layout or quality: an inset may have room now.
@@ -46,10 +52,12 @@ private:
     void place_sky_labels(const std::vector<SkyLabel>& labels, const ViewSet& views, double degree_px);
     void place_highlights(const std::vector<ShownHighlight>& highlights, const ViewSet& views, double degree_px);
     std::vector<WantedInset> wanted_insets(const PictureState& now);
+    bool place_small_picture(const PictureState& now, const ViewSet& views);
     void place_insets(const PictureState& now, FrameRenderer& frame, double degree_px);
     void place_inset(const WantedInset& inset, std::size_t which, double aside, double half_x, const FrameRenderer& frame,
         double degree_px);
 
+    ThumbnailReader thumbnails_;
     Panel panel_;
     std::int64_t drawn_ = -1; ///< HudText::number
     Plate title_, sign_, pointer_;

@@ -97,8 +97,7 @@ Presenter::Presenter(const ExhibitOptions& options)
     if (!options.presenter)
         return;
     const Typesetter font; // throws here what would end the thread
-    painter_ = std::make_unique<PresenterPainter>(
-        [cache = options.cache, words = options.words] { return drawn_thumbnails(cache, words); });
+    painter_ = std::make_unique<PresenterPainter>(std::bind_front(drawn_thumbnails, options.cache, options.words));
     scenes_ = shipped_names("scenes"), tours_ = shipped_names("tours"), shots_ = shipped_names("shots");
     languages_ = languages_here([](const std::string& why) {
         write_log(LogKind::words_unreadable, why + "; the guide's window leaves this language out");

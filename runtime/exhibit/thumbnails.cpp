@@ -122,6 +122,18 @@ Thumbnails drawn_thumbnails(const fs::path& folder, const Words& words)
     return all;
 }
 
+const SmallPicture* ThumbnailReader::find(const std::string& name)
+{
+    if (name.empty())
+        return nullptr;
+    if (read_)
+        coming_ = std::async(std::launch::async, std::exchange(read_, {}));
+    if (coming_.valid() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+        here_ = coming_.get();
+    const auto found = here_.find(name);
+    return found == here_.end() ? nullptr : &found->second;
+}
+
 std::size_t draw_thumbnails(
     const std::vector<Thumbnail>& all, const std::function<void(const Thumbnail&, std::size_t)>& show)
 {

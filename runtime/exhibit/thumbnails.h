@@ -1,9 +1,10 @@
 #pragma once
 #include "config/model/shot.h"
 #include "config/model/words.h"
-#include "runtime/hud/presenter_picture.h"
+#include "runtime/hud/small_picture.h"
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,23 @@ std::vector<Thumbnail> thumbnails(
 
 /// The pictures that are there and can be read. Fewer where memory lacks: the guide's window goes on.
 Thumbnails drawn_thumbnails(const std::filesystem::path& folder, const Words& words);
+
+/// Reads small pictures on a thread of its own, from when the first one is wanted.
+class ThumbnailReader {
+public:
+    /// read: makes them, on the thread; empty: there are none.
+    explicit ThumbnailReader(std::function<Thumbnails()> read)
+        : read_(std::move(read))
+    {
+    }
+    /// name: as thumbnail_of()'s. Null where there is none, or not yet.
+    const SmallPicture* find(const std::string& name);
+
+private:
+    std::function<Thumbnails()> read_;
+    std::future<Thumbnails> coming_;
+    Thumbnails here_;
+};
 
 /// Draws those that are not there, without a window. show: receives each one before it is drawn, and the number of those
 /// before it. Returns the number of drawn ones. Throws InputError.

@@ -7,6 +7,7 @@ namespace starbow {
 namespace {
 
 constexpr std::int64_t closes_after_ns = 20'000'000'000;
+constexpr std::int64_t picture_after_ns = 400'000'000;
 constexpr double first_repeat_s = 0.5, repeat_s = 0.2;
 
 /// The step of the choice that a hand asks for now: to the right or down is on.
@@ -43,7 +44,7 @@ std::optional<Command> choose(MenuState& menu, const MenuPage& page)
 {
     const auto& leads = page.items[menu.item].leads;
     if (const auto* other = std::get_if<std::size_t>(&leads)) {
-        menu.page = *other, menu.item = 0;
+        menu.page = *other, menu.item = 0, menu.rested_ns = 0;
         return {};
     }
     if (!page.stays || std::holds_alternative<MenuItem::Close>(leads))
@@ -69,6 +70,9 @@ std::optional<Command> advance(
     constexpr Switches used{Switch::stop, Switch::home, Switch::undo, Switch::menu};
     const bool touched = by != 0 || (pressed & used).any() || hands.pressed;
     menu.idle_ns = touched ? 0 : menu.idle_ns + dt_ns;
+    menu.rested_ns = by != 0 ? 0 : menu.rested_ns + dt_ns;
+    if (menu.rested_ns >= picture_after_ns)
+        menu.shown = {menu.page, menu.item};
     const MenuPage& page = pages[menu.page];
     if (page.items.empty()) { // its last choice has gone meanwhile
         menu = {};

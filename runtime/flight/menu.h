@@ -30,7 +30,12 @@ struct MenuState {
     std::size_t page = 0, item = 0;
     bool nudged = false; ///< the stick is still away from its middle
     double nudged_s = 0;
-    std::int64_t idle_ns = 0;
+    std::int64_t idle_ns = 0, rested_ns = 0; ///< since the last touch, and since the choice is this one
+    /// The choice whose small picture is shown: the last one that has stayed for 0.4 s. So pictures flash at most 2.5 times
+    /// in a second, whatever is pressed.
+    struct {
+        std::size_t page = 0, item = 0;
+    } shown{};
 };
 
 /// Advances a menu by a frame. While it is open, the stick or the arrows choose, the stop button takes, home and undo lead

@@ -21,6 +21,7 @@ struct Caption {
     std::string aside{}; ///< what the keys do now, and the seconds left
     bool flying = false; ///< the visitor flies: the lever counts
     bool menu = false; ///< the chosen choice is large, and the ones before and after it stand beside it
+    std::string picture{}; ///< of a menu: the name of the small picture beside it, as thumbnail_of()'s, or empty
 };
 
 /// The caption of a tour's present state, in words for the controls at hand; empty where the visitor flies freely.

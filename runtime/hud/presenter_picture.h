@@ -1,8 +1,8 @@
 #pragma once
 #include "presenter_sheet.h"
+#include "small_picture.h"
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -31,15 +31,6 @@ PresenterBox shown_box(const PresenterBox& place, glm::ivec2 picture);
 
 /// The key at a place of the window; 0: none.
 int key_at(const PresenterSheet& sheet, glm::ivec2 size, glm::ivec2 at);
-
-/// A small picture, such as a copy of what the visitors see: three bytes a pixel, sRGB, from the top. Size 0: there is none.
-struct SmallPicture {
-    glm::ivec2 size{0};
-    std::vector<std::uint8_t> rgb;
-};
-
-/// Small pictures of what can be chosen, by thumbnail_of().
-using Thumbnails = std::map<std::string, SmallPicture>;
 
 /// The window's pixels, four bytes each (red, green, blue, opaque; or blue first), sRGB, from the top.
 struct PresenterPicture {

@@ -1,6 +1,7 @@
 #include "presenter_sheet.h"
 #include "config/model/named_words.h"
 #include "hud.h"
+#include "small_picture.h"
 #include <algorithm>
 #include <cmath>
 
@@ -257,10 +258,7 @@ std::optional<Command> press_typing(PresenterHands& hands, int key)
 std::string thumbnail_of(const PresenterKey& key)
 {
     const Command* command = std::get_if<Command>(&key.deed);
-    for (const auto& [kind, folder] : {std::pair(Order::scene, "scene/"), {Order::tour, "tour/"}, {Order::shot, "shot/"}})
-        if (command && command->kind == kind)
-            return folder + command->text;
-    return "";
+    return command ? thumbnail_of(*command) : "";
 }
 
 PresenterSheet sheet_of(const PresenterState& state, const PresenterHands& hands, const Words& words)

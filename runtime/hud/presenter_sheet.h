@@ -80,7 +80,7 @@ struct PresenterSheet {
 /// Choices on one page of a list.
 constexpr std::size_t most_choices = 10;
 
-/// The name of the small picture of what a key shows, such as "scene/avenue"; empty: it has none.
+/// thumbnail_of() what a key shows; empty: it shows nothing.
 std::string thumbnail_of(const PresenterKey& key);
 
 PresenterSheet sheet_of(const PresenterState& state, const PresenterHands& hands, const Words& words);

@@ -204,8 +204,8 @@ template <class Part> void transfer(Part& part, Vignette& vignette)
 
 template <class Part> void transfer(Part& part, Caption& caption)
 {
-    auto& [text, choices, chosen, right, aside, flying, menu] = caption;
-    transfer_all(part, text, choices, chosen, right, aside, flying, menu);
+    auto& [text, choices, chosen, right, aside, flying, menu, picture] = caption;
+    transfer_all(part, text, choices, chosen, right, aside, flying, menu, picture);
 }
 
 template <class Part> void transfer(Part& part, Readings::Range& range)

@@ -28,18 +28,31 @@ PanelPass::PanelPass(Device& device, Pipelines& pipelines, std::size_t views)
             "panel pass: descriptor set");
 }
 
-void PanelPass::prepare(const Panel& panel, const Place& place)
+void PanelPass::hold(vk::Format format, glm::ivec2 size, std::span<const std::uint8_t> texels, const Place& place)
 {
     place_ = place, light_ = nullptr;
-    const vk::Extent2D extent(std::uint32_t(panel.size.x), std::uint32_t(panel.size.y));
-    if (!*picture_.view || picture_.extent != extent) {
-        picture_ = make_image(device_,
-            {vk::Format::eR8G8Unorm, extent, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
+    const vk::Extent2D extent(std::uint32_t(size.x), std::uint32_t(size.y));
+    if (!*picture_.view || picture_.extent != extent || picture_.format != format) {
+        picture_
+            = make_image(device_, {format, extent, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
         name_object(device_, picture_, "panel pass: picture");
     }
-    grow(device_, texels_, panel.texels.size(), vk::BufferUsageFlagBits::eTransferSrc);
-    copy_to(texels_, std::as_bytes(std::span(panel.texels)));
+    grow(device_, texels_, texels.size(), vk::BufferUsageFlagBits::eTransferSrc);
+    copy_to(texels_, std::as_bytes(texels));
     new_ = true;
+}
+
+void PanelPass::prepare(const Panel& panel, const Place& place)
+{
+    hold(vk::Format::eR8G8Unorm, panel.size, panel.texels, place);
+}
+
+void PanelPass::prepare(const SmallPicture& picture, const Place& place)
+{
+    std::vector<std::uint8_t> rgba(picture.rgb.size() / 3 * 4, 255);
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+        rgba[i / 3 * 4 + i % 3] = picture.rgb[i];
+    hold(vk::Format::eR8G8B8A8Srgb, picture.size, rgba, place);
 }
 
 void PanelPass::prepare(const Image& picture, const Place& place)
@@ -80,7 +93,8 @@ void PanelPass::draw(vk::CommandBuffer commands, std::size_t view, bool map, sha
     constants.eye = scale;
     set_area(commands, corner, size);
     commands.setScissor(0, box);
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.hud(map, target, scale.z > scale.x, light_));
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
+        pipelines_.hud(map, target, scale.z > scale.x, shown().format != vk::Format::eR8G8Unorm));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *sets_[view], {});
     commands.pushConstants<shared::ViewPush>(
         *pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);

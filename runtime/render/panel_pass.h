@@ -2,6 +2,7 @@
 #include "displays/compile/compiled_view.h"
 #include "pipelines.h"
 #include "runtime/hud/hud.h"
+#include "runtime/hud/small_picture.h"
 #include "shaders/shared_structs.h"
 #include <span>
 
@@ -19,8 +20,9 @@ public:
     };
     /// map, nearest: a view's direction map and its sampler. The device must have finished the frame before.
     void prepare(const Panel& panel, const Place& place);
-    /// The same for a picture of light, which a frame around it sets off. It must be in eShaderReadOnlyOptimal when it is
-    /// drawn.
+    /// The same for a picture, which a frame around it sets off.
+    void prepare(const SmallPicture& picture, const Place& place);
+    /// The same for a picture of light. It must be in eShaderReadOnlyOptimal when it is drawn.
     void prepare(const Image& picture, const Place& place);
     void prepare_view(std::size_t view, const Image& map, vk::Sampler nearest);
 
@@ -35,13 +37,14 @@ public:
     vk::DeviceSize memory() const { return picture_.bytes; }
 
 private:
+    void hold(vk::Format format, glm::ivec2 size, std::span<const std::uint8_t> texels, const Place& place);
     const Image& shown() const { return light_ ? *light_ : picture_; }
 
     Device& device_;
     Pipelines& pipelines_;
     Place place_;
     Image picture_;
-    const Image* light_ = nullptr; ///< the picture of light; null: letters are drawn
+    const Image* light_ = nullptr; ///< the picture of light; null: picture_ is drawn
     Buffer texels_;
     bool new_ = false;
     vk::raii::Sampler linear_ = nullptr;
@@ -49,11 +52,12 @@ private:
     std::vector<vk::raii::DescriptorSet> sets_;
 };
 
-/// Letters or a picture laid over every view.
+/// Letters or a picture, one of the three, laid over every view.
 struct Callout {
     const Panel* letters = nullptr; ///< or null
-    const Image* picture = nullptr; ///< or null
+    const Image* picture = nullptr; ///< of light, or null
     PanelPass::Place place{};
+    const SmallPicture* small = nullptr; ///< or null
 };
 
 } // namespace starbow

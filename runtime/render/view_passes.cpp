@@ -80,6 +80,8 @@ void ViewPasses::prepare_callouts()
         auto& [panel, boxes] = *callout_passes_[k];
         if (callout.letters)
             panel.prepare(*callout.letters, callout.place);
+        else if (callout.small)
+            panel.prepare(*callout.small, callout.place);
         else
             panel.prepare(*callout.picture, callout.place);
         boxes.clear();

@@ -37,6 +37,29 @@ TEST(Thumbnails, EveryWorldTourAndViewHasOneByItsContent)
     EXPECT_TRUE(thumbnails({}, words_in("en"), [](const std::string&) {}).empty());
 }
 
+/// Nobody waits for them: a name has none at first, and then its own.
+TEST(Thumbnails, AReaderFindsThemOnceTheyAreWanted)
+{
+    std::promise<void> may_read;
+    int reads = 0;
+    ThumbnailReader reader([&] {
+        may_read.get_future().wait();
+        ++reads;
+        return Thumbnails{{"scene/avenue", {{2, 1}, {1, 2, 3, 4, 5, 6}}}};
+    });
+    EXPECT_EQ(reader.find(""), nullptr);
+    EXPECT_EQ(reader.find("scene/avenue"), nullptr);
+    may_read.set_value();
+    const SmallPicture* found = nullptr;
+    while (!found)
+        found = reader.find("scene/avenue");
+    EXPECT_EQ(found->size, glm::ivec2(2, 1));
+    EXPECT_EQ(reader.find("scene/nowhere"), nullptr);
+    EXPECT_EQ(reader.find("scene/avenue"), found);
+    EXPECT_EQ(reads, 1);
+    EXPECT_EQ(ThumbnailReader({}).find("scene/avenue"), nullptr);
+}
+
 TEST(Thumbnails, TheyAreDrawnOnceAndShowSomething)
 {
     const std::filesystem::path folder = scratch("thumbnails");

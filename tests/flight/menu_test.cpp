@@ -26,6 +26,7 @@ struct Visitor {
     MenuState menu;
     Controls left; ///< of the last frame's controls: what reaches the ship
 
+    std::pair<std::size_t, std::size_t> shown() const { return {menu.shown.page, menu.shown.item}; }
     std::optional<Command> does(const Controls& hands)
     {
         std::optional<Command> chosen = holds(hands);
@@ -173,6 +174,47 @@ TEST(MenuTest, RandomHandsNeverLeaveTheMenusPages)
         ASSERT_LT(visitor.menu.page, visitor.pages.size());
     }
     EXPECT_GT(chosen, 1000);
+}
+
+/// A choice's small picture is shown once the choice has stayed, and leads nobody to a picture of another one for long.
+TEST(MenuTest, AChoicesSmallPictureComesOnceItStays)
+{
+    using Choice = std::pair<std::size_t, std::size_t>;
+    Visitor visitor;
+    visitor.does(opens), visitor.does(takes); // the worlds
+    EXPECT_EQ(visitor.shown(), Choice(0, 0));
+    for (int i = 0; i < 30; ++i)
+        visitor.holds({});
+    EXPECT_EQ(visitor.shown(), Choice(1, 0));
+    visitor.does(right);
+    EXPECT_EQ(visitor.shown(), Choice(1, 0)) << "until the next one stays";
+    for (int i = 0; i < 30; ++i)
+        visitor.holds({});
+    EXPECT_EQ(visitor.shown(), Choice(1, 1));
+    visitor.does(leads_back);
+    EXPECT_EQ(visitor.shown(), Choice(0, 0));
+}
+
+/// docs/safety.md: three flashes in a second at most, each of two opposing changes.
+TEST(MenuTest, NoHandsMakeSmallPicturesFlash)
+{
+    std::mt19937_64 random(5);
+    const std::vector<Controls> pressed{opens, takes, leads_back, {}}, held{right, left_hand, {}, {}};
+    Visitor visitor;
+    std::vector<std::int64_t> changes;
+    auto before = visitor.shown();
+    std::size_t hand = 0;
+    for (std::int64_t now = 0; now < 4'000'000'000'000; now += frame_ns) {
+        const bool presses = random() % 20 == 0;
+        if (random() % 40 == 0)
+            hand = random() % held.size();
+        visitor.holds(presses ? pressed[random() % pressed.size()] : held[hand]);
+        if (visitor.shown() != before)
+            changes.push_back(now), before = visitor.shown();
+    }
+    ASSERT_GT(changes.size(), 1000u);
+    for (std::size_t i = 6; i < changes.size(); ++i)
+        EXPECT_GT(changes[i] - changes[i - 6], 1'000'000'000) << "six changes are three flashes";
 }
 
 } // namespace menu_test

@@ -45,7 +45,7 @@ SharedState full()
     shown = {0.25, 4, 7.8, 0.3, 10, 40, 1e9, 299792458, 59.9,
         {{Effect::aberration, Effect::headlight}, Comparison::no_light_delay}, FlightMode::newtonian, true, 1.5, true};
     shown.range = {20, 8}, shown.filtered = true, shown.lever = 0.3, shown.prompt = "Schieben Sie den Hebel vor";
-    shown.caption = Caption{"Wohin zuerst?", {"Sonne", "Mond"}, 1, 0, "noch 5 s", true, true};
+    shown.caption = Caption{"Wohin zuerst?", {"Sonne", "Mond"}, 1, 0, "noch 5 s", true, true, "scene/avenue"};
     shown.notice = "kein Kopf", shown.information = Information::visitor;
     now.title = "Was sehen Sie nahe der Lichtgeschwindigkeit?";
     now.highlights = {{"Uhr zu Hause", {0, 0.6, -0.8}, 0.1, 8}, {"Erde", {0, 0, -1}, 0, 0}};
@@ -84,6 +84,7 @@ TEST(InstantBytesTest, EveryPartComesBack)
     EXPECT_EQ(a.range, b.range);
     EXPECT_EQ(a.pattern, b.pattern);
     EXPECT_EQ(a.hud->readings.caption->choices, b.hud->readings.caption->choices);
+    EXPECT_EQ(a.hud->readings.caption->picture, b.hud->readings.caption->picture);
     EXPECT_EQ(a.hud->readings.lever, b.hud->readings.lever);
     EXPECT_EQ(a.hud->readings.mode, b.hud->readings.mode);
     EXPECT_EQ(a.title, b.title);

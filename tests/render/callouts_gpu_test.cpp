@@ -62,6 +62,45 @@ TEST(Callouts, TheSmallPictureIsShownAsItIs)
     EXPECT_EQ(alone, fresh.picture(moving)[0]);
 }
 
+/// A menu's picture has its own colours, whatever the exposure of the world behind it, and its upper row above.
+TEST(Callouts, AChoicesPictureHasItsColours)
+{
+    SmallPicture picture{{64, 36}, {}};
+    const auto colour = [](int x, int y) { return std::array{x < 32 ? 200 : 30, y < 18 ? 90 : 250, 60}; };
+    for (int y = 0; y < picture.size.y; ++y)
+        for (int x = 0; x < picture.size.x; ++x)
+            for (const int code : colour(x, y))
+                picture.rgb.push_back(std::uint8_t(code));
+    const dvec2 half(0.2, 0.2 * 36 / 64);
+    for (const auto& [projection, of] :
+        {std::pair<Projection, ivec2>{Planar{60}, {160, 120}}, {Fisheye{180, 0}, {384, 384}}}) {
+        OffscreenRenderer whole = renderer(avenue().world, one_view(projection, of), false);
+        const Callout callout{.place = {glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, -1), half}, .small = &picture};
+        for (const double ev : {-6.0, 12.0}) {
+            Shot shot = in_flight();
+            shot.exposure_ev = ev;
+            whole.frame().place({&callout, 1});
+            const Bytes shown = whole.picture(shot)[0];
+            int seen = 0;
+            for (int y = 0; y < of.y; ++y)
+                for (int x = 0; x < of.x; ++x) {
+                    const auto direction = whole.frame().views().direction(0, dvec2(x, y) + 0.5);
+                    if (!direction || direction->z > -0.1)
+                        continue;
+                    const dvec2 at = dvec2(*direction) / -direction->z / half; // -1 to 1
+                    if (glm::any(glm::greaterThan(glm::abs(at), dvec2(0.8)))
+                        || glm::any(glm::lessThan(glm::abs(at), dvec2(0.2))))
+                        continue; // its frame, and where the colours meet
+                    const auto wanted = colour(at.x < 0 ? 0 : 63, at.y > 0 ? 0 : 35);
+                    for (std::size_t c = 0; c < 3; ++c)
+                        EXPECT_NEAR(shown[4 * std::size_t(y * of.x + x) + c], wanted[c], 1) << x << " " << y << " " << c;
+                    ++seen;
+                }
+            EXPECT_GT(seen, 200);
+        }
+    }
+}
+
 // WCAG 2.2, 1.4.3: relative luminances, the lighter and the darker one, each with 0.05 of stray light.
 TEST(Callouts, TheFaintestLettersHaveTheirContrastBeforeAnyPicture)
 {
