@@ -65,9 +65,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # GCC 12 wrongly reports overlaps in valijson's string replacements (GCC bug 105651).
   set_source_files_properties(tests/support/schema_check.cpp PROPERTIES COMPILE_OPTIONS -Wno-restrict)
 endif()
-# A program's tests in parts: one for each core, or such that little is lost when hours of them are interrupted.
-function(starbow_parts program)
-  set(parts 2)
+# A program's tests in parts: so many that two cores end at nearly the same time, or that little is lost when hours of them are
+# interrupted.
+function(starbow_parts program parts)
   if(STARBOW_ALL_TESTS)
     set(parts 24)
   endif()
@@ -77,7 +77,7 @@ function(starbow_parts program)
     set_tests_properties(${program}_${part} PROPERTIES ENVIRONMENT "GTEST_TOTAL_SHARDS=${parts};GTEST_SHARD_INDEX=${part}")
   endforeach()
 endfunction()
-starbow_parts(starbow_test)
+starbow_parts(starbow_test 4)
 set(programs starbow_test)
 if(NOT STARBOW_SANITIZE)
   list(APPEND programs starbow starbow_gpu_test)
@@ -98,7 +98,7 @@ if(NOT STARBOW_SANITIZE)
   # The driver shall find a test's stand-in for a function of LLVM before LLVM's own.
   target_link_options(starbow_gpu_test PRIVATE -Wl,--export-dynamic-symbol=LLVMModuleCreateWithNameInContext)
   target_link_libraries(starbow_gpu_test PRIVATE ${CMAKE_DL_LIBS})
-  starbow_parts(starbow_gpu_test)
+  starbow_parts(starbow_gpu_test 2) # each opens its own device and worlds
   # The layer and the fake devices of the shell tests.
   set(RIG starbow_early_free starbow_clock fake_sticks)
   add_library(starbow_early_free MODULE tests/rig/early_free.cpp)

@@ -17,6 +17,9 @@ public:
         , node_(std::move(node))
         , words_(words_in("en"))
         , frame_(device(), pipelines(), world, layout, test_quality())
+        , pictures_([] {
+            return Thumbnails{{"scene/clocks", {{2, 1}, {250, 20, 20, 20, 250, 20}}}};
+        })
     {
         frame_.only(node_);
         frame_.repeatable(true);
@@ -234,6 +237,39 @@ TEST(Machines, TheSameWithThePageOfTheInstruments)
             if (node.shows(output)) {
                 EXPECT_EQ(seen[output], wanted[output]) << layout.outputs[output].name;
             }
+    }
+}
+
+/// Each machine has the menu's small pictures from its own disk, a moment after the first one is wanted.
+TEST(Machines, TheSameWithAMenusSmallPicture)
+{
+    const Shot start = load_shot(shipped_file("shots", "avenue-rest"));
+    for (const char* name : {"desk", "dome2"}) {
+        const Layout layout = layout_of(name);
+        PictureState without = states(start)[0], now = without;
+        Caption& menu = now.hud->readings.caption.value();
+        menu.menu = true, menu.picture = "scene/nowhere";
+        Machine whole(avenue().world, layout, "");
+        without = now;
+        menu.picture = "scene/clocks";
+        const auto bare = whole.draw(without);
+        auto wanted = whole.draw(now);
+        for (int i = 0; i < 200 && wanted == bare; ++i)
+            wanted = whole.draw(now);
+        EXPECT_NE(wanted, bare) << name;
+        EXPECT_EQ(whole.draw(without), bare) << name;
+        const auto bytes = bytes_of({.scene = "avenue", .picture = now});
+        for (const std::string& one : nodes_of(layout)) {
+            Machine node(avenue().world, layout, one);
+            const PictureState come = shared_state_of(bytes).picture;
+            for (std::size_t output = 0; output < wanted.size(); ++output)
+                if (node.shows(output)) {
+                    auto seen = node.draw(come);
+                    for (int i = 0; i < 200 && seen[output] != wanted[output]; ++i)
+                        seen = node.draw(come);
+                    EXPECT_EQ(seen[output], wanted[output]) << layout.outputs[output].name;
+                }
+        }
     }
 }
 
