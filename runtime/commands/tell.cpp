@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "config/json/error.h"
 #include "config/model/shipped.h"
+#include "input/command.h"
 #include "options/command_line.h"
 #include "runtime/remote/auth.h"
 #include <cstdio>
@@ -27,13 +28,16 @@ std::string best_pin(const std::filesystem::path& file)
 
 int run_tell(ParsedArguments given)
 {
+    const bool asks = given.words == std::vector<std::string>{"status"};
+    if (!asks)
+        command_of(given.words); // a wrong word is the fault that the user can mend, before a PIN that is missing
     if (given.options.pin.empty()) {
         const std::filesystem::path file = !given.pin_file.empty() ? std::filesystem::path(given.pin_file)
             : site().empty()                                       ? "/etc/starbow/pins"
                                                                    : site() / "pins";
         given.options.pin = best_pin(file);
     }
-    if (given.words == std::vector<std::string>{"status"}) {
+    if (asks) {
         std::fputs(state_of_exhibit(given.options).c_str(), stdout);
         return 0;
     }

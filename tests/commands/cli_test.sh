@@ -231,6 +231,7 @@ refused 'no first row' warp inspect "$warps/standard_16x9.data" --first-row-on-t
 begins_with 'no exhibit answers at 127.0.0.1:1' tell --pin 123456 --port 1 stop
 begins_with 'no exhibit answers at 127.0.0.1:1' tell --pin 123456 --port 1 status
 begins_with 'the command jump is not known; one of these is right: fade, stop' tell --pin 123456 jump
+begins_with 'the command jump is not known; one of these is right: fade, stop' tell --pin-file nowhere jump
 begins_with 'the command stop has 1 values; stop alone is right' tell --pin 123456 stop now
 begins_with 'the command scene has the value ../secret, which is not a name of a shipped file' tell --pin 123456 scene ../secret
 begins_with '--port: 0 is not a whole number that fits; one from 1 to 65535 is right' tell --port 0 stop
