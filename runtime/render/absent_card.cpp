@@ -28,6 +28,18 @@ int loads(const Device& device, const vk::PipelineExecutableInfoKHR& stage)
     return found;
 }
 
+Device::Options options_of_absent_card() { return {.statistics = true, .name = "Null hardware"}; }
+
+/// A family by the driver's own name, which ends the process for one that it does not know. The driver's variables are set.
+std::string name_in_driver(const std::string& family)
+{
+    if (family != "gfx1100")
+        return family;
+    setenv("RADV_FORCE_FAMILY", "navi21", 1); // a name of all versions
+    const bool renamed = Device(options_of_absent_card()).properties.driverVersion >= VK_MAKE_API_VERSION(0, 23, 0, 0);
+    return renamed ? "navi31" : family;
+}
+
 } // namespace
 
 std::unique_ptr<Device> open_absent_card(const std::string& family)
@@ -42,8 +54,8 @@ std::unique_ptr<Device> open_absent_card(const std::string& family)
         throw InputError(folder.string() + ": has no radeon_icd; the package mesa-vulkan-drivers is right");
     setenv("VK_DRIVER_FILES", driver.c_str(), 1);
     setenv("VK_ICD_FILENAMES", driver.c_str(), 1); // the same for loaders before 1.3.207
-    setenv("RADV_FORCE_FAMILY", family.c_str(), 1);
-    return std::make_unique<Device>(Device::Options{.statistics = true, .name = "Null hardware"});
+    setenv("RADV_FORCE_FAMILY", name_in_driver(family).c_str(), 1);
+    return std::make_unique<Device>(options_of_absent_card());
 }
 
 std::map<std::string, double> shader_statistics(const Device& device, vk::Pipeline pipeline, vk::ShaderStageFlagBits stage)

@@ -5,7 +5,7 @@
 
 namespace starbow {
 
-/// Families of AMD's cards as RADV_FORCE_FAMILY names them. The driver ends the process for a name that it does not know.
+/// Families of AMD's cards as RADV_FORCE_FAMILY names them in Mesa 22.3.
 /// vangogh stands for all processors with graphics of its generation, RDNA 2; with rembrandt, another of them, Mesa 22.3
 /// divides by zero.
 constexpr std::array<const char*, 5> card_families{"navi21", "polaris10", "vega10", "vangogh", "gfx1100"};
