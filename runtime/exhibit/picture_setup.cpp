@@ -140,7 +140,7 @@ bool PictureSetup::place_small_picture(const PictureState& now, const ViewSet& v
         return false;
     const double half_x = inset_part * views.hud_place.half.x;
     const glm::dvec2 half(half_x, half_x * small->size.y / small->size.x);
-    callouts_.push_back({.place = views.place_beside_hud(half, 0, views.hud_place.half.x - half_x), .small = small});
+    callouts_.push_back({.small = small, .place = views.place_beside_hud(half, 0, views.hud_place.half.x - half_x)});
     return true;
 }
 

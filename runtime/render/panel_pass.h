@@ -52,12 +52,12 @@ private:
     std::vector<vk::raii::DescriptorSet> sets_;
 };
 
-/// Letters or a picture, one of the three, laid over every view.
+/// Letters, a small picture or a picture of light, laid over every view.
 struct Callout {
     const Panel* letters = nullptr; ///< or null
+    const SmallPicture* small = nullptr; ///< or null
     const Image* picture = nullptr; ///< of light, or null
     PanelPass::Place place{};
-    const SmallPicture* small = nullptr; ///< or null
 };
 
 } // namespace starbow

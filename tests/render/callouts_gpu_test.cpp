@@ -75,7 +75,7 @@ TEST(Callouts, AChoicesPictureHasItsColours)
     for (const auto& [projection, of] :
         {std::pair<Projection, ivec2>{Planar{60}, {160, 120}}, {Fisheye{180, 0}, {384, 384}}}) {
         OffscreenRenderer whole = renderer(avenue().world, one_view(projection, of), false);
-        const Callout callout{.place = {glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, -1), half}, .small = &picture};
+        const Callout callout{.small = &picture, .place = {glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, -1), half}};
         for (const double ev : {-6.0, 12.0}) {
             Shot shot = in_flight();
             shot.exposure_ev = ev;
