@@ -294,7 +294,9 @@ template <class T> void add_to_key(std::string& text, const T& value)
 struct Turnable {
     std::string pointer; ///< in the file
     double* number;
-    Number form;
+    Range range;
+    double step; ///< of one press
+    std::string name; ///< for people
 };
 /// Adds those of a value at a pointer, and of the objects in it.
 template <class T> void add_turnables(std::vector<Turnable>& all, const std::string& pointer, T& value)
@@ -305,8 +307,10 @@ template <class T> void add_turnables(std::vector<Turnable>& all, const std::str
         for_each_field<T>([&]<class Form, class Owner, class... Values>(const Field<Form, Owner, Values...>& field) {
             const std::string at = pointer + "/" + field.name;
             if constexpr (std::is_same_v<Form, Number>) {
-                if (field.form.step > 0)
-                    all.push_back({at, &(value.*described::first(field.members)), field.form});
+                if (const Number& form = field.form; form.step > 0)
+                    all.push_back({at, &(value.*described::first(field.members)), form.range, form.step, form.turned});
+            } else if constexpr (requires { field.form.add_turnables(all, at, value); }) {
+                field.form.add_turnables(all, at, value);
             } else if constexpr (requires { Form::is_whole; } && sizeof...(Values) == 1) {
                 auto& member = value.*described::first(field.members);
                 if constexpr (!requires { member.has_value(); })

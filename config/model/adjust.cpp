@@ -1,28 +1,64 @@
 #include "adjust.h"
 #include "describe_layout.h"
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <map>
 
 namespace starbow {
 namespace {
 
 using described::Turnable;
 
-/// The numbers of a layout that the keys change: in the projection of a viewport, or of the layout itself.
+/// The numbers of a layout that the keys change: in a viewport, or of the layout itself.
 std::vector<Turnable> numbers_of(Layout& layout, const Adjustable::Spot& where)
 {
     std::vector<Turnable> all;
     if (where.pointer.starts_with("/outputs")) {
         Viewport& viewport = layout.outputs[where.output].viewports[where.viewport];
-        const std::string at = viewport_pointer(where.output, where.viewport) + "/projection";
+        const std::string at = viewport_pointer(where.output, where.viewport);
         if (viewport.projection_given) // otherwise it is the calibration's own frustum
-            described::add_turnables(all, at, viewport.projection);
+            described::add_turnables(all, at + "/projection", viewport.projection);
+        if (viewport.quad)
+            described::add_turnables(all, at + "/quad", *viewport.quad);
+        if (viewport.grid)
+            described::add_turnables(all, at + "/grid", *viewport.grid);
         return all;
     }
     if (layout.blend.ramps)
         described::add_turnables(all, "/blend", layout.blend);
     if (layout.hud)
         described::add_turnables(all, "/hud", *layout.hud);
+    return all;
+}
+
+/// A spot for each viewport, and one for the layout itself.
+std::vector<Adjustable::Spot> spots_of(const Layout& layout)
+{
+    std::vector<Adjustable::Spot> all;
+    for (std::size_t output = 0; output < layout.outputs.size(); ++output)
+        for (std::size_t viewport = 0; viewport < layout.outputs[output].viewports.size(); ++viewport)
+            all.push_back({viewport_pointer(output, viewport), output, viewport});
+    all.push_back({});
+    return all;
+}
+
+/// The places of a layout's numbers, by pointer. The layout must outlive it, and keep its numbers of handles.
+std::map<std::string, double*> places_of(Layout& layout)
+{
+    std::map<std::string, double*> all;
+    for (const Adjustable::Spot& where : spots_of(layout))
+        for (const Turnable& one : numbers_of(layout, where))
+            all[one.pointer] = one.number;
+    return all;
+}
+
+/// Their values.
+std::map<std::string, double> values_of(Layout layout)
+{
+    std::map<std::string, double> all;
+    for (const auto& [pointer, number] : places_of(layout))
+        all[pointer] = *number;
     return all;
 }
 
@@ -41,15 +77,15 @@ void add_own(std::vector<Adjustable>& all, Layout& layout, const Adjustable::Spo
         all.push_back({(!name.empty()                            ? name
                                : one.pointer.starts_with("/hud") ? "head-up display"
                                                                  : "blend")
-                + ", " + one.form.turned,
-            {{one.pointer, where.output, where.viewport}}, one.form.turned, one.form.range.low, one.form.range.high,
-            one.form.step});
+                + ", " + one.name,
+            {{one.pointer, where.output, where.viewport}}, one.name, one.range.low, one.range.high, one.step});
 }
 
 /// Numbers that several projectors on one dome share. Changed one by one, their pictures would separate.
 std::vector<Adjustable> of_whole_domes(const Layout& layout, const std::vector<Adjustable>& each)
 {
     std::vector<Adjustable> all;
+    const std::map<std::string, double> values = values_of(layout);
     for (const std::string what : {"tilt", "rotation"}) {
         Adjustable whole;
         for (const Adjustable& one : each)
@@ -60,21 +96,26 @@ std::vector<Adjustable> of_whole_domes(const Layout& layout, const std::vector<A
         whole.name = "the whole dome, " + what, whole.what = what;
         if (whole.spots.size() < 2)
             continue;
-        const bool agree = std::all_of(each.begin(), each.end(),
-            [&](const Adjustable& one) { return one.what != what || value_of(layout, one) == value_of(layout, whole); });
+        const bool agree = std::all_of(whole.spots.begin(), whole.spots.end(),
+            [&](const Adjustable::Spot& spot) { return values.at(spot.pointer) == values.at(whole.spots[0].pointer); });
         if (agree)
             all.push_back(std::move(whole));
     }
     return all;
 }
 
-/// The number at a pointer, if it is adjustable.
-std::optional<double> value_at(const Layout& layout, const std::string& pointer)
+/// The change of a file for a number. One of a list is set with its list, which the file may lack.
+Change change_of(const std::map<std::string, double>& values, const std::string& pointer)
 {
-    for (const Adjustable& one : adjustables(layout))
-        if (one.spots[0].pointer == pointer)
-            return value_of(layout, one);
-    return {};
+    const std::size_t end = pointer.rfind('/');
+    if (!std::isdigit(static_cast<unsigned char>(pointer[end + 1])))
+        return {pointer, values.at(pointer)};
+    const std::string list = pointer.substr(0, end);
+    Change change{list, nlohmann::json::array()};
+    for (auto one = values.find(list + "/0"); one != values.end();
+         one = values.find(list + "/" + std::to_string(change.value.size())))
+        change.value.push_back(one->second);
+    return change;
 }
 
 } // namespace
@@ -83,13 +124,14 @@ std::vector<Adjustable> adjustables(const Layout& layout)
 {
     Layout copy = layout; // numbers are found in a layout that may change
     std::vector<Adjustable> each;
-    for (std::size_t output = 0; output < layout.outputs.size(); ++output)
-        for (std::size_t viewport = 0; viewport < layout.outputs[output].viewports.size(); ++viewport) {
-            std::string name = layout.outputs[output].name;
-            if (layout.outputs[output].viewports.size() > 1)
-                name.append(" ").append(std::to_string(viewport));
-            add_own(each, copy, {viewport_pointer(output, viewport), output, viewport}, name);
-        }
+    for (const Adjustable::Spot& where : spots_of(layout)) {
+        if (where.pointer.empty())
+            continue;
+        std::string name = layout.outputs[where.output].name;
+        if (layout.outputs[where.output].viewports.size() > 1)
+            name.append(" ").append(std::to_string(where.viewport));
+        add_own(each, copy, where, name);
+    }
     std::vector<Adjustable> all = of_whole_domes(layout, each);
     all.insert(all.end(), each.begin(), each.end());
     add_own(all, copy, {}, "");
@@ -116,12 +158,14 @@ Layout adjusted(Layout layout, const Adjustable& adjustable, double steps)
 std::vector<Change> changes(const Layout& saved, const Layout& now)
 {
     std::vector<Change> all;
-    for (const Adjustable& one : adjustables(now)) {
-        const double value = value_of(now, one);
-        const std::optional<double> before = value_at(saved, one.spots[0].pointer);
-        if (one.spots.size() == 1 && before && value != *before)
-            all.push_back({one.spots[0].pointer, value});
-    }
+    const std::map<std::string, double> before = values_of(saved), after = values_of(now);
+    for (const auto& [pointer, value] : after)
+        if (const auto had = before.find(pointer); had != before.end() && had->second != value)
+            all.push_back(change_of(after, pointer));
+    // A list's numbers are one change.
+    const auto repeated = [](const Change& a, const Change& b) { return a.pointer == b.pointer; };
+    std::ranges::stable_sort(all, {}, &Change::pointer);
+    all.erase(std::unique(all.begin(), all.end(), repeated), all.end());
     return all;
 }
 
@@ -129,10 +173,12 @@ std::vector<TurnedNumber> turned_numbers(const Layout& kept, const Layout& now)
 {
     std::vector<TurnedNumber> numbers;
     const std::vector<Adjustable> all = adjustables(kept);
-    for (std::size_t place = 0; place < all.size(); ++place)
-        if (const double value = value_of(now, all[place]);
-            all[place].spots.size() == 1 && value != value_of(kept, all[place]))
-            numbers.push_back({std::uint16_t(place), value});
+    const std::map<std::string, double> before = values_of(kept), after = values_of(now);
+    for (std::size_t place = 0; place < all.size(); ++place) {
+        const std::string& pointer = all[place].spots[0].pointer;
+        if (all[place].spots.size() == 1 && after.at(pointer) != before.at(pointer))
+            numbers.push_back({std::uint16_t(place), after.at(pointer)});
+    }
     return numbers;
 }
 
@@ -154,11 +200,11 @@ Layout with_turned(Layout kept, std::span<const TurnedNumber> numbers)
 
 Layout turned_again(Layout fresh, const Layout& kept, const Layout& turned)
 {
-    for (const Adjustable& one : adjustables(fresh)) {
-        const std::optional<double> before = value_at(kept, one.spots[0].pointer),
-                                    after = value_at(turned, one.spots[0].pointer);
-        if (one.spots.size() == 1 && before && after && *before != *after && value_of(fresh, one) == *before)
-            *place_of(fresh, one.spots[0]) = *after;
+    const std::map<std::string, double> before = values_of(kept), after = values_of(turned);
+    for (const auto& [pointer, number] : places_of(fresh)) {
+        const auto had = before.find(pointer), has = after.find(pointer);
+        if (had != before.end() && has != after.end() && had->second != has->second && *number == had->second)
+            *number = has->second;
     }
     return fresh;
 }

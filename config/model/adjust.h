@@ -18,11 +18,12 @@ struct Adjustable {
     std::vector<Spot> spots;
     std::string what; ///< the number's own name: "tilt"
     double low = 0, high = 0; ///< by the file's format
-    double step = 0.1; ///< of one key press: degrees, or the power's own unit
+    double step = 0.1; ///< of one key press: degrees, fractions of a viewport, or the power's own unit
 };
 
-/// All adjustable numbers of a layout. They are the tilt and the rotation of all domes that agree on them, and the turn of
-/// each viewport's dome or picture. The blend's power and the head-up display's height follow.
+/// All adjustable numbers of a layout. They are the tilt and the rotation of all domes that agree on them, then for each
+/// viewport the turn of its dome or picture and the handles of its quad and its grid. The blend's power and the head-up
+/// display's height follow.
 std::vector<Adjustable> adjustables(const Layout& layout);
 
 double value_of(const Layout& layout, const Adjustable& adjustable);

@@ -74,18 +74,30 @@ inline constexpr auto description<Planar> = with_rules(
 static_assert(is_complete<Planar>());
 void check_members(const Place& place, const Planar*);
 
+/// The four corners of a picture that is no rectangle.
+struct FourCorners {
+    void read_into(const Place& place, Wall& wall, const Folder&) const;
+    Json schema(Json& definitions) const;
+};
 template <>
 inline constexpr auto description<Wall> = with_rules(
     describe<Wall>("wall",
-        "A flat screen that stands in the room, by three of its corners as the visitor sees it. They make a right angle "
-        "within 1 "
-        "mm per metre.",
-        needed("lower_left_m", Numbers<3>{room_m}, place_in_cockpit, &Wall::lower_left_m),
-        needed("lower_right_m", Numbers<3>{room_m}, place_in_cockpit, &Wall::lower_right_m),
-        needed("upper_left_m", Numbers<3>{room_m}, place_in_cockpit, &Wall::upper_left_m)),
-    R"({ "examples": [{ "type": "wall", "lower_left_m": [-1.2, -0.675, -2], "lower_right_m": [1.2, -0.675, -2],
+        "A flat screen that stands in the room, by three corners of its picture as the visitor sees it. The nearest "
+        "rectangle is shown; they may miss it as a tape does, by 20 mm per metre.",
+        field("lower_left_m", Numbers<3>{room_m}, place_in_cockpit, &Wall::lower_left_m),
+        field("lower_right_m", Numbers<3>{room_m}, place_in_cockpit, &Wall::lower_right_m),
+        field("upper_left_m", Numbers<3>{room_m}, place_in_cockpit, &Wall::upper_left_m),
+        field("corners_m", FourCorners{},
+            "Instead of the three, metres: all corners of a picture that is no rectangle, because its projector stands "
+            "askew. Lower left, lower right, upper right, upper left, in one plane within 20 mm per metre.",
+            &Wall::upper_right_m)),
+    R"({ "oneOf": [{ "required": ["lower_left_m", "lower_right_m", "upper_left_m"], "not": { "required": ["corners_m"] } },
+        { "required": ["corners_m"], "not": { "anyOf": [{ "required": ["lower_left_m"] }, { "required": ["lower_right_m"] },
+          { "required": ["upper_left_m"] }] } }],
+        "examples": [{ "type": "wall", "lower_left_m": [-1.2, -0.675, -2], "lower_right_m": [1.2, -0.675, -2],
         "upper_left_m": [-1.2, 0.675, -2] }] })");
 static_assert(is_complete<Wall>());
+void check_members(const Place& place, const Wall*);
 void check(const Place& place, const Wall& wall, const Folder&);
 
 inline const std::vector<std::pair<std::string_view, FisheyeMapping>> fisheye_mappings{
@@ -243,6 +255,54 @@ inline constexpr auto description<Warp> = describe<Warp>("warp",
 static_assert(is_complete<Warp>());
 void check(const Place& place, const Warp& warp, const Folder&);
 
+/// A place that the alignment keys move, [x, y].
+struct Handle : Numbers<2> {
+    glm::dvec2 Quad::*member;
+    const char* name; ///< for people
+    void add_turnables(std::vector<described::Turnable>& all, const std::string& at, Quad& quad) const;
+};
+/// By how far the handles of a grid are moved along one axis.
+struct Offsets {
+    static constexpr bool tells_nothing_usual = true; // as many zeros as there are handles
+    Range range;
+    std::vector<double> HandleGrid::*member;
+    const char* way; ///< for people
+    std::vector<double> read(const Place& place, const Folder&) const;
+    Json schema(Json& definitions) const;
+    void add_turnables(std::vector<described::Turnable>& all, const std::string& at, HandleGrid& grid) const;
+};
+/// Handles may be pulled beyond the viewport, where nothing is seen of the picture.
+constexpr Range handle_places{-1, 2};
+/// One key press: half a pixel of a picture 2,000 pixels wide.
+constexpr double handle_step = 0.00025;
+template <>
+inline constexpr auto description<Quad> = describe<Quad>("quad",
+    "The places of the picture's corners, [x, y] in fractions of the viewport from its top left; what is left out stays in "
+    "its corner.",
+    field("upper_left", Handle{{handle_places}, &Quad::upper_left, "upper left corner"},
+        "The place of the picture's upper left corner.", &Quad::upper_left),
+    field("upper_right", Handle{{handle_places}, &Quad::upper_right, "upper right corner"},
+        "The place of its upper right corner.", &Quad::upper_right),
+    field("lower_right", Handle{{handle_places}, &Quad::lower_right, "lower right corner"},
+        "The place of its lower right corner.", &Quad::lower_right),
+    field("lower_left", Handle{{handle_places}, &Quad::lower_left, "lower left corner"},
+        "The place of its lower left corner.", &Quad::lower_left));
+static_assert(is_complete<Quad>());
+
+template <>
+inline constexpr auto description<HandleGrid> = describe<HandleGrid>("grid",
+    "Handles in rows and columns over the picture, the outer ones on its edges. A smooth surface goes through them.",
+    field("columns", Whole{HandleGrid::least, HandleGrid::most}, "The handles from left to right.", &HandleGrid::columns),
+    field("rows", Whole{HandleGrid::least, HandleGrid::most}, "The handles from top to bottom.", &HandleGrid::rows),
+    field("right", Offsets{{-1, 1}, &HandleGrid::right, "to the right"},
+        "By how far each handle is moved to the right, in fractions of the viewport's width; row by row from the top. Left "
+        "out, none is.",
+        &HandleGrid::right),
+    field("down", Offsets{{-1, 1}, &HandleGrid::down, "down"}, "The same downwards, in fractions of the viewport's height.",
+        &HandleGrid::down));
+static_assert(is_complete<HandleGrid>());
+void check(const Place& place, HandleGrid& grid, const Folder&);
+
 struct ObserverForm {
     ViewportObserver read(const Place& place, const Folder&) const;
     Json written(const ViewportObserver&) const { return "ship"; } // the usual one; layouts are not written
@@ -262,7 +322,8 @@ inline constexpr auto description<Viewport> = with_rules(
             &Viewport::eye_m),
         field("projection", Tagged<Projection>{},
             "The projection of the rectangle. It may be left out if a warp file has one.", &Viewport::projection),
-        field("warp", Object<Warp>{}, "", &Viewport::warp),
+        field("warp", Object<Warp>{}, "", &Viewport::warp), field("quad", Object<Quad>{}, "", &Viewport::quad),
+        field("grid", Object<HandleGrid>{}, "", &Viewport::grid),
         field("alpha_mask", ExistingFile{},
             "The path, from this layout's folder, of a PNG picture over the viewport that multiplies its light. Where "
             "viewports "

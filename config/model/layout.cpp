@@ -102,6 +102,50 @@ void check(const Place& place, Viewport& viewport, const Folder&)
         member(place, "projection");
 }
 
+void Handle::add_turnables(std::vector<described::Turnable>& all, const std::string& at, Quad& quad) const
+{
+    for (int axis : {0, 1})
+        all.push_back({at + "/" + std::to_string(axis), &(quad.*member)[axis], range, handle_step,
+            std::string(name) + (axis == 0 ? ", to the right" : ", down")});
+}
+
+constexpr std::size_t least_handles = HandleGrid::least * HandleGrid::least,
+                      most_handles = HandleGrid::most * HandleGrid::most;
+
+std::vector<double> Offsets::read(const Place& place, const Folder&) const
+{
+    std::vector<double> all;
+    for (const Place& one : items(place, least_handles, most_handles, "offsets"))
+        all.push_back(number(one, range));
+    return all;
+}
+
+Json Offsets::schema(Json& definitions) const
+{
+    return described::list_schema(least_handles, most_handles, Number{range}.schema(definitions));
+}
+
+void Offsets::add_turnables(std::vector<described::Turnable>& all, const std::string& at, HandleGrid& grid) const
+{
+    for (std::size_t i = 0; i < (grid.*member).size(); ++i)
+        all.push_back({at + "/" + std::to_string(i), &(grid.*member)[i], range, handle_step,
+            "handle " + std::to_string(i / std::size_t(grid.columns) + 1) + "."
+                + std::to_string(i % std::size_t(grid.columns) + 1) + ", " + way});
+}
+
+void check(const Place& place, HandleGrid& grid, const Folder&)
+{
+    const std::size_t handles = std::size_t(grid.columns) * std::size_t(grid.rows);
+    for (const auto& [name, offsets] : {std::pair("right", &grid.right), std::pair("down", &grid.down)}) {
+        const std::optional<Place> given = find_member(place, name);
+        if (given && offsets->size() != handles)
+            fail_at(*given,
+                "holds " + std::to_string(offsets->size()) + " numbers for " + std::to_string(grid.columns) + " columns and "
+                    + std::to_string(grid.rows) + " rows; " + std::to_string(handles) + " are right");
+        offsets->resize(handles, 0.0);
+    }
+}
+
 std::string FileNamePart::read(const Place& place, const Folder&) const
 {
     const std::string name = text(place);

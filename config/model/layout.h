@@ -31,9 +31,11 @@ struct Planar {
     Turn turn;
 };
 
-/// A flat wall or screen in the room; the eye sees the world through it, from any place (Kooima 2008).
+/// A flat wall or screen in the room; the eye sees the world through it, from any place (Kooima 2008). The corners are those
+/// of the picture as somebody measured them; displays/projections/wall.h fits a rectangle or a plane to them.
 struct Wall {
     glm::dvec3 lower_left_m{0}, lower_right_m{0}, upper_left_m{0};
+    std::optional<glm::dvec3> upper_right_m{}; ///< of a picture that is no rectangle; none: a rectangle
 };
 
 enum class FisheyeMapping { equidistant, equisolid, stereographic, orthographic };
@@ -122,6 +124,21 @@ struct Warp {
     std::optional<double> aspect; ///< of a Bourke mesh: the x of the viewport's right edge; empty: the file's own
 };
 
+// A picture that is pulled into shape on site, over the viewport's projection and warp. Places are fractions of the viewport
+// from its top left.
+
+/// The places of the picture's corners: a corner pin.
+struct Quad {
+    glm::dvec2 upper_left{0, 0}, upper_right{1, 0}, lower_right{1, 1}, lower_left{0, 1};
+};
+
+/// A net of handles over the picture, whose outer ones are its edges: displays/warp/bend.h has the surface through them.
+struct HandleGrid {
+    static constexpr int least = 3, most = 17; ///< handles across or down
+    int columns = 5, rows = 5;
+    std::vector<double> right, down; ///< by how far each handle is moved, in fractions; rows from the top
+};
+
 /// The observer whose sky a viewport shows. All observers are at the ship's event.
 struct ViewportObserver {
     bool at_rest = false; ///< in the world, the head turned as in the ship
@@ -135,6 +152,8 @@ struct Viewport {
     Projection projection;
     bool projection_given = true; ///< false: the projection is the warp file's own, if it has one
     std::optional<Warp> warp;
+    std::optional<Quad> quad; ///< over the grid
+    std::optional<HandleGrid> grid; ///< over projection and warp
     std::filesystem::path alpha_mask; ///< picture over the viewport that multiplies its light, or empty
     std::filesystem::path black_level; ///< picture over the viewport that is added to its light, or empty
     double mask_gamma = 1; ///< of both pictures' values: light = value^gamma
@@ -143,6 +162,9 @@ struct Viewport {
     ViewportObserver observer;
     int order = 0; ///< covers viewports of a lower order; those of the same order add their masked light
 };
+
+/// A text in which every number of a viewport's quad and grid stands; empty without them.
+std::string bend_key(const Viewport& viewport);
 
 /// The packing of two eyes in an output. The half forms squeeze each eye's picture. In rows and columns the first is the
 /// left eye's, in the checkerboard the top left pixel.

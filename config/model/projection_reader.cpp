@@ -5,6 +5,9 @@
 namespace starbow {
 namespace {
 
+/// How far corners may lie off a rectangle or a plane, in metres per metre: as far as a tape errs.
+constexpr double most_off = 0.02;
+
 /// The factor f of a lens must be neither 0 nor infinite out to here, in halves of the picture's height from its centre.
 constexpr double lens_reach = 1;
 
@@ -64,8 +67,55 @@ void check_members(const Place& place, const Planar*)
         fail_at(*x, "stands without \"fov_y_deg\"; both, or \"fov_y_deg\" alone, is right");
 }
 
+void FourCorners::read_into(const Place& place, Wall& wall, const Folder&) const
+{
+    const std::vector<Place> all = items(place, 4, 4, "corners");
+    wall.lower_left_m = vec3(all[0], room_m), wall.lower_right_m = vec3(all[1], room_m);
+    wall.upper_right_m = vec3(all[2], room_m), wall.upper_left_m = vec3(all[3], room_m);
+}
+
+Json FourCorners::schema(Json& definitions) const
+{
+    return described::list_schema(4, 4, Numbers<3>{room_m}.schema(definitions));
+}
+
+void check_members(const Place& place, const Wall*)
+{
+    const auto all = find_member(place, "corners_m");
+    for (const char* name : {"lower_left_m", "lower_right_m", "upper_left_m"})
+        if (!all)
+            member(place, name);
+        else if (find_member(place, name))
+            fail_at(*all, "stands beside \"" + std::string(name) + "\", which says the same; one of the two is right");
+}
+
+/// The corners of a picture that is no rectangle: their plane, their order and their distances.
+static void check_four(const Place& place, const Wall& wall)
+{
+    const std::array<glm::dvec3, 4> at{wall.lower_left_m, wall.lower_right_m, *wall.upper_right_m, wall.upper_left_m};
+    const glm::dvec3 rising = at[2] - at[0], falling = at[1] - at[3], facing = glm::cross(falling, rising);
+    const double area = glm::length(facing), size = std::sqrt(glm::length(rising) * glm::length(falling));
+    for (int i = 0; i < 4; ++i) {
+        const glm::dvec3 &before = at[std::size_t(i + 3) % 4], &here = at[std::size_t(i)],
+                         &after = at[std::size_t(i + 1) % 4];
+        // A thousandth of the area: the sine of an angle of a twentieth of a degree in a square.
+        if (!(glm::dot(glm::cross(after - here, before - here), facing) > 1e-3 * area * area))
+            fail_at(elements(place)[std::size_t(i)],
+                "makes no corner that bulges outwards; lower left, lower right, upper right, upper left, as the visitor "
+                "sees "
+                "them, are right");
+    }
+    const double off = std::abs(glm::dot(facing / area, at[1] - at[0])) / size; // between the diagonals
+    if (off > most_off)
+        fail_at(place,
+            "lies in no plane (" + shown(std::round(off * 1e4) / 10)
+                + " mm off per metre); corners of a flat wall, within 20 mm per metre, are right");
+}
+
 void check(const Place& place, const Wall& wall, const Folder&)
 {
+    if (wall.upper_right_m)
+        return check_four(member(place, "corners_m"), wall);
     const glm::dvec3 right = wall.lower_right_m - wall.lower_left_m, up = wall.upper_left_m - wall.lower_left_m;
     const double width = glm::length(right), height = glm::length(up);
     for (const auto& [name, length] : {std::pair("lower_right_m", width), std::pair("upper_left_m", height)})
@@ -74,10 +124,11 @@ void check(const Place& place, const Wall& wall, const Folder&)
                 "is less than a millimetre from \"lower_left_m\"; two different corners of the wall are right");
     // The cosine of the angle at the corner: the sideways displacement of the upper edge per metre of height.
     const double slip = std::abs(glm::dot(right, up)) / (width * height);
-    if (slip > 1e-3)
+    if (slip > most_off)
         fail_at(member(place, "upper_left_m"),
             "makes no right angle with the other corners (" + shown(std::round(slip * 1e4) / 10)
-                + " mm off per metre); corners of a rectangle, within 1 mm per metre, are right");
+                + " mm off per metre); corners of a rectangle, within 20 mm per metre, or all four in \"corners_m\", are "
+                  "right");
 }
 
 void check(const Place& place, const Fisheye& fisheye, const Folder&)
@@ -136,6 +187,16 @@ std::string projection_key(const Projection& projection)
 {
     std::string text;
     described::add_to_key(text, projection);
+    return text;
+}
+
+std::string bend_key(const Viewport& viewport)
+{
+    std::string text;
+    if (viewport.quad)
+        described::add_to_key(text, *viewport.quad);
+    if (viewport.grid)
+        described::add_to_key(text, *viewport.grid);
     return text;
 }
 

@@ -3,6 +3,7 @@
 #include "config/model/angles.h"
 #include "config/model/turn.h"
 #include "displays/projections/views.h"
+#include "displays/projections/wall.h"
 #include "floor_plan_table.h"
 #include <algorithm>
 #include <array>
@@ -402,11 +403,7 @@ private:
                 what(layout_.outputs[o], int(o), viewport);
     }
 
-    static std::array<glm::dvec3, 4> corners(const Wall& wall)
-    {
-        return {wall.lower_left_m, wall.lower_right_m, wall.lower_right_m + wall.upper_left_m - wall.lower_left_m,
-            wall.upper_left_m};
-    }
+    static std::array<glm::dvec3, 4> corners(const Wall& wall) { return fitted_corners(wall).at; }
 
     void note(const glm::dvec3& place)
     {

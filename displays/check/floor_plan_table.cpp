@@ -42,6 +42,9 @@ std::string words(const Planar& planar)
 
 std::string words(const Wall& wall)
 {
+    if (wall.upper_right_m)
+        return "picture on a wall, " + printed("%.3f and ", glm::distance(wall.lower_left_m, wall.lower_right_m))
+            + printed("%.3f m wide", glm::distance(wall.upper_left_m, *wall.upper_right_m));
     return "wall, " + printed("%.3f x ", glm::distance(wall.lower_left_m, wall.lower_right_m))
         + printed("%.3f m", glm::distance(wall.lower_left_m, wall.upper_left_m));
 }

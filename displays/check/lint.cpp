@@ -1,4 +1,5 @@
 #include "lint.h"
+#include "displays/projections/wall.h"
 #include "floor_plan_table.h"
 #include <algorithm>
 #include <cmath>
@@ -48,6 +49,22 @@ std::string odd_corners(const Wall& wall)
         return "";
     return std::string("its picture ") + (upright < -sideways ? "stands on its head" : "lies on its side")
         + "; corners may be exchanged: lower left, lower right and upper left are those that the visitor sees";
+}
+
+/// Says how far each corner lies from the rectangle, or the plane, that is fitted to a wall's corners.
+std::string moved_corners(const Wall& wall)
+{
+    constexpr double shown_m = 0.0005;
+    const std::array<double, 4> moved = fitted_corners(wall).moved_m;
+    if (*std::ranges::max_element(moved) < shown_m)
+        return "";
+    std::string text = wall.upper_right_m ? "its corners lie in no plane; the nearest one is shown, at"
+                                          : "its corners make no rectangle; the nearest one is shown, at";
+    const char* const names[]{"lower left", "lower right", "upper right", "upper left"};
+    for (std::size_t i = 0; i < 4; ++i)
+        if (wall.upper_right_m || i != 2)
+            text += (i == 0 ? " the " : ", the ") + std::string(names[i]) + " " + rounded(1e3 * moved[i]) + " mm off";
+    return text;
 }
 
 /// The ratio of a wall's pixels' width to their height.
@@ -109,9 +126,10 @@ std::vector<std::string> lint(const Layout& layout, const std::vector<Coverage>&
             doubt(name + ": its eye is " + rounded(glm::length(viewport.eye_m))
                 + " m from the cockpit's middle; lengths are in metres");
         if (auto* wall = std::get_if<Wall>(&viewport.projection))
-            if (const std::string odd = odd_corners(*wall); !odd.empty())
-                doubt(name + ": " + odd);
-        if (auto* wall = std::get_if<Wall>(&viewport.projection); wall && !viewport.warp) {
+            for (const std::string& odd : {odd_corners(*wall), moved_corners(*wall)})
+                if (!odd.empty())
+                    doubt(name + ": " + odd);
+        if (auto* wall = std::get_if<Wall>(&viewport.projection); wall && !viewport.warp && !wall->upper_right_m) {
             // In a squeezed packing too, the eye's picture has the output's shape.
             const glm::ivec2 size = layout.outputs[c.output].size;
             const glm::dvec2 pixels = glm::dvec2(size) * glm::dvec2(viewport.rect.z, viewport.rect.w);

@@ -3,6 +3,7 @@
 #include "config/json/folder.h"
 #include "config/json/hash.h"
 #include "config/json/kept_file.h"
+#include "displays/warp/bend.h"
 #include "map_cache.h"
 #include <algorithm>
 #include <array>
@@ -121,6 +122,16 @@ std::shared_ptr<const WarpMesh> MapStore::mesh(const Warp& warp, std::string& co
     return mesh;
 }
 
+std::shared_ptr<const WarpMesh> MapStore::bent_mesh(
+    const Viewport& viewport, const WarpMesh* mesh, const std::string& content)
+{
+    std::weak_ptr<const WarpMesh>& kept = kept_->meshes[content];
+    std::shared_ptr<const WarpMesh> result = kept.lock();
+    if (!result)
+        kept = result = std::make_shared<WarpMesh>(bent(Bend(viewport.quad, viewport.grid), mesh));
+    return result;
+}
+
 std::shared_ptr<const DirectionMap> MapStore::map(const View& view, const WarpMesh* mesh, std::uint64_t key)
 {
     std::weak_ptr<const DirectionMap>& kept = kept_->maps[key];
@@ -145,15 +156,20 @@ CompiledView MapStore::compile(const Layout& layout, const View& view)
     CompiledView compiled;
     compiled.view = view;
     std::string content;
-    if (const auto& warp = layout.outputs[view.output].viewports[view.viewport].warp) {
-        const std::string viewport = viewport_pointer(view.output, view.viewport);
+    const std::string viewport = viewport_pointer(view.output, view.viewport);
+    const Viewport& own = layout.outputs[view.output].viewports[view.viewport];
+    if (const auto& warp = own.warp) {
         compiled.mesh = on_behalf_of(layout, viewport + "/warp", [&] { return mesh(*warp, content); });
         if (!view.projection_given && compiled.mesh->kind == WarpMesh::Kind::picture && !compiled.mesh->frustum)
             throw InputError(place_in(layout, viewport), "",
                 "has no projection, and " + warp->file.filename().string()
                     + " does not say what its picture shows; a \"projection\" beside \"warp\" is right");
-    } else if (matrices_) {
+    } else if (matrices_ && !is_bent(own)) {
         compiled.matrix = view_matrix(view);
+    }
+    if (is_bent(own)) {
+        content += bend_key(own);
+        compiled.mesh = on_behalf_of(layout, viewport, [&] { return bent_mesh(own, compiled.mesh.get(), content); });
     }
     if (compiled.matrix) {
         compiled.cones = std::make_shared<ConeHierarchy>(*compiled.matrix, view.size);

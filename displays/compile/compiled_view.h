@@ -8,7 +8,7 @@ namespace starbow {
 struct CompiledView {
     View view;
     std::optional<glm::dmat3> matrix; ///< direction = M (x, y, 1), pixels from the view's corner
-    std::shared_ptr<const WarpMesh> mesh; ///< of the viewport's warp file, or null
+    std::shared_ptr<const WarpMesh> mesh; ///< of the viewport's warp file and its handles, or null
     std::shared_ptr<const DirectionMap> map; ///< null where there is a matrix
     std::shared_ptr<const ConeHierarchy> cones;
 
@@ -43,6 +43,7 @@ public:
 
 private:
     std::shared_ptr<const WarpMesh> mesh(const Warp& warp, std::string& content);
+    std::shared_ptr<const WarpMesh> bent_mesh(const Viewport& viewport, const WarpMesh* mesh, const std::string& content);
     std::shared_ptr<const DirectionMap> map(const View& view, const WarpMesh* mesh, std::uint64_t key);
 
     std::filesystem::path folder_;

@@ -1,6 +1,7 @@
 #include "cone_hierarchy.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace starbow {
 namespace {
@@ -104,7 +105,13 @@ ConeHierarchy::ConeHierarchy(const glm::dmat3& direction_from_pixel, glm::ivec2 
 {
     const glm::dmat3& m = direction_from_pixel;
     unit_ = std::sqrt(std::abs(glm::determinant(m)));
-    foot_ = -glm::dvec2(glm::dot(m[0], m[2]) / glm::dot(m[0], m[0]), glm::dot(m[1], m[2]) / glm::dot(m[1], m[1]));
+    const double xx = glm::dot(m[0], m[0]), yy = glm::dot(m[1], m[1]), xy = glm::dot(m[0], m[1]);
+    const glm::dvec2 towards = -glm::dvec2(glm::dot(m[0], m[2]), glm::dot(m[1], m[2]));
+    foot_ = towards / glm::dvec2(xx, yy);
+    if (std::abs(xy) > 1e-12 * std::sqrt(xx * yy)) {
+        skew_ = {xx, xy, yy};
+        foot_ = glm::dvec2(yy * towards.x - xy * towards.y, xx * towards.y - xy * towards.x) / (xx * yy - xy * xy);
+    }
     constexpr int least_kept = 8; // pixels
     for (int level = 0; level < levels_ && side(level) >= least_kept; ++level) {
         const glm::ivec2 cones = count(level);
@@ -114,6 +121,28 @@ ConeHierarchy::ConeHierarchy(const glm::dmat3& direction_from_pixel, glm::ivec2 
             for (int x = 0; x < cones.x; ++x)
                 kept.push_back(flat_cone(level, {x, y}));
     }
+}
+
+/// The point of a rectangle of pixels that is nearest to the eye. The square of the distance grows from the perpendicular's
+/// foot as a quadratic form; where the axes are askew, its least value on the rectangle may lie anywhere on the edges.
+glm::dvec2 ConeHierarchy::nearest_point(glm::dvec2 first, glm::dvec2 last) const
+{
+    const glm::dvec2 inside = glm::clamp(foot_, first, last);
+    if (!skew_ || inside == foot_)
+        return inside;
+    const auto [xx, xy, yy] = *skew_;
+    glm::dvec2 best = inside;
+    double least = std::numeric_limits<double>::infinity();
+    const auto try_point = [&](const glm::dvec2& p) {
+        const glm::dvec2 off = p - foot_;
+        if (const double square = xx * off.x * off.x + 2 * xy * off.x * off.y + yy * off.y * off.y; square < least)
+            least = square, best = p;
+    };
+    for (const double x : {first.x, last.x})
+        try_point({x, std::clamp(foot_.y - xy / yy * (x - foot_.x), first.y, last.y)});
+    for (const double y : {first.y, last.y})
+        try_point({std::clamp(foot_.x - xy / xx * (y - foot_.y), first.x, last.x), y});
+    return best;
 }
 
 BoundingCone ConeHierarchy::flat_cone(int level, glm::ivec2 block) const
@@ -135,7 +164,7 @@ BoundingCone ConeHierarchy::flat_cone(int level, glm::ivec2 block) const
     }
     cap.radius = float(2 * std::asin(std::min(1.0, 0.5 * std::sqrt(chord_square)))) + slack;
     // The solid angle of a pixel is det M / length^3.
-    const double nearest = glm::length(at(glm::clamp(foot_, first, last)));
+    const double nearest = glm::length(at(nearest_point(first, last)));
     cap.finest = float(unit_ / (farthest * std::sqrt(farthest)));
     cap.coarsest = float(unit_ / (nearest * std::sqrt(nearest)));
     return cap;

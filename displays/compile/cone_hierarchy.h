@@ -1,5 +1,6 @@
 #pragma once
 #include "direction_map.h"
+#include <array>
 #include <optional>
 
 namespace starbow {
@@ -31,12 +32,15 @@ public:
 
 private:
     BoundingCone flat_cone(int level, glm::ivec2 block) const;
+    glm::dvec2 nearest_point(glm::dvec2 first, glm::dvec2 last) const;
 
     glm::ivec2 size_;
     int leaf_, levels_;
     std::vector<std::vector<BoundingCone>> cones_; ///< by level, rows from the top; of a flat picture the coarser levels
     std::optional<glm::dmat3> flat_;
     glm::dvec2 foot_{0}; ///< foot of the perpendicular from the eye, pixels
+    /// Of a flat picture whose axes are not perpendicular: the squares of M's first two columns, with their product between.
+    std::optional<std::array<double, 3>> skew_;
     double unit_ = 0; ///< square root of M's determinant
 };
 

@@ -128,7 +128,7 @@ Picture warped_picture(const View& view, const WarpMesh& mesh, bool projection_g
     Picture picture = view.picture;
     if (!projection_given && mesh.frustum)
         picture.projection = *mesh.frustum;
-    if (std::holds_alternative<Fisheye>(picture.projection))
+    if (!mesh.of_viewport && std::holds_alternative<Fisheye>(picture.projection))
         picture.size = glm::ivec2(std::min(picture.size.x, picture.size.y));
     return picture;
 }

@@ -30,6 +30,10 @@ PictureRays::Rays PictureRays::prepare(const Picture& picture)
         Match{
             [&](const Planar& planar) -> Rays { return planar_plane(planar, size); },
             [&](const Wall& wall) -> Rays {
+                if (const auto keystone = wall.upper_right_m ? wall_keystone(wall, size, picture.eye_m) : std::nullopt)
+                    return *keystone;
+                if (wall.upper_right_m)
+                    return Nothing{};
                 if (const auto plane = wall_plane(wall, size, picture.eye_m))
                     return *plane;
                 return Nothing{};
@@ -65,6 +69,8 @@ std::optional<glm::dmat3> PictureRays::planar_matrix() const
 {
     if (const Plane* plane = std::get_if<Plane>(&rays_))
         return plane->matrix();
+    if (const Keystone* keystone = std::get_if<Keystone>(&rays_))
+        return keystone->matrix();
     return {};
 }
 

@@ -4,6 +4,7 @@
 #include "cylinder.h"
 #include "equirectangular.h"
 #include "fisheye.h"
+#include "keystone.h"
 #include "lens.h"
 #include "plane.h"
 #include "spherical_mirror.h"
@@ -54,7 +55,7 @@ private:
         double pixel_angle(glm::dvec2) const { return 0; }
     };
     using Lenses = std::array<LensRays, 3>; ///< by channel
-    using Rays = std::variant<Nothing, Plane, FisheyeRays, CylinderRays, EquirectangularRays, CubeFaceRays,
+    using Rays = std::variant<Nothing, Plane, Keystone, FisheyeRays, CylinderRays, EquirectangularRays, CubeFaceRays,
         SphericalMirrorRays, Lenses>;
     static Rays prepare(const Picture& picture);
     Rays rays_;

@@ -4,15 +4,20 @@
 namespace starbow {
 namespace {
 
-/// The solid angle of a triangle with twice the area `area2` in a plane at distance 1 (van Oosterom and Strackee 1983).
-/// Their triple product is just this area, so nothing cancels, however small the pixel.
-double triangle_solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double area2)
+/// The solid angle of a triangle by its corners and their triple product (van Oosterom and Strackee 1983). Where the product
+/// is known otherwise, nothing cancels, however small the pixel.
+double triangle_solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double triple)
 {
     const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-    return 2 * std::atan2(area2, la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la);
+    return 2 * std::atan2(triple, la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la);
 }
 
 } // namespace
+
+double pixel_solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d, double triple)
+{
+    return triangle_solid_angle(a, b, c, triple) + triangle_solid_angle(a, c, d, triple);
+}
 
 Plane::Plane(const glm::dvec3& ahead, const glm::dvec3& right, const glm::dvec3& down, glm::dvec2 axis)
     : ahead_(ahead)
@@ -38,8 +43,8 @@ double Plane::pixel_angle(glm::dvec2 pixel) const
 {
     const glm::dvec3 centre = point(pixel), x = right_ / 2., y = down_ / 2.;
     const glm::dvec3 a = centre - x - y, b = centre + x - y, c = centre + x + y, d = centre - x + y;
-    const double area2 = glm::length(glm::cross(right_, down_));
-    return std::sqrt(triangle_solid_angle(a, b, c, area2) + triangle_solid_angle(a, c, d, area2));
+    // In a plane at distance 1 the triple product is the pixel's area.
+    return std::sqrt(pixel_solid_angle(a, b, c, d, glm::length(glm::cross(right_, down_))));
 }
 
 glm::dmat3 Plane::matrix() const { return {right_, down_, point({0, 0})}; }

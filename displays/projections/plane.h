@@ -4,6 +4,10 @@
 
 namespace starbow {
 
+/// The solid angle of a flat pixel by its corners as seen from the eye, in order around it. triple: the triple product of
+/// three neighbouring corners.
+double pixel_solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d, double triple);
+
 /// A flat picture as an eye sees it, scaled to one unit before the eye. The point (x, y) shows the direction along ahead +
 /// right (x - axis.x) + down (y - axis.y). picture.h has the contract of each function.
 class Plane {

@@ -30,6 +30,7 @@ struct WarpMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     glm::ivec2 grid{0}; ///< columns and rows of the vertices, rows from the top, where they are a grid; else 0
     glm::ivec2 cells{0}; ///< of a map: its columns and rows; its vertices are their centres, and an edge around them
+    bool of_viewport = false; ///< the picture is the viewport's own, of a fisheye, too; else it is a square under a fisheye
     std::optional<Planar> frustum; ///< of the unwarped picture, where the file has one
     std::optional<glm::dvec3> eye_m; ///< the eye, where the file has one
     std::string format; ///< for people: "Bourke mesh", "MPCDI 2.0, profile 3d, region left" ...

@@ -128,6 +128,35 @@ TEST(Adjust, ProjectorsOfOneDomeAreAdjustedTogether)
     EXPECT_NO_THROW(named(adjustables(apart), "the whole dome, rotation"));
 }
 
+TEST(Adjust, HandlesAreNumbersOfTheFile)
+{
+    const std::filesystem::path file = starbow::testing::write_text("handles.json", R"({ "outputs": [{ "name": "wall",
+        "viewports": [{ "projection": { "type": "planar" }, "quad": { "upper_right": [0.9, 0.1] },
+        "grid": { "columns": 4, "rows": 3 } }] }] })");
+    const Layout before = load_layout(file);
+    const std::vector<Adjustable> all = adjustables(before);
+    EXPECT_EQ(all.size(), 3u + 8 + 24) << "the turn, four corners, twelve handles";
+    Layout turned = adjusted(before, named(all, "wall, upper right corner, to the right"), -4);
+    turned = adjusted(turned, named(all, "wall, lower left corner, down"), 8);
+    turned = adjusted(turned, named(all, "wall, handle 3.2, to the right"), 40);
+    turned = adjusted(turned, named(all, "wall, handle 1.4, down"), -40);
+    const Viewport& viewport = turned.outputs[0].viewports[0];
+    EXPECT_NEAR(viewport.quad->upper_right.x, 0.899, 1e-12);
+    EXPECT_NEAR(viewport.quad->lower_left.y, 1.002, 1e-12);
+    EXPECT_NEAR(viewport.grid->right[9], 0.01, 1e-12);
+    EXPECT_NEAR(viewport.grid->down[3], -0.01, 1e-12);
+    // The file has neither the lower left corner nor any offset.
+    EXPECT_EQ(changes(before, turned).size(), 4u);
+    EXPECT_EQ(turned_numbers(before, turned).size(), 4u);
+    patch_file(file, changes(before, turned));
+    const Layout after = load_layout(file);
+    for (const Adjustable& one : all)
+        EXPECT_EQ(value_of(after, one), value_of(turned, one)) << one.name;
+    const Layout there = with_turned(before, turned_numbers(before, turned));
+    for (const Adjustable& one : all)
+        EXPECT_EQ(value_of(there, one), value_of(turned, one)) << one.name;
+}
+
 TEST(Adjust, AdjustmentsOutlastAReload)
 {
     const Layout kept = load_layout(starbow::testing::source_dir() / "config/layouts/dome2.json");

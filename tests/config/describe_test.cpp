@@ -140,7 +140,7 @@ TEST(DescribeTest, NumbersWithAStepAreTurnedInTheObjectsThatAreThere)
     EXPECT_EQ(all[0].pointer, "/toy/inner/angle_deg");
     *all[0].number = 20;
     EXPECT_EQ(one.inner.angle_deg, 20);
-    EXPECT_EQ(all[0].form.range.high, 90);
+    EXPECT_EQ(all[0].range.high, 90);
 }
 
 TEST(DescribeTest, ProjectionsWithOtherNumbersHaveOtherKeys)

@@ -339,15 +339,15 @@ TEST(LayoutMembersTest, WallsAreRead)
     EXPECT_EQ(w.upper_left_m, glm::dvec3(-1, 1, -2));
     const std::string from = R"("type": "wall", "lower_left_m": [-1, -1, -2], )";
     expect_right({projection(
-                      from + R"("lower_right_m": [1, -1, -2], "upper_left_m": [-0.9985, 0.5, -2])"), // 1 mm for each metre
+                      from + R"("lower_right_m": [1, -1, -2], "upper_left_m": [-0.971, 0.5, -2])"), // 19.3 mm for each metre
         projection(wall, R"("eye_m": [0, 0, -1.99])"), projection(wall, R"("eye_m": [0, 0, -1.96])", R"("packing": "rows")"),
         // A floor as the visitor sees it, with the far edge up.
         projection(
             R"("type": "wall", "lower_left_m": [-1, -1.5, 1], "lower_right_m": [1, -1.5, 1], "upper_left_m": [-1, -1.5, -1])")});
     expect_wrong(load_layout,
         {
-            {projection(from + R"("lower_right_m": [1, -1, -2], "upper_left_m": [-0.99, 1, -2])"),
-                at_projection + "/upper_left_m", "[-0.99,1,-2]", "makes no right angle with the other corners (5 mm off"},
+            {projection(from + R"("lower_right_m": [1, -1, -2], "upper_left_m": [-0.95, 1, -2])"),
+                at_projection + "/upper_left_m", "[-0.95,1,-2]", "makes no right angle with the other corners (25 mm off"},
             {projection(from + R"("lower_right_m": [-1, -1, -2], "upper_left_m": [-1, 1, -2])"),
                 at_projection + "/lower_right_m", "[-1,-1,-2]", "is less than a millimetre from"},
             {projection(from + R"("lower_right_m": [1, -1, -2], "upper_left_m": [-1, -1, -2])"),
@@ -359,6 +359,52 @@ TEST(LayoutMembersTest, WallsAreRead)
                 "{\"lower_left_m\":", "touches the eye at [0.5, 0, -2.0001]"},
             {projection(wall, R"("eye_m": [0, 0, -1.97])", R"("packing": "rows")"), at_projection,
                 "{\"lower_left_m\":", "an eye more than 0.0335 m before"},
+        });
+}
+
+TEST(LayoutMembersTest, WallsOfFourCornersAreRead)
+{
+    const auto corners = [](const std::string& list) { return projection(R"("type": "wall", "corners_m": )" + list); };
+    const Wall w = shown_by<Wall>(corners("[[-1, -1, -2], [1, -0.9, -2], [0.8, 1, -2], [-1, 1.1, -2]]"));
+    EXPECT_EQ(w.lower_left_m, glm::dvec3(-1, -1, -2));
+    EXPECT_EQ(w.lower_right_m, glm::dvec3(1, -0.9, -2));
+    EXPECT_EQ(*w.upper_right_m, glm::dvec3(0.8, 1, -2));
+    EXPECT_EQ(w.upper_left_m, glm::dvec3(-1, 1.1, -2));
+    const std::string at = at_projection + "/corners_m";
+    expect_right({corners("[[-1, -1, -2.02], [1, -1, -2], [1, 1, -2.02], [-1, 1, -2]]")});
+    expect_wrong(load_layout,
+        {
+            {corners("[[-1, -1, -2], [1, -1, -2], [1, 1, -2]]"), at, "[[-1,-1,-2],[1,-1,-2],[1,1,-2]]", "has length 3"},
+            {corners("[[-1, -1, -2], [1, -1, -2], [-1, 1, -2], [1, 1, -2]]"), at + "/0", "[-1,-1,-2]", "bulges outwards"},
+            {corners("[[-1, -1, -2], [1, -1, -2], [0, -0.9, -2], [-1, 1, -2]]"), at + "/2", "[0,-0.9,-2]",
+                "bulges outwards"},
+            {corners("[[-1, -1, -2], [-1, -1, -2], [1, 1, -2], [-1, 1, -2]]"), at + "/0", "[-1,-1,-2]", "bulges outwards"},
+            {corners("[[-1, -1, -2.2], [1, -1, -2], [1, 1, -2.2], [-1, 1, -2]]"), at,
+                "[[-1,-1,-2.2],[1,-1,-2],[1,1,-2.2],[-1,1,-2]]", "lies in no plane (70.7 mm off"},
+            {projection(wall + R"(, "corners_m": [[-1, -1, -2], [1, -1, -2], [1, 1, -2], [-1, 1, -2]])"), at,
+                "[[-1,-1,-2],[1,-1,-2],[1,1,-2],[-1,1,-2]]", "stands beside \"lower_left_m\""},
+            {projection(R"("type": "wall", "lower_left_m": [-1, -1, -2])"), at_projection, "{\"lower_left_m\"",
+                "lower_right_m"},
+            {corners("[[-1, -1, 2], [1, -1, 2], [1, 1, 2], [-1, 1, 2]]"), at_projection, "{\"corners_m\"",
+                "is seen from behind"},
+        });
+}
+
+TEST(LayoutMembersTest, HandlesAreRead)
+{
+    const Viewport v = first(viewport(R"("quad": { "lower_left": [0.1, 0.9] },
+        "grid": { "columns": 3, "rows": 4, "down": [0, 0, 0, 0, 0.1, 0, 0, 0, 0, 0, 0, 0] })"))
+                           .viewports.at(0);
+    EXPECT_EQ(v.quad->lower_left, glm::dvec2(0.1, 0.9));
+    EXPECT_EQ(v.quad->lower_right, glm::dvec2(1, 1));
+    EXPECT_EQ(v.grid->down.at(4), 0.1);
+    EXPECT_EQ(v.grid->right, std::vector<double>(12, 0));
+    expect_wrong(load_layout,
+        {
+            {viewport(R"("grid": { "columns": 3, "rows": 3, "right": [0, 0, 0, 0, 0, 0, 0, 0, 0, 0] })"), vp + "/grid/right",
+                "[0,0,0,0,0,0,0,0,0,0]", "holds 10 numbers for 3 columns and 3 rows; 9 are right"},
+            {viewport(R"("quad": { "upper_left": [0.1, 2.5] })"), vp + "/quad/upper_left/1", "2.5", "-1 to 2"},
+            {viewport(R"("quad": { "top": [0, 0] })"), vp + "/quad/top", "[0,0]", "upper_left"},
         });
 }
 

@@ -81,6 +81,20 @@ TEST(LintTest, ExchangedCornersGiveWarnings)
     EXPECT_TRUE(square({{1, 1, 1}, {-1, 1, 1}, {1, 1, -1}}));
 }
 
+TEST(LintTest, CornersByTapeGiveTheirResiduals)
+{
+    // 20 mm askew on 2 m: half of the miss at each end of the shorter side's edge.
+    const std::string tape = warnings(of({{Wall{{-2, -1, -2}, {2, -1, -2}, {-1.98, 1, -2}}, {800, 400}}}));
+    EXPECT_TRUE(has(tape,
+        "a: its corners make no rectangle; the nearest one is shown, at the lower left 8.9 mm off, the lower right 4 mm "
+        "off, the upper left 8 mm off"))
+        << tape;
+    const std::string askew
+        = warnings(of({{Wall{{-1, -1, -2.01}, {1, -1, -1.99}, {-1, 1, -1.99}, {{1, 1, -2.01}}}, {400, 400}}}));
+    EXPECT_TRUE(has(askew, "a: its corners lie in no plane; the nearest one is shown, at the lower left 10 mm off"))
+        << askew;
+}
+
 TEST(LintTest, EyesAndTheirTrackerGiveWarnings)
 {
     const Wall wall{{-2, -1, -3}, {2, -1, -3}, {-2, 1, -3}};
