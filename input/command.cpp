@@ -13,6 +13,9 @@ namespace {
 using enum CommandKind;
 using Value = CommandValue;
 
+/// Steps of one move: half the width of a picture by its corner's handle.
+constexpr double most_move = 2000;
+
 constexpr std::array kinds{CommandRule{fade, "fade", Role::docent, Value::on},
     CommandRule{stop, "stop", Role::docent, Value::none}, CommandRule{reset, "reset", Role::docent, Value::none},
     CommandRule{tour, "tour", Role::docent, Value::name}, CommandRule{next, "next", Role::docent, Value::none},
@@ -34,6 +37,10 @@ constexpr std::array kinds{CommandRule{fade, "fade", Role::docent, Value::on},
     CommandRule{item, "item", Role::docent, Value::number, {1, 1000}},
     CommandRule{layout, "layout", Role::engineer, Value::name}, CommandRule{pattern, "pattern", Role::engineer, Value::name},
     CommandRule{quality, "quality", Role::engineer, Value::name}, CommandRule{unlock, "unlock", Role::engineer, Value::none},
+    CommandRule{grip, "grip", Role::engineer, Value::text},
+    CommandRule{move, "move", Role::engineer, Value::place, {-most_move, most_move}, {}, {-most_move, most_move}},
+    CommandRule{move_back, "move-back", Role::engineer, Value::none},
+    CommandRule{as_saved, "as-saved", Role::engineer, Value::on}, CommandRule{keep, "keep", Role::engineer, Value::none},
     CommandRule{restart, "restart", Role::engineer, Value::none}};
 
 static_assert(has_each_in_order(kinds, &CommandRule::kind, effect));

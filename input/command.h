@@ -42,6 +42,11 @@ enum class CommandKind : std::uint8_t {
     pattern,
     quality,
     unlock, ///< a builder's keys, for ten minutes
+    grip, ///< text: the name of a grip of the layout, which `move` moves from now on
+    move, ///< place: steps to the right and down
+    move_back, ///< takes the last move back
+    as_saved, ///< on: the picture by the layout's file, to compare with
+    keep, ///< writes the layout's moved numbers into its file
     restart, ///< ends the exhibit, so that the service manager starts it anew
     effect, ///< on: it is shown; one command for each effect, with its name
 };

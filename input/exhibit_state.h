@@ -51,6 +51,7 @@ struct ExhibitState : Choices {
     double max_gamma = 1; ///< at full throttle
     double exposure_ev = 0; ///< a docent's change
     std::string caption; ///< a docent's; empty: none
+    bool as_saved = false; ///< the picture is by the layout's file, without what a builder has moved since
 };
 
 /// The commands that switch something on and off, but for effects: the member, and its name in the remote's state.
@@ -65,7 +66,7 @@ inline constexpr SwitchedState switched_states[]{{CommandKind::fade, &ExhibitSta
     {CommandKind::one_button, &ExhibitState::one_button, "one-button"},
     {CommandKind::left_handed, &ExhibitState::left_handed, "left-handed"},
     {CommandKind::filter, &ExhibitState::filter, "filter"}, {CommandKind::sky_names, &ExhibitState::sky_names, "sky-names"},
-    {CommandKind::range, &ExhibitState::range, "range"}};
+    {CommandKind::range, &ExhibitState::range, "range"}, {CommandKind::as_saved, &ExhibitState::as_saved, "as-saved"}};
 
 /// Applies a command that switches an effect, or chooses a comparison. Returns false, and changes nothing, for any other.
 /// Throws InputError for an unknown comparison.

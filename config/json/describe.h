@@ -297,6 +297,7 @@ struct Turnable {
     Range range;
     double step; ///< of one press
     std::string name; ///< for people
+    const char* way = ""; ///< of one of a place's two numbers: "to the right" or "down"
 };
 /// Adds those of a value at a pointer, and of the objects in it.
 template <class T> void add_turnables(std::vector<Turnable>& all, const std::string& pointer, T& value)

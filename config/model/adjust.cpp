@@ -77,8 +77,8 @@ void add_own(std::vector<Adjustable>& all, Layout& layout, const Adjustable::Spo
         all.push_back({(!name.empty()                            ? name
                                : one.pointer.starts_with("/hud") ? "head-up display"
                                                                  : "blend")
-                + ", " + one.name,
-            {{one.pointer, where.output, where.viewport}}, one.name, one.range.low, one.range.high, one.step});
+                + ", " + one.name + (*one.way ? ", " : "") + one.way,
+            {{one.pointer, where.output, where.viewport}}, one.name, one.way, one.range.low, one.range.high, one.step});
 }
 
 /// Numbers that several projectors on one dome share. Changed one by one, their pictures would separate.
@@ -136,6 +136,31 @@ std::vector<Adjustable> adjustables(const Layout& layout)
     all.insert(all.end(), each.begin(), each.end());
     add_own(all, copy, {}, "");
     return all;
+}
+
+std::vector<Grip> grips(const Layout& layout)
+{
+    std::vector<Grip> all;
+    std::map<std::string, std::size_t> places;
+    for (Adjustable& one : adjustables(layout)) {
+        if (one.way.empty()) {
+            all.push_back({one.name, {std::move(one)}});
+            continue;
+        }
+        const std::string name = one.name.substr(0, one.name.size() - one.way.size() - 2);
+        const auto [place, is_new] = places.try_emplace(name, all.size());
+        if (is_new)
+            all.push_back({name, {}});
+        all[place->second].numbers.push_back(std::move(one));
+    }
+    return all;
+}
+
+Layout moved(Layout layout, const Grip& grip, double right, double down)
+{
+    if (grip.numbers.size() == 1)
+        return adjusted(std::move(layout), grip.numbers[0], right - down);
+    return adjusted(adjusted(std::move(layout), grip.numbers[0], right), grip.numbers[1], down);
 }
 
 double value_of(const Layout& layout, const Adjustable& adjustable)

@@ -16,7 +16,8 @@ struct Adjustable {
         std::size_t output = 0, viewport = 0;
     };
     std::vector<Spot> spots;
-    std::string what; ///< the number's own name: "tilt"
+    std::string what; ///< the number's own name: "tilt"; of a place's two numbers the place's
+    std::string way; ///< of a place's two numbers: "to the right" or "down"; else empty
     double low = 0, high = 0; ///< by the file's format
     double step = 0.1; ///< of one key press: degrees, fractions of a viewport, or the power's own unit
 };
@@ -30,6 +31,18 @@ double value_of(const Layout& layout, const Adjustable& adjustable);
 
 /// The layout with one number changed by `steps`, clamped to the file format's range.
 Layout adjusted(Layout layout, const Adjustable& adjustable, double steps);
+
+/// The grip of a builder's hand on a layout: one number, or a place with its two numbers.
+struct Grip {
+    std::string name; ///< for people: "dome, tilt", "left, upper left corner"
+    std::vector<Adjustable> numbers; ///< of a place to the right, then down
+};
+
+/// All grips of a layout, in the order of its adjustable numbers.
+std::vector<Grip> grips(const Layout& layout);
+
+/// The layout with a grip moved by steps to the right and down. A number grows to the right and upwards.
+Layout moved(Layout layout, const Grip& grip, double right, double down);
 
 /// The differences of two layouts as changes of the first one's file. Members that the first lacks are left out.
 std::vector<Change> changes(const Layout& saved, const Layout& now);

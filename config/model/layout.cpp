@@ -105,8 +105,8 @@ void check(const Place& place, Viewport& viewport, const Folder&)
 void Handle::add_turnables(std::vector<described::Turnable>& all, const std::string& at, Quad& quad) const
 {
     for (int axis : {0, 1})
-        all.push_back({at + "/" + std::to_string(axis), &(quad.*member)[axis], range, handle_step,
-            std::string(name) + (axis == 0 ? ", to the right" : ", down")});
+        all.push_back({at + "/" + std::to_string(axis), &(quad.*member)[axis], range, handle_step, name,
+            axis == 0 ? "to the right" : "down"});
 }
 
 constexpr std::size_t least_handles = HandleGrid::least * HandleGrid::least,
@@ -127,10 +127,10 @@ Json Offsets::schema(Json& definitions) const
 
 void Offsets::add_turnables(std::vector<described::Turnable>& all, const std::string& at, HandleGrid& grid) const
 {
+    const auto columns = std::size_t(grid.columns);
     for (std::size_t i = 0; i < (grid.*member).size(); ++i)
         all.push_back({at + "/" + std::to_string(i), &(grid.*member)[i], range, handle_step,
-            "handle " + std::to_string(i / std::size_t(grid.columns) + 1) + "."
-                + std::to_string(i % std::size_t(grid.columns) + 1) + ", " + way});
+            "handle " + std::to_string(i / columns + 1) + "." + std::to_string(i % columns + 1), way});
 }
 
 void check(const Place& place, HandleGrid& grid, const Folder&)

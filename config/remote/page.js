@@ -8,7 +8,7 @@ const silent_ms = 4000; // the exhibit's state comes at least once a second
 const longest_delay_ms = 15000; // between two tries to connect
 
 let words = {}, language = "en";
-let lists = null, role = "look", status = null, serverVersion = "";
+let lists = null, grips = [], unkept = 0, role = "look", status = null, serverVersion = "";
 let socket = null, delay_ms = 0, retry = 0, lastNews = 0, said = null;
 let nextId = 1;
 const waiting = new Map(); // by id: the button and the words to say
@@ -42,6 +42,7 @@ const choiceWords = {
         "wedges": "remote.wedges", "overlap": "remote.overlap",
     },
 };
+const moveSteps = [1, 10, 100];
 const exposures = [3, 2.5, 2, 1.5, 1, 0.5, 0, -0.5, -1, -1.5, -2, -2.5, -3]; // EV
 
 function choiceText(kind, name) {
@@ -108,6 +109,7 @@ function fillWords() {
         fillSelect(find("speed-limit"), lists["speed-limits"], limitText);
     }
     fillSelect(find("exposure"), exposures, exposureText);
+    fillSelect(find("steps"), moveSteps, (steps) => word("remote.steps_value", { number: String(steps) }));
     showLink();
     showStatus();
 }
@@ -193,6 +195,7 @@ function showStatus() {
         show("runs", `${duration(status["uptime-s"])}, ${serverVersion}`);
         show("machines", status.machines || word("remote.one_machine"));
         show("error", status.error || word("remote.no_error"));
+        showGrip();
     }
     for (const button of all("[data-switch]")) {
         const name = button.dataset.switch;
@@ -210,6 +213,19 @@ function showStatus() {
     find("caption-clear").disabled = !status.caption;
     if (role !== "look")
         showChosen();
+}
+
+// The layout's grips, of which the arrows move the chosen one.
+function showGrip() {
+    const select = find("grip");
+    if (select.options.length !== grips.length + 1 || grips.some((name, i) => select.options[i + 1].value !== name))
+        fillSelect(select, ["", ...grips], (name) => name || word("remote.no_grip"));
+    if (document.activeElement !== select && !select.dataset.sent)
+        select.value = status.grip;
+    show("grip-says", status["grip-says"]);
+    show("unkept", unkept > 0 ? word("remote.unkept", { number: String(unkept) }) : "");
+    for (const button of all("[data-move]"))
+        button.disabled = !status.grip;
 }
 
 function showChoice(select, name) {
@@ -277,7 +293,7 @@ function send(message) {
 }
 
 function command(element, name, value) {
-    const id = send({ command: value === undefined ? [name] : [name, String(value)] });
+    const id = send({ command: [name, ...(value === undefined ? [] : [value].flat().map(String))] });
     if (!id) {
         say(word("remote.not_connected"), true);
         return;
@@ -285,7 +301,8 @@ function command(element, name, value) {
     element.setAttribute("aria-busy", "true");
     element.dataset.sent = "1";
     const choice = element.dataset.choose && find(element.dataset.choose).selectedOptions[0];
-    waiting.set(id, { element, text: choice ? choice.text : (element.labels && element.labels[0] || element).textContent });
+    waiting.set(id, { element, text: choice ? choice.text
+        : element.getAttribute("aria-label") || (element.labels && element.labels[0] || element).textContent });
 }
 
 function answered({ id, applied, refused }) {
@@ -329,6 +346,8 @@ function received(event) {
         log.textContent = message.log.join("\n");
         if (atEnd)
             log.scrollTop = log.scrollHeight;
+        grips = message.grips;
+        unkept = message.unkept;
     }
     showLink();
 }
@@ -510,6 +529,10 @@ function listen() {
         select.addEventListener("change", () => command(select, select.dataset.live, select.value));
         select.addEventListener("blur", showStatus);
     }
+    find("grip").addEventListener("change", () => { if (find("grip").value) command(find("grip"), "grip", find("grip").value); });
+    for (const button of all("[data-move]"))
+        button.addEventListener("click", () =>
+            command(button, "move", button.dataset.move.split(" ").map((step) => step * find("steps").value)));
     listenToPointing();
     for (const image of all("[data-thumbnail]"))
         image.addEventListener("load", () => { image.hidden = false; });

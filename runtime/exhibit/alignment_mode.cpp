@@ -2,6 +2,7 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "runtime/operation/log.h"
+#include <utility>
 
 namespace starbow {
 
@@ -29,7 +30,99 @@ void AlignmentMode::save(const Layout& layout)
     }
 }
 
-bool AlignmentMode::apply(const Controls& controls, Layout& layout)
+namespace {
+
+std::optional<Grip> find_grip(const Layout& layout, const std::string& name)
+{
+    for (Grip& one : grips(layout))
+        if (one.name == name)
+            return std::move(one);
+    return {};
+}
+
+/// A grip's numbers, for people.
+std::string numbers_of(const Layout& layout, const Grip& grip)
+{
+    std::string text;
+    for (const Adjustable& one : grip.numbers)
+        text += (text.empty() ? "" : ", ") + shown(value_of(layout, one));
+    return text;
+}
+
+/// The numbers of another layout in this one, where both have them and they differ.
+Layout with_numbers_of(const Layout& layout, const Layout& other) { return turned_again(layout, layout, other); }
+
+} // namespace
+
+void AlignmentMode::forget_moves()
+{
+    moves_.clear(), taken_.clear(), moved_.reset();
+    grip_.clear(), grip_says_.clear();
+}
+
+bool AlignmentMode::take(const Command& command, const Layout& layout)
+{
+    switch (command.kind) {
+    case CommandKind::grip:
+        if (const std::optional<Grip> grip = find_grip(layout, command.text))
+            grip_ = command.text, grip_says_ = numbers_of(layout, *grip);
+        else
+            throw InputError("the layout has no grip \"" + one_line(command.text) + "\"; one of its own, such as \""
+                + grips(layout).front().name + "\", is right");
+        return true;
+    case CommandKind::move:
+        if (grip_.empty())
+            throw InputError("no grip is chosen yet; the command grip before is right");
+        break;
+    case CommandKind::move_back:
+        if (moves_.empty() && taken_.empty())
+            throw InputError("nothing has been moved; a move before is right");
+        break;
+    case CommandKind::as_saved:
+    case CommandKind::keep:
+        break;
+    default:
+        return false;
+    }
+    taken_.push_back(command);
+    return true;
+}
+
+bool AlignmentMode::carry_out(const Command& command, Layout& layout, const Layout& kept)
+{
+    if (command.kind == CommandKind::as_saved && command.on) {
+        if (moved_)
+            return false;
+        moved_ = layout;
+        layout = with_numbers_of(layout, kept);
+        return true;
+    }
+    // Whatever else is done is done to the builder's own picture.
+    bool changed = moved_.has_value();
+    if (moved_)
+        layout = with_numbers_of(layout, *std::exchange(moved_, {}));
+    if (command.kind == CommandKind::keep)
+        save(layout);
+    if (command.kind == CommandKind::move_back && !moves_.empty()) {
+        const Move last = std::move(moves_.back());
+        moves_.pop_back();
+        layout = turned_again(layout, last.after, last.before);
+        changed = true;
+    }
+    if (const auto grip = find_grip(layout, grip_); grip && command.kind == CommandKind::move) {
+        constexpr std::size_t most_moves = 200;
+        Layout after = moved(layout, *grip, command.number, command.second);
+        moves_.push_back({std::exchange(layout, after), std::move(after)});
+        if (moves_.size() > most_moves)
+            moves_.erase(moves_.begin());
+        changed = true;
+    }
+    if (const auto grip = find_grip(layout, grip_); grip && changed)
+        say(grip_ + ": " + (grip_says_ = numbers_of(layout, *grip)));
+    return changed;
+}
+
+bool AlignmentMode::apply(const Controls& controls, Layout& layout, const Layout& kept)
 {
     if (controls[Switch::home] || controls[Switch::reset])
         show_first();
@@ -50,10 +143,13 @@ bool AlignmentMode::apply(const Controls& controls, Layout& layout)
         layout = adjusted(std::move(layout), all[chosen_], controls.turn_by);
         choosing_ = true;
     }
+    bool changed = turned;
+    for (const Command& command : std::exchange(taken_, {}))
+        changed |= carry_out(command, layout, kept);
     if (turned || controls.choose != 0)
         say(all[chosen_].name + ": " + shown(value_of(layout, all[chosen_]))
             + (turned ? "   (F5 saves it)" : "   (Page Up, Page Down)"));
-    return turned;
+    return changed;
 }
 
 } // namespace starbow

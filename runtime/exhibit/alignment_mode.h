@@ -1,12 +1,13 @@
 #pragma once
 #include "config/model/adjust.h"
+#include "input/command.h"
 #include "input/controls.h"
 #include "runtime/render/frame_renderer.h"
 #include <chrono>
 
 namespace starbow {
 
-/// The builder's keys in a running exhibit: test patterns, and changes of the layout's numbers.
+/// The builder's keys and tablet in a running exhibit: test patterns, and changes of the layout's numbers.
 class AlignmentMode {
 public:
     using Clock = std::chrono::steady_clock;
@@ -16,9 +17,20 @@ public:
     {
     }
 
-    /// Applies the builder's keys to `layout`; returns true if it has changed. The save key writes into layout.file; says()
-    /// reports failures. The way back to the start shows the first pattern again: a visitor's F2 must not outlast the visit.
-    bool apply(const Controls& controls, Layout& layout);
+    /// Applies the builder's keys and the commands that were taken to `layout`; returns true if it has changed. kept: the
+    /// layout by its file. The save key writes into layout.file; says() reports failures. The way back to the start shows
+    /// the first pattern again: a visitor's F2 must not outlast the visit.
+    bool apply(const Controls& controls, Layout& layout, const Layout& kept);
+
+    /// Takes a command that moves the layout's numbers, for the next apply(). Returns false for any other. Throws InputError
+    /// for a grip that the layout has not.
+    bool take(const Command& command, const Layout& layout);
+    /// The chosen grip and its numbers, for people; empty: none is chosen yet.
+    const std::string& grip() const { return grip_; }
+    const std::string& grip_says() const { return grip_says_; }
+    bool as_saved() const { return moved_.has_value(); }
+    /// Another file's layout is shown: no move is taken back, and no grip is chosen.
+    void forget_moves();
 
     Pattern pattern() const { return pattern_; }
     /// A line for the head-up display for some seconds after a key; otherwise empty.
@@ -30,10 +42,18 @@ public:
 
 private:
     void save(const Layout& layout);
+    bool carry_out(const Command& command, Layout& layout, const Layout& kept);
 
     Pattern first_, pattern_;
     std::size_t chosen_ = 0;
     bool choosing_ = false;
+    std::string grip_, grip_says_;
+    std::vector<Command> taken_;
+    std::optional<Layout> moved_; ///< the builder's, while the file's is shown
+    struct Move {
+        Layout before, after;
+    };
+    std::vector<Move> moves_; ///< the last one last
     std::string says_, silent_;
     Clock::time_point until_{};
 };

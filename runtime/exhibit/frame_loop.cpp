@@ -126,7 +126,7 @@ bool FrameLoop::fly_frame()
     if (controls[Switch::pattern] && master_ && session_.alignment.pattern() != Pattern::none)
         session_.alignment.say(screens_of(session_));
     if (turn_usage(session_, screens_.shown(), context_.pipelines.count())) {
-        remote_.publish_condition(session_.usage);
+        remote_.publish_condition(session_);
         gather_lacks();
     }
     if (!visible) {
@@ -541,6 +541,8 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
         = exhibit_renderer(context_, layout, session_.qualities.next(device_), session_.options.node, std::move(prepared));
     forget_drawn();
     session_.devices.track(layout.head_tracker);
+    if (layout.file != session_.layout.file)
+        session_.alignment.forget_moves();
     session_.layout = std::move(layout);
     session_.kept = std::move(loaded.fresh);
     if (master_) {
@@ -559,7 +561,7 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
 void FrameLoop::apply_alignment(const Controls& controls)
 {
     Layout layout = session_.layout;
-    if (!session_.alignment.apply(controls, layout))
+    if (!session_.alignment.apply(controls, layout, session_.kept))
         return;
     try {
         frame_->adopt(layout); // the device has finished the frame before

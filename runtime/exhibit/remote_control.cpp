@@ -11,6 +11,8 @@ void describe(const Session& session, Snapshot& out)
     out.layout = command_name_of(session.layout.file);
     out.quality = session.qualities.name();
     out.pattern = pattern_names[std::size_t(session.alignment.pattern())];
+    out.grip = session.alignment.grip();
+    out.grip_says = session.alignment.grip_says();
     const Attendance& attendance = session.attendance;
     const VisitPhase phase
         = attendance.attends() || attendance.knows_visitor() ? attendance.visit().phase : VisitPhase::attract;
@@ -91,13 +93,17 @@ void RemoteControl::shown(const Session& session)
     pending_.clear(), noted_ = 0;
 }
 
-void RemoteControl::publish_condition(const UsageStatistics& usage)
+void RemoteControl::publish_condition(const Session& session)
 {
     if (!remote_)
         return;
     Condition& condition = remote_->next_condition();
-    condition.metrics = usage.exposition();
+    condition.metrics = session.usage.exposition();
     condition.log = last_lines();
+    condition.grips.clear();
+    for (Grip& grip : grips(session.layout))
+        condition.grips.push_back(std::move(grip.name));
+    condition.unkept = changes(session.kept, session.layout).size();
     remote_->publish_condition();
 }
 

@@ -25,7 +25,7 @@ public:
     /// The frame with these commands is on the screens, or will never be. Answers them and publishes the state.
     void shown(const Session& session);
     /// The counts' text is a new one: publishes it and the last lines of the log.
-    void publish_condition(const UsageStatistics& usage);
+    void publish_condition(const Session& session);
 
     /// True once a second while anybody looks at the live picture.
     bool wants_picture();

@@ -30,7 +30,8 @@ private:
 ReplayRenderer::ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev,
     Words words, const Comfort& comfort)
     : renderer_(renderer)
-    , layout_(renderer.layout())
+    , kept_(renderer.layout())
+    , layout_(kept_)
     , alignment_(pattern)
     , light_(exposing)
     , start_ev_(start_ev)
@@ -41,6 +42,17 @@ ReplayRenderer::ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, con
     now_.vignette = comfort.vignette.value_or(Vignette());
 }
 
+/// A builder's move by a tablet. A replay writes no layout, and one on another layout has other grips.
+void ReplayRenderer::take_move(const Command& command)
+{
+    try {
+        if (command.kind != CommandKind::keep)
+            alignment_.take(command, layout_);
+    } catch (const InputError& error) {
+        alignment_.say(one_line(error.what()));
+    }
+}
+
 void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
 {
     RecordEntry now = entry;
@@ -48,6 +60,8 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
     for (const Command& command : entry.commands)
         if (switches_choice(command.kind))
             apply(choices_, command);
+        else
+            take_move(command);
     light_.advance(now,
         {.source = FlownFlight(flight, start_ev_),
             .range = entry.ranged,
@@ -58,7 +72,7 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
     Controls& controls = now.controls;
     controls.set(Switch::save, false);
     Layout layout = layout_;
-    if (alignment_.apply(controls, layout)) {
+    if (alignment_.apply(controls, layout, kept_)) {
         try {
             renderer_.frame().adopt(layout);
             layout_ = std::move(layout);

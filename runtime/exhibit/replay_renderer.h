@@ -32,8 +32,10 @@ public:
     const std::optional<RangeCurve>& curve() const { return light_.curve(); }
 
 private:
+    void take_move(const Command& command);
+
     OffscreenRenderer& renderer_;
-    Layout layout_;
+    Layout kept_, layout_; ///< by its file, and with the builder's changes
     AlignmentMode alignment_;
     ShownLight light_;
     double start_ev_;

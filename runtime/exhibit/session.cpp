@@ -93,6 +93,7 @@ void describe(const Session& session, ExhibitState& out)
     out.item_s = session.item > 0 ? seconds(Session::Clock::now() - session.item_began) : 0;
     out.calm = session.options.exposure.calm;
     out.paused = session.source->paused();
+    out.as_saved = session.alignment.as_saved();
     out.fade = session.docent.fades(), out.hold = session.docent.holds();
     out.effects = flight.effects, out.slow_motion = flight.time_scale > 0;
     const double rapidity = rapidity_of(flight.ship);

@@ -114,6 +114,13 @@ void apply_command(Session& session, const Command& command, Requests& requests)
     case CommandKind::pattern:
         session.alignment.show(pattern_named(command.text));
         break;
+    case CommandKind::grip:
+    case CommandKind::move:
+    case CommandKind::move_back:
+    case CommandKind::as_saved:
+    case CommandKind::keep:
+        session.alignment.take(command, session.layout);
+        break;
     case CommandKind::unlock:
         if (!session.attendance.attends())
             throw InputError("no key is locked here; an exhibit with \"visit\" in its file is right");

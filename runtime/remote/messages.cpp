@@ -190,6 +190,8 @@ std::string status_text(const Snapshot& now, bool engineer)
         status["layout"] = now.layout;
         status["pattern"] = now.pattern.empty() ? "none" : now.pattern;
         status["quality"] = now.quality;
+        status["grip"] = now.grip;
+        status["grip-says"] = now.grip_says;
         status["error"] = now.error;
         status["machines"] = now.machines;
     }
@@ -204,7 +206,10 @@ std::string answer_text(int id, const std::string& refusal)
     return dump({{"answer", answer}});
 }
 
-std::string log_text(const std::vector<std::string>& lines) { return dump({{"log", lines}}); }
+std::string condition_text(const Condition& condition)
+{
+    return dump({{"log", condition.log}, {"grips", condition.grips}, {"unkept", condition.unkept}});
+}
 
 std::string hello_text(Role role, const std::string& version)
 {

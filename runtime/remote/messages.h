@@ -48,7 +48,7 @@ std::vector<Command> commands_of_osc(std::span<const unsigned char> bytes);
 
 // Messages to a page, as JSON.
 std::string status_text(const Snapshot& snapshot, bool engineer);
-std::string log_text(const std::vector<std::string>& lines);
+std::string condition_text(const Condition& condition); ///< without the metrics
 std::string answer_text(int id, const std::string& refusal);
 std::string hello_text(Role role, const std::string& version);
 /// The kinds of command with their role and value, the names that may be chosen, and the programme, if there is one.

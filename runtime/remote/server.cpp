@@ -334,7 +334,7 @@ void Server::take_news()
         engineer_status_.set(status_text(exchange_.snapshots.newest(), true));
     }
     if (exchange_.conditions.refresh())
-        log_.set(log_text(exchange_.conditions.newest().log));
+        log_.set(condition_text(exchange_.conditions.newest()));
 }
 
 void Server::hand_out_replies()

@@ -13,6 +13,7 @@ struct Snapshot : ExhibitState {
     std::string visit; ///< one of visit_phase_names
     double frames_per_s = 0, frame_ms = 0;
     std::string error; ///< the last one, as a sentence; empty: none
+    std::string grip, grip_says; ///< of the layout, the chosen one and its numbers; empty: none
     std::string machines; ///< of the exhibit, in a line; empty: one shows all
     double uptime_s = 0;
 };
@@ -21,6 +22,8 @@ struct Snapshot : ExhibitState {
 struct Condition {
     std::string metrics; ///< in Prometheus's text format
     std::vector<std::string> log; ///< the last lines, oldest first
+    std::vector<std::string> grips; ///< the names of the layout's
+    std::size_t unkept = 0; ///< numbers, or lists of numbers, of the layout that differ from its file's
 };
 
 /// A small picture of what the visitors see, about once a second.

@@ -31,11 +31,13 @@ TEST(Command, EveryKindComesBackFromItsWords)
         {{"headlight", "on"}, effect_command(Effect::headlight, true)},
         {{"false-colours", "on"}, effect_command(Effect::false_colours, true)},
         {{"unlock"}, {CommandKind::unlock, false, 0, ""}},
-        {{"beside", "at-rest"}, {CommandKind::inset, false, 0, "at-rest"}},
+        {{"grip", "left, upper left corner"}, {CommandKind::grip, false, 0, "left, upper left corner"}},
+        {{"move", "-3", "10"}, {.kind = CommandKind::move, .number = -3, .second = 10}},
+        {{"move-back"}, {CommandKind::move_back}}, {{"as-saved", "on"}, {CommandKind::as_saved, true}},
+        {{"keep"}, {CommandKind::keep}}, {{"beside", "at-rest"}, {CommandKind::inset, false, 0, "at-rest"}},
         {{"information", "guide"}, {CommandKind::information, false, 0, "guide"}},
         {{"exposure", "-1.5"}, {CommandKind::exposure, false, -1.5}}, {{"range", "on"}, {CommandKind::range, true, 0, ""}},
-        {{"sky-names", "on"}, {CommandKind::sky_names, true, 0, ""}},
-        {{"filter", "on"}, {CommandKind::filter, true, 0, ""}},
+        {{"sky-names", "on"}, {CommandKind::sky_names, true, 0, ""}}, {{"filter", "on"}, {CommandKind::filter, true, 0, ""}},
         {{"slow-motion", "on"}, {CommandKind::slow_motion, true, 0, ""}},
         {{"one-button", "on"}, {CommandKind::one_button, true, 0, ""}},
         {{"left-handed", "off"}, {CommandKind::left_handed, false, 0, ""}},
@@ -103,7 +105,8 @@ TEST(Command, OnlyAnEngineerChangesDisplaysAndTheProgram)
 {
     for (const CommandRule& rule : command_rules()) {
         const bool engineers = rule.name == "layout" || rule.name == "pattern" || rule.name == "quality"
-            || rule.name == "unlock" || rule.name == "restart";
+            || rule.name == "unlock" || rule.name == "restart" || rule.name == "grip" || rule.name == "move"
+            || rule.name == "move-back" || rule.name == "as-saved" || rule.name == "keep";
         EXPECT_EQ(rule.role, engineers ? Role::engineer : Role::docent) << rule.name;
     }
 }

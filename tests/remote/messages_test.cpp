@@ -153,6 +153,7 @@ TEST(Messages, StatusesAndAnswersAreJson)
     now.doing = Doing::attract_tour, now.left_s = 41.2, now.calm = true, now.max_gamma = 5.0 / 3;
     now.item = 2, now.items = 6, now.item_s = 83.9, now.next_caption = {{"en", "Next."}, {"de", "Gleich."}};
     now.error = "A sentence.";
+    now.grip = "left, tilt", now.grip_says = "30.5", now.as_saved = true;
     const json docent = json::parse(status_text(now, false))["status"],
                engineer = json::parse(status_text(now, true))["status"];
     EXPECT_EQ(docent["scene"], "avenue");
@@ -169,6 +170,12 @@ TEST(Messages, StatusesAndAnswersAreJson)
     EXPECT_EQ(docent["gamma"], 0);
     EXPECT_FALSE(docent.contains("error"));
     EXPECT_EQ(engineer["error"], "A sentence.");
+    EXPECT_EQ(engineer["grip"], "left, tilt");
+    EXPECT_EQ(engineer["grip-says"], "30.5");
+    EXPECT_FALSE(docent.contains("grip"));
+    EXPECT_EQ(docent["as-saved"], true);
+    EXPECT_EQ(json::parse(condition_text({.metrics = "m 1", .log = {"a line"}, .grips = {"left, tilt"}, .unkept = 2})),
+        (json{{"log", {"a line"}}, {"grips", {"left, tilt"}}, {"unkept", 2}}));
     EXPECT_EQ(json::parse(answer_text(7, ""))["answer"], (json{{"id", 7}, {"applied", true}}));
     EXPECT_EQ(json::parse(answer_text(8, "No."))["answer"]["refused"], "No.");
     EXPECT_EQ(json::parse(hello_text(Role::engineer, "1"))["hello"]["role"], "engineer");

@@ -232,6 +232,17 @@ async function testCommands(browser) {
     await page.focus("#point");
     await page.keyboard.press("ArrowLeft");
     check(Math.abs(await page.evaluate(() => parseFloat(document.getElementById("spot").style.left)) - 73) < 1, "arrow keys point, too");
+    check(await page.isDisabled('[data-move="1 0"]'), "without a grip no arrow moves");
+    await page.selectOption("#grip", "left, upper left corner");
+    await shows("grip-says", "0.9, 0.1");
+    await page.selectOption("#steps", "10");
+    await page.click('[data-move="-1 0"]');
+    await shows("grip-says", "-10 and 0");
+    await page.click('[data-move="0 1"]');
+    await shows("grip-says", "0 and 10");
+    await shows("unkept", "Not in the file yet: 1");
+    await page.click('[data-switch="as-saved"]');
+    await page.waitForFunction(() => document.querySelector('[data-switch="as-saved"]').getAttribute("aria-pressed") === "true");
     await page.click("#restart");
     await page.click("#sure-no");
     check(!await page.isVisible("#sure"), "a restart can be thought over");

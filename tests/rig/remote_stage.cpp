@@ -45,6 +45,12 @@ std::string apply(const Command& command, Snapshot& now, int items)
         now.next_caption = {{"en", "Soon we fly past it, to the left. Watch its colour."},
             {"de", "Gleich fliegen wir links daran vorbei. Achten Sie auf seine Farbe."}};
         break;
+    case grip:
+        now.grip = command.text, now.grip_says = "0.9, 0.1";
+        break;
+    case CommandKind::move: // std::move is another
+        now.grip_says = std::to_string(int(command.number)) + " and " + std::to_string(int(command.second));
+        break;
     case next:
         now.step = std::min(now.step + 1, now.steps);
         break;
@@ -190,6 +196,8 @@ int play(const char* exhibit, double work_ms, const char* file)
             remote.next_condition().metrics
                 = "# TYPE starbow_frames_total counter\nstarbow_frames_total " + std::to_string(frame) + "\n";
             remote.next_condition().log.assign(1, "info stage: " + std::to_string(second) + " s");
+            remote.next_condition().grips = {"left, tilt", "left, upper left corner"};
+            remote.next_condition().unkept = now.grip.empty() ? 0 : 1;
             remote.publish_condition();
             if (remote.picture_wanted()) {
                 remote.next_picture() = picture;

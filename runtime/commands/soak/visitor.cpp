@@ -103,6 +103,7 @@ Command SeededVisitor::direction()
         case CommandKind::tour:
         case CommandKind::layout: // the soak saves layouts in its own file
         case CommandKind::restart:
+        case CommandKind::keep:
             continue;
         case CommandKind::speed_limit:
             command.number = std::exp2(uniform(0.1, 20));
@@ -124,6 +125,12 @@ Command SeededVisitor::direction()
             break;
         case CommandKind::quality:
             command.text = any(choices_.qualities);
+            break;
+        case CommandKind::grip: // most layouts lack it, and refuse it
+            command.text = "desk, yaw";
+            break;
+        case CommandKind::move:
+            command.number = uniform(-20, 20), command.second = uniform(-20, 20);
             break;
         default:
             break;
