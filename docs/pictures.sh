@@ -1,6 +1,6 @@
 #!/bin/sh
-# Draws the pictures of README.md, docs/scenes.md and docs/displays.md again. From the repository's root, with ffmpeg
-# and ImageMagick installed:
+# Draws the pictures and films of README.md and docs/*.md again. From the repository's root, with ffmpeg and ImageMagick
+# installed:
 #
 #     docs/pictures.sh build/release/starbow
 set -eu
@@ -118,6 +118,13 @@ solar-system
 voyage
 END
 convert $rows -background '#222' -append -quality 80 docs/storyboards.jpg
+
+# What a passer-by sees: the museum's attract loop with its titles and captions, docs/attract.webm.
+for tour in $(sed -n 's/.*"attract": \[\(.*\)\].*/\1/p' config/exhibits/museum.json | tr -d '",'); do
+    "$starbow" render --tour "$tour" --layout screen --size 480x270 --fps 10 --movie "$work/attract-$tour.mp4" >&2
+    echo "file 'attract-$tour.mp4'"
+done >"$work/attract.txt"
+ffmpeg -v error -y -f concat -i "$work/attract.txt" -an -c:v libvpx-vp9 -crf 42 -b:v 0 -row-mt 1 docs/attract.webm
 
 # A layout of each projection, as `starbow check` draws it.
 for layout in desk wall3 cave5 dome dome2 mirror headset stereo; do

@@ -57,6 +57,13 @@ FAULTS = [
     ("light", "runtime/light/exposure.cpp", '10 - exposure_ev + std::log2(most_gain)', 'std::log2(most_gain) - exposure_ev',
      "PreExposure.*"),
     ("light", "runtime/light/exposure.cpp", 'if (below <= bright_from * all)', 'if (below < bright_from * all)', "Metering.*"),
+    ("displays", "displays/warp/bend.cpp", 'weight[1] += 2 * weight[0], weight[2] -= weight[0];', '', "BendTest.*"),
+    ("displays", "displays/warp/bend.cpp", 'before[i] * doubled_area(result, triangle) < 0', 'before[i] > 0 && false', "BendTest.*"),
+    ("displays", "displays/projections/wall.cpp", '0.5 * std::atan2(-2 * slip * height,', '0.5 * std::atan2(2 * slip * height,', "WallTest.*"),
+    ("displays", "displays/compile/cone_hierarchy.cpp", 'if (!skew_ || inside == foot_)', 'if (true)', "ConeHierarchyTest.*"),
+    ("displays", "displays/compile/compiled_view.cpp", 'content += bend_key(own);', 'content += "bent";', "CompiledTest.*:BendTest.*"),
+    ("config", "config/model/adjust.cpp", 'return adjusted(std::move(layout), grip.numbers[0], right - down);',
+     'return adjusted(std::move(layout), grip.numbers[0], right + down);', "Adjust.*"),
     ("displays", "displays/projections/equirectangular.cpp", 'pi / 2 - step_.y / 4', 'pi / 2', "PanoramaTest.*"),
 
     ("config", "config/model/describe_layout.h", 'Number{{-90, 90}, 0.5, "height"}', 'Number{{-180, 180}, 0.5, "height"}', "Adjust.*"),

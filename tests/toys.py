@@ -229,7 +229,7 @@ std::string name(const FlatSpectrum&) { return "a flat lamp"; }
         "input/command.cpp": after('    CommandRule{range, "range", Role::docent, Value::on},', ' CommandRule{toy, "toy", Role::docent, Value::on},'),
         "input/exhibit_state.h": all_of(
             after("    bool slow_motion = false;\n", "    bool toy = false;\n"),
-            instead('{CommandKind::range, &ExhibitState::range, "range"}};', '{CommandKind::range, &ExhibitState::range, "range"}, {CommandKind::toy, &ExhibitState::toy, "toy"}};')),
+            instead('{CommandKind::as_saved, &ExhibitState::as_saved, "as-saved"}};', '{CommandKind::as_saved, &ExhibitState::as_saved, "as-saved"}, {CommandKind::toy, &ExhibitState::toy, "toy"}};')),
         "runtime/exhibit/session_commands.cpp": before("    case CommandKind::range:\n", "    case CommandKind::toy:\n        break;\n"),
         "runtime/hud/presenter_sheet.cpp": after("    toggle('U', \"remote.range\", {.kind = Order::range}, state.range);\n",
                                                  "    toggle('Q', \"remote.toy\", {.kind = Order::toy}, state.toy);\n"),

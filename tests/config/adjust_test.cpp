@@ -157,6 +157,29 @@ TEST(Adjust, HandlesAreNumbersOfTheFile)
         EXPECT_EQ(value_of(there, one), value_of(turned, one)) << one.name;
 }
 
+TEST(Adjust, AGripIsANumberOrAPlace)
+{
+    const Layout before = load_layout(starbow::testing::write_text("grips.json", R"({ "outputs": [{ "name": "wall",
+        "viewports": [{ "projection": { "type": "planar" }, "quad": {}, "grid": { "columns": 3, "rows": 3 } }] }] })"));
+    const std::vector<Grip> all = grips(before);
+    std::vector<std::string> names;
+    for (const Grip& grip : all)
+        names.push_back(grip.name);
+    EXPECT_EQ(names,
+        (std::vector<std::string>{"wall, yaw", "wall, pitch", "wall, roll", "wall, upper left corner",
+            "wall, upper right corner", "wall, lower right corner", "wall, lower left corner", "wall, handle 1.1",
+            "wall, handle 1.2", "wall, handle 1.3", "wall, handle 2.1", "wall, handle 2.2", "wall, handle 2.3",
+            "wall, handle 3.1", "wall, handle 3.2", "wall, handle 3.3"}));
+    const auto turn = [](const Layout& layout) { return std::get<Planar>(layout.outputs[0].viewports[0].projection).turn; };
+    EXPECT_NEAR(turn(moved(before, all[0], 5, 0)).yaw_deg, 0.5, 1e-12);
+    EXPECT_NEAR(turn(moved(before, all[1], 0, 5)).pitch_deg, -0.5, 1e-12) << "down is less";
+    const Quad quad = *moved(before, all[5], -4, 8).outputs[0].viewports[0].quad;
+    EXPECT_LT(glm::distance(quad.lower_right, glm::dvec2(0.999, 1.002)), 1e-12);
+    const HandleGrid grid = *moved(before, all[11], -4, 8).outputs[0].viewports[0].grid;
+    EXPECT_NEAR(grid.right[4], -0.001, 1e-12);
+    EXPECT_NEAR(grid.down[4], 0.002, 1e-12);
+}
+
 TEST(Adjust, AdjustmentsOutlastAReload)
 {
     const Layout kept = load_layout(starbow::testing::source_dir() / "config/layouts/dome2.json");

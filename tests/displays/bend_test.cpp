@@ -5,6 +5,7 @@
 #include "tests/support/files.h"
 #include <cmath>
 #include <gtest/gtest.h>
+#include <set>
 
 namespace bend_test {
 
@@ -236,6 +237,30 @@ TEST(BendTest, ACalibrationIsBentAsWell)
     }
     EXPECT_GT(area, 0.9);
     EXPECT_LT(area, 0.95);
+}
+
+TEST(BendTest, EveryHandleMakesAnotherMap)
+{
+    MapStore store((std::filesystem::path()));
+    Layout layout = layout_of(Planar{60}, {64, 48});
+    Viewport& viewport = layout.outputs[0].viewports[0];
+    viewport.quad = Quad{}, viewport.grid = flat_grid(3, 3);
+    const auto map = [&] { return compile_output(store, layout, 0, {64, 48}).front().map; };
+    const auto first = map();
+    EXPECT_EQ(map(), first) << "equal handles share a map";
+    std::set<std::shared_ptr<const DirectionMap>> all{first};
+    for (int axis : {0, 1})
+        for (glm::dvec2 Quad::*corner : {&Quad::upper_left, &Quad::upper_right, &Quad::lower_right, &Quad::lower_left}) {
+            ((*viewport.quad).*corner)[axis] += 0.01;
+            EXPECT_TRUE(all.insert(map()).second);
+        }
+    for (std::vector<double>* offsets : {&viewport.grid->right, &viewport.grid->down})
+        for (double& offset : *offsets) {
+            offset = 0.01;
+            EXPECT_TRUE(all.insert(map()).second);
+        }
+    viewport.grid.reset();
+    EXPECT_TRUE(all.insert(map()).second);
 }
 
 TEST(BendTest, FoldedPicturesAreRefusedWithTheirPlace)

@@ -41,8 +41,14 @@ constexpr double rounding = 1e-6;
 void expect_cones_enclose(const View& view, const ConeHierarchy& cones)
 {
     // A flat view has the angle of a pixel's centre, a map that of its whole area. They differ by the next order in the
-    // pixel's size.
-    const auto room = [&](double angle) { return 1 + rounding + (cones.flat() ? angle * angle : 0); };
+    // pixel's longer side, which is longer than its angle where the pixel is oblong.
+    const PictureRays rays(view.picture);
+    const auto longer_side = [&](int x, int y) {
+        const dvec2 middle(x + 0.5, y + 0.5);
+        const auto side
+            = [&](dvec2 half) { return glm::distance(*rays.direction(middle - half), *rays.direction(middle + half)); };
+        return std::max(side({0.5, 0}), side({0, 0.5}));
+    };
     const auto all = pixels(view);
     ASSERT_EQ(cones.size(), view.size);
     EXPECT_EQ(cones.count(0), ivec2(1));
@@ -53,7 +59,7 @@ void expect_cones_enclose(const View& view, const ConeHierarchy& cones)
             for (int i = 0; i < count.x; ++i) {
                 const BoundingCone cone = cones.cone(level, {i, j});
                 bool any = false;
-                double finest = 1e9, coarsest = 0, widest = 0;
+                double finest = 1e9, coarsest = 0, widest = 0, longest = 0;
                 for (int y = j * side; y < std::min((j + 1) * side, view.size.y); ++y)
                     for (int x = i * side; x < std::min((i + 1) * side, view.size.x); ++x) {
                         const auto& [n, angle] = all[std::size_t(y) * view.size.x + x];
@@ -61,14 +67,16 @@ void expect_cones_enclose(const View& view, const ConeHierarchy& cones)
                             continue;
                         any = true;
                         finest = std::min(finest, angle), coarsest = std::max(coarsest, angle);
+                        longest = std::max(longest, cones.flat() ? longer_side(x, y) : 0);
                         widest = std::max(widest, sphere::angle(glm::normalize(n), glm::normalize(dvec3(cone.centre))));
                     }
                 ASSERT_EQ(cone.empty(), !any) << level << " " << i << " " << j;
                 if (!any)
                     continue;
                 ASSERT_LE(widest, cone.radius + rounding);
-                ASSERT_LE(cone.finest, finest * room(finest));
-                ASSERT_GE(cone.coarsest * room(coarsest), coarsest);
+                const double room = 1 + rounding + longest * longest;
+                ASSERT_LE(cone.finest, finest * room);
+                ASSERT_GE(cone.coarsest * room, coarsest);
                 // A leaf's cone must be about as narrow as the leaf.
                 if (level + 1 == cones.levels()) {
                     ASSERT_LE(cone.radius, 1.2 * widest + 1e-5) << level << " " << i << " " << j;
@@ -77,8 +85,10 @@ void expect_cones_enclose(const View& view, const ConeHierarchy& cones)
     }
 }
 
-const Projection projections[] = {Planar{60}, Planar{120, {}, {30, -20, 10}}, Planar{60, Sides{-50, 10, -5, 40}},
-    Fisheye{180, 30}, Fisheye{360, 90}, Cylinder{}, Equirectangular{}};
+const Projection projections[]
+    = {Planar{60}, Planar{120, {}, {30, -20, 10}}, Planar{60, Sides{-50, 10, -5, 40}}, Fisheye{180, 30}, Fisheye{360, 90},
+        Cylinder{}, Equirectangular{}, Wall{{-1, -1, -2}, {1.2, -0.5, -2}, {-0.2, 1.5, -2}, {{0.9, 1.1, -2}}},
+        Wall{{-1.5, -1, -1}, {0.5, -0.8, -2}, {-1.5, 0.8, -1}, {{0.5, 1.4, -2}}}};
 
 } // namespace
 
