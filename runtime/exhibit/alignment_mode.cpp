@@ -2,6 +2,7 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "runtime/operation/log.h"
+#include <algorithm>
 #include <utility>
 
 namespace starbow {
@@ -11,6 +12,15 @@ void AlignmentMode::say(std::string line)
     write_log(LogKind::alignment_changed, line);
     says_ = std::move(line);
     until_ = Clock::now() + std::chrono::seconds(8);
+}
+
+std::string AlignmentMode::refuse(const std::string& why)
+{
+    moves_.erase(moves_.begin() + std::ptrdiff_t(std::min(moves_before_, moves_.size())), moves_.end());
+    const std::size_t place = why.rfind(": ");
+    std::string problem = "This " + (place == why.npos ? "can't be shown: " + why : why.substr(place + 2));
+    say(problem);
+    return problem;
 }
 
 void AlignmentMode::save(const Layout& layout)
@@ -144,6 +154,7 @@ bool AlignmentMode::apply(const Controls& controls, Layout& layout, const Layout
         choosing_ = true;
     }
     bool changed = turned;
+    moves_before_ = moves_.size();
     for (const Command& command : std::exchange(taken_, {}))
         changed |= carry_out(command, layout, kept);
     if (turned || controls.choose != 0)

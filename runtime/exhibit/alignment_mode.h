@@ -37,6 +37,9 @@ public:
     const std::string& says() const { return Clock::now() < until_ ? says_ : silent_; }
 
     void say(std::string line);
+    /// What the last apply() changed can't be shown, and the layout stays as it was. why: the error's one line. Returns what
+    /// is said of it, without the layout's place.
+    std::string refuse(const std::string& why);
     void show(Pattern pattern) { pattern_ = pattern; }
     void show_first() { pattern_ = first_; }
 
@@ -54,6 +57,7 @@ private:
         Layout before, after;
     };
     std::vector<Move> moves_; ///< the last one last
+    std::size_t moves_before_ = 0; ///< their number before the last apply()
     std::string says_, silent_;
     Clock::time_point until_{};
 };

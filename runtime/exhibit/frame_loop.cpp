@@ -569,7 +569,7 @@ void FrameLoop::apply_alignment(const Controls& controls)
         if (master_)
             turned_ = turned_numbers(session_.kept, session_.layout);
     } catch (const InputError& error) {
-        session_.alignment.say(one_line(error.what()));
+        session_.docent.refusal = session_.alignment.refuse(one_line(error.what())); // a tablet's state has it
     }
 }
 

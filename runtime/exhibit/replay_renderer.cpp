@@ -77,7 +77,7 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
             renderer_.frame().adopt(layout);
             layout_ = std::move(layout);
         } catch (const InputError& error) { // the exhibit undoes such a change too
-            alignment_.say(one_line(error.what()));
+            alignment_.refuse(one_line(error.what()));
         }
     }
     now_.head = controls.head;

@@ -86,6 +86,21 @@ TEST(AlignmentMode, ATabletPullsACornerAndTakesItBack)
     EXPECT_TRUE(changes(tablet.kept, tablet.layout).empty());
 }
 
+TEST(AlignmentMode, AMoveThatCantBeShownIsNoMove)
+{
+    Tablet tablet;
+    tablet.give({"grip", "wall, upper right corner"}, false);
+    tablet.give({"move", "-40", "20"}, true);
+    const Layout shown = tablet.layout;
+    tablet.give({"move", "-2000", "0"}, true);
+    tablet.layout = shown; // as the exhibit does
+    EXPECT_EQ(tablet.alignment.refuse("/my/wall.json:2: /outputs/0/viewports/0: folds the picture; less is right"),
+        "This folds the picture; less is right");
+    tablet.give({"move-back"}, true);
+    EXPECT_LT(glm::distance(tablet.corner(), before), 1e-12);
+    EXPECT_NE(tablet.give({"move-back"}, false), "");
+}
+
 TEST(AlignmentMode, ATabletKeepsTheBuildersPictureAndNotTheOneThatIsCompared)
 {
     Tablet tablet;
