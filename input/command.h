@@ -88,6 +88,9 @@ struct Command {
 
 const CommandRule& rule_of(const Command& command);
 
+/// True for a command of a builder who aligns the picture.
+inline bool aligns(CommandKind kind) { return kind >= CommandKind::grip && kind <= CommandKind::keep; }
+
 /// Greatest change of the exposure by a command, EV: a thousand times the light, or a thousandth.
 constexpr double most_exposure_ev = 10;
 

@@ -298,6 +298,7 @@ struct Turnable {
     double step; ///< of one press
     std::string name; ///< for people
     const char* way = ""; ///< of one of a place's two numbers: "to the right" or "down"
+    std::optional<glm::dvec2> unmoved{}; ///< the place that both were before anybody moved it
 };
 /// Adds those of a value at a pointer, and of the objects in it.
 template <class T> void add_turnables(std::vector<Turnable>& all, const std::string& pointer, T& value)

@@ -78,7 +78,8 @@ void add_own(std::vector<Adjustable>& all, Layout& layout, const Adjustable::Spo
                                : one.pointer.starts_with("/hud") ? "head-up display"
                                                                  : "blend")
                 + ", " + one.name + (*one.way ? ", " : "") + one.way,
-            {{one.pointer, where.output, where.viewport}}, one.name, one.way, one.range.low, one.range.high, one.step});
+            {{one.pointer, where.output, where.viewport}}, one.name, one.way, one.unmoved, one.range.low, one.range.high,
+            one.step});
 }
 
 /// Numbers that several projectors on one dome share. Changed one by one, their pictures would separate.

@@ -18,6 +18,7 @@ struct Adjustable {
     std::vector<Spot> spots;
     std::string what; ///< the number's own name: "tilt"; of a place's two numbers the place's
     std::string way; ///< of a place's two numbers: "to the right" or "down"; else empty
+    std::optional<glm::dvec2> unmoved; ///< of such a place: where it is in a viewport that nobody has pulled
     double low = 0, high = 0; ///< by the file's format
     double step = 0.1; ///< of one key press: degrees, fractions of a viewport, or the power's own unit
 };

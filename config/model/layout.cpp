@@ -106,7 +106,7 @@ void Handle::add_turnables(std::vector<described::Turnable>& all, const std::str
 {
     for (int axis : {0, 1})
         all.push_back({at + "/" + std::to_string(axis), &(quad.*member)[axis], range, handle_step, name,
-            axis == 0 ? "to the right" : "down"});
+            axis == 0 ? "to the right" : "down", Quad{}.*member});
 }
 
 constexpr std::size_t least_handles = HandleGrid::least * HandleGrid::least,
@@ -128,9 +128,11 @@ Json Offsets::schema(Json& definitions) const
 void Offsets::add_turnables(std::vector<described::Turnable>& all, const std::string& at, HandleGrid& grid) const
 {
     const auto columns = std::size_t(grid.columns);
+    const glm::dvec2 last(grid.columns - 1, grid.rows - 1);
     for (std::size_t i = 0; i < (grid.*member).size(); ++i)
         all.push_back({at + "/" + std::to_string(i), &(grid.*member)[i], range, handle_step,
-            "handle " + std::to_string(i / columns + 1) + "." + std::to_string(i % columns + 1), way});
+            "handle " + std::to_string(i / columns + 1) + "." + std::to_string(i % columns + 1), way,
+            glm::dvec2(i % columns, i / columns) / last});
 }
 
 void check(const Place& place, HandleGrid& grid, const Folder&)

@@ -1,6 +1,7 @@
 #include "alignment_mode.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
+#include "runtime/hud/handle.h"
 #include "runtime/operation/log.h"
 #include <algorithm>
 #include <utility>
@@ -64,10 +65,16 @@ Layout with_numbers_of(const Layout& layout, const Layout& other) { return turne
 
 } // namespace
 
+void AlignmentMode::hold(const Layout& layout, const Grip& grip)
+{
+    grip_ = grip.name, grip_says_ = numbers_of(layout, grip), handle_ = handle_direction(layout, grip.numbers[0]);
+    say(grip_ + ": " + grip_says_);
+}
+
 void AlignmentMode::forget_moves()
 {
     moves_.clear(), taken_.clear(), moved_.reset();
-    grip_.clear(), grip_says_.clear();
+    grip_.clear(), grip_says_.clear(), handle_.reset();
 }
 
 bool AlignmentMode::take(const Command& command, const Layout& layout)
@@ -75,7 +82,7 @@ bool AlignmentMode::take(const Command& command, const Layout& layout)
     switch (command.kind) {
     case CommandKind::grip:
         if (const std::optional<Grip> grip = find_grip(layout, command.text))
-            grip_ = command.text, grip_says_ = numbers_of(layout, *grip);
+            hold(layout, *grip);
         else
             throw InputError("the layout has no grip \"" + one_line(command.text) + "\"; one of its own, such as \""
                 + grips(layout).front().name + "\", is right");
@@ -128,7 +135,7 @@ bool AlignmentMode::carry_out(const Command& command, Layout& layout, const Layo
         changed = true;
     }
     if (const auto grip = find_grip(layout, grip_); grip && changed)
-        say(grip_ + ": " + (grip_says_ = numbers_of(layout, *grip)));
+        hold(layout, *grip);
     return changed;
 }
 
@@ -157,6 +164,8 @@ bool AlignmentMode::apply(const Controls& controls, Layout& layout, const Layout
     moves_before_ = moves_.size();
     for (const Command& command : std::exchange(taken_, {}))
         changed |= carry_out(command, layout, kept);
+    if (turned || controls.choose != 0)
+        handle_ = handle_direction(layout, all[chosen_]);
     if (turned || controls.choose != 0)
         say(all[chosen_].name + ": " + shown(value_of(layout, all[chosen_]))
             + (turned ? "   (F5 saves it)" : "   (Page Up, Page Down)"));

@@ -28,6 +28,8 @@ public:
     /// The chosen grip and its numbers, for people; empty: none is chosen yet.
     const std::string& grip() const { return grip_; }
     const std::string& grip_says() const { return grip_says_; }
+    /// The direction in the cockpit of the handle that is moved, while says() speaks of it.
+    std::optional<glm::dvec3> handle() const { return Clock::now() < until_ ? handle_ : std::nullopt; }
     bool as_saved() const { return moved_.has_value(); }
     /// Another file's layout is shown: no move is taken back, and no grip is chosen.
     void forget_moves();
@@ -45,12 +47,14 @@ public:
 
 private:
     void save(const Layout& layout);
+    void hold(const Layout& layout, const Grip& grip);
     bool carry_out(const Command& command, Layout& layout, const Layout& kept);
 
     Pattern first_, pattern_;
     std::size_t chosen_ = 0;
     bool choosing_ = false;
     std::string grip_, grip_says_;
+    std::optional<glm::dvec3> handle_;
     std::vector<Command> taken_;
     std::optional<Layout> moved_; ///< the builder's, while the file's is shown
     struct Move {

@@ -418,6 +418,8 @@ PictureState FrameLoop::next_picture_state(const Head& head)
     callouts_.choose(session_, context_.world, now);
     if (const auto pointer = session_.pointer.shown())
         now.pointer = {pointer->towards, pointer->strength};
+    if (const auto handle = session_.alignment.handle()) // the builder's, who stands at the wall
+        now.pointer = {*handle, 1};
     return now;
 }
 
@@ -564,10 +566,12 @@ void FrameLoop::apply_alignment(const Controls& controls)
     if (!session_.alignment.apply(controls, layout, session_.kept))
         return;
     try {
+        std::vector<TurnedNumber> turned;
+        if (master_)
+            turned = turned_for_machines(session_.kept, layout);
         frame_->adopt(layout); // the device has finished the frame before
         session_.layout = std::move(layout);
-        if (master_)
-            turned_ = turned_numbers(session_.kept, session_.layout);
+        turned_ = std::move(turned);
     } catch (const InputError& error) {
         session_.docent.refusal = session_.alignment.refuse(one_line(error.what())); // a tablet's state has it
     }

@@ -60,7 +60,7 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
     for (const Command& command : entry.commands)
         if (switches_choice(command.kind))
             apply(choices_, command);
-        else
+        else if (aligns(command.kind))
             take_move(command);
     light_.advance(now,
         {.source = FlownFlight(flight, start_ev_),

@@ -13,6 +13,7 @@ bool RecordReplay::play(RecordEntry& entry)
         return false;
     entry = *recorded;
     entry.controls.set(Switch::save, false); // a replay writes no layout
+    std::erase_if(entry.commands, [](const Command& command) { return command.kind == CommandKind::keep; });
     const auto length = std::chrono::nanoseconds(entry.dt_ns);
     time_.sleep_until(due_ += length);
     due_ = std::max(due_, time_.now() - length); // a late replay does not hurry, because each frame must be seen

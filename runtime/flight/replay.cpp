@@ -14,7 +14,10 @@ constexpr std::size_t longest_line = 1 << 16;
 
 /// True for a command whose effect the record's frames hold (what the hand did that steers, and the light that is shown), or
 /// that has none on the flight, as names in the sky and the guide's pointer.
-bool kept_in_frames(const Command& command) { return switches_choice(command.kind) || command.kind == CommandKind::pointer; }
+bool kept_in_frames(const Command& command)
+{
+    return switches_choice(command.kind) || aligns(command.kind) || command.kind == CommandKind::pointer;
+}
 
 } // namespace
 

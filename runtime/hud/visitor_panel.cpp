@@ -16,7 +16,7 @@ constexpr double gauge_radius = 0.375, gauge_width = 0.055;
 constexpr double gauge_end = 0.75 * std::numbers::pi; ///< from -gauge_end to gauge_end
 
 constexpr double left_of_lines = 1.25, clock_radius = 0.1;
-constexpr double first_line = 0.26, below_first = 0.28; ///< baselines
+constexpr double first_baseline = 0.26, below_first = 0.28; ///< baselines
 
 /// The two clocks: on board, and of the world at rest.
 struct ClockPlace {
@@ -210,7 +210,7 @@ std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings
     for (int i = 0; i < 2; ++i) {
         const std::string text = words(keys[i], {{"time", shown_duration(times_s[i], words)}});
         const double room = (i == 0 ? clocks[1].x - clock_radius - 0.12 : right_edge) - clocks[i].text_x;
-        lines.push_back({text, clocks[i].text_x, first_line, fitting(typesetter, text, room, 0.22)});
+        lines.push_back({text, clocks[i].text_x, first_baseline, fitting(typesetter, text, room, 0.22)});
     }
 
     // A line below the clocks: the guides' numbers, and that brightness is compressed.
@@ -223,7 +223,7 @@ std::vector<Lettering> lettering_of(const Typesetter& typesetter, const Readings
             if (width_of(typesetter, with_gamma, least_lettering) <= right_edge - left_of_lines)
                 numbers = with_gamma;
         }
-        lines.push_back({numbers, left_of_lines, first_line + below_first,
+        lines.push_back({numbers, left_of_lines, first_baseline + below_first,
             fitting(typesetter, numbers, right_edge - left_of_lines, 0.23)});
     }
     const std::string off = numbered ? switched_off(readings.effects, words) : "";

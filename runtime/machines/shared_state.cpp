@@ -313,6 +313,15 @@ std::uint32_t version()
 
 } // namespace
 
+std::vector<TurnedNumber> turned_for_machines(const Layout& kept, const Layout& now)
+{
+    std::vector<TurnedNumber> numbers = turned_numbers(kept, now);
+    if (numbers.size() > most_turned)
+        throw InputError("is one number more than several machines take before the layout is saved, "
+            + std::to_string(most_turned) + "; saving it first (F5) is right");
+    return numbers;
+}
+
 std::vector<std::uint8_t> bytes_of(const SharedState& shared)
 {
     Writer writer;

@@ -21,6 +21,11 @@ struct SharedState {
     PictureState picture;
 };
 
+/// The most numbers of a builder's that a state has room for beside everything else.
+constexpr std::size_t most_turned = 48;
+/// A builder's changes of a layout for the other machines. Throws InputError where they are too many.
+std::vector<TurnedNumber> turned_for_machines(const Layout& kept, const Layout& now);
+
 /// The bytes of a state, the same on each machine: numbers as they are in memory, the lowest byte first. Of the
 /// instruments' panel only the number is in them: the picture is a page's. Throws InputError where they are more than
 /// most_state_bytes.

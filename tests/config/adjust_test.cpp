@@ -175,6 +175,9 @@ TEST(Adjust, AGripIsANumberOrAPlace)
     EXPECT_NEAR(turn(moved(before, all[1], 0, 5)).pitch_deg, -0.5, 1e-12) << "down is less";
     const Quad quad = *moved(before, all[5], -4, 8).outputs[0].viewports[0].quad;
     EXPECT_LT(glm::distance(quad.lower_right, glm::dvec2(0.999, 1.002)), 1e-12);
+    EXPECT_EQ(all[5].numbers[1].unmoved, glm::dvec2(1, 1));
+    EXPECT_EQ(all[12].numbers[0].unmoved, glm::dvec2(1, 0.5));
+    EXPECT_FALSE(all[0].numbers[0].unmoved);
     const HandleGrid grid = *moved(before, all[11], -4, 8).outputs[0].viewports[0].grid;
     EXPECT_NEAR(grid.right[4], -0.001, 1e-12);
     EXPECT_NEAR(grid.down[4], 0.002, 1e-12);

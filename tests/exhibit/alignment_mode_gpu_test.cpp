@@ -62,6 +62,10 @@ TEST(AlignmentMode, ATabletPullsACornerAndTakesItBack)
     EXPECT_NE(tablet.give({"grip", "wall, tilt"}, false).find("one of its own, such as \"wall, yaw\""), std::string::npos);
     EXPECT_EQ(tablet.give({"grip", "wall, upper right corner"}, false), "");
     EXPECT_EQ(tablet.alignment.grip_says(), "0.9, 0.1");
+    // A ring stands where the picture's corner is: 30 degrees up, and to the right by the window's aspect, 4 by 3.
+    ASSERT_TRUE(tablet.alignment.handle());
+    const glm::dvec3 corner(std::tan(glm::radians(30.0)) * 4 / 3, std::tan(glm::radians(30.0)), -1);
+    EXPECT_LT(glm::distance(*tablet.alignment.handle(), glm::normalize(corner)), 1e-12);
     EXPECT_EQ(tablet.give({"move", "-40", "0"}, true), "");
     EXPECT_EQ(tablet.give({"move", "0", "20"}, true), "");
     EXPECT_LT(glm::distance(tablet.corner(), pulled), 1e-12);
@@ -76,6 +80,7 @@ TEST(AlignmentMode, ATabletPullsACornerAndTakesItBack)
     EXPECT_LT(glm::distance(tablet.corner(), pulled), 1e-12);
     // One move after the other is taken back, and what nobody has moved stays.
     tablet.give({"grip", "wall, yaw"}, false);
+    EXPECT_FALSE(tablet.alignment.handle()) << "a turn has no place in the picture";
     tablet.give({"move", "10", "0"}, true);
     EXPECT_NEAR(std::get<Planar>(tablet.layout.outputs[0].viewports[0].projection).turn.yaw_deg, 1, 1e-12);
     tablet.give({"move-back"}, true);

@@ -595,8 +595,10 @@ TEST(Record, IsReplayedAtItsOwnPace)
 {
     std::string text = first_line();
     for (int i = 0; i < 3; ++i)
-        text += text_of(RecordEntry{
-            .dt_ns = 30'000'000, .skipped_ns = 3'600'000'000'000, .controls = controls_with(Switches{Switch::save})});
+        text += text_of(RecordEntry{.dt_ns = 30'000'000,
+            .skipped_ns = 3'600'000'000'000,
+            .commands = {{.kind = CommandKind::move, .number = 1}, {.kind = CommandKind::keep}},
+            .controls = controls_with(Switches{Switch::save})});
     using namespace std::chrono_literals;
     ReplayTime::Clock::time_point now(1h);
     const ReplayTime time{
@@ -610,6 +612,9 @@ TEST(Record, IsReplayedAtItsOwnPace)
     int frames = 1;
     for (record_replay.keep(entry, flight); record_replay.play(entry); ++frames) {
         EXPECT_FALSE(entry.controls[Switch::save]); // a replay never saves a layout
+        ASSERT_EQ(entry.commands.size(), 1u);
+        EXPECT_EQ(entry.commands[0].kind, CommandKind::move);
+        EXPECT_EQ(exhibits_command(entry), nullptr);
         record_replay.keep(entry, flight);
     }
     EXPECT_EQ(frames, 3);

@@ -61,6 +61,21 @@ SharedState full()
     return shared;
 }
 
+TEST(InstantBytesTest, AStateHasRoomForABuildersNumbers)
+{
+    const Layout kept = load_layout(starbow::testing::write_text("many.json", R"({ "outputs": [{ "name": "a",
+        "viewports": [{ "projection": { "type": "planar" }, "grid": { "columns": 9, "rows": 9 } }] }] })"));
+    Layout now = kept;
+    std::vector<double>& right = now.outputs[0].viewports[0].grid->right;
+    std::fill(right.begin(), right.begin() + most_turned, 0.01);
+    SharedState shared = full();
+    shared.turned = turned_for_machines(kept, now);
+    EXPECT_EQ(shared.turned.size(), most_turned);
+    EXPECT_LE(bytes_of(shared).size(), most_state_bytes * 3 / 4) << "a long caption needs the rest";
+    right[most_turned] = 0.01;
+    EXPECT_THROW(turned_for_machines(kept, now), InputError);
+}
+
 TEST(InstantBytesTest, EveryPartComesBack)
 {
     const SharedState sent = full();
