@@ -60,6 +60,11 @@ std::string numbers_of(const Layout& layout, const Grip& grip)
     return text;
 }
 
+std::string one_of(const std::vector<Grip>& grips)
+{
+    return grips.empty() ? "a layout with a \"quad\" or a turn" : "one of its own, such as \"" + grips.front().name + "\",";
+}
+
 /// The numbers of another layout in this one, where both have them and they differ.
 Layout with_numbers_of(const Layout& layout, const Layout& other) { return turned_again(layout, layout, other); }
 
@@ -84,8 +89,8 @@ bool AlignmentMode::take(const Command& command, const Layout& layout)
         if (const std::optional<Grip> grip = find_grip(layout, command.text))
             hold(layout, *grip);
         else
-            throw InputError("the layout has no grip \"" + one_line(command.text) + "\"; one of its own, such as \""
-                + grips(layout).front().name + "\", is right");
+            throw InputError(
+                "the layout has no grip \"" + one_line(command.text) + "\"; " + one_of(grips(layout)) + " is right");
         return true;
     case CommandKind::move:
         if (grip_.empty())
@@ -115,11 +120,7 @@ bool AlignmentMode::carry_out(const Command& command, Layout& layout, const Layo
         return true;
     }
     // Whatever else is done is done to the builder's own picture.
-    bool changed = moved_.has_value();
-    if (moved_)
-        layout = with_numbers_of(layout, *std::exchange(moved_, {}));
-    if (command.kind == CommandKind::keep)
-        save(layout);
+    bool changed = show_moved(layout);
     if (command.kind == CommandKind::move_back && !moves_.empty()) {
         const Move last = std::move(moves_.back());
         moves_.pop_back();
@@ -136,7 +137,40 @@ bool AlignmentMode::carry_out(const Command& command, Layout& layout, const Layo
     }
     if (const auto grip = find_grip(layout, grip_); grip && changed)
         hold(layout, *grip);
+    if (command.kind == CommandKind::keep)
+        save(layout);
     return changed;
+}
+
+bool AlignmentMode::show_moved(Layout& layout)
+{
+    if (!moved_)
+        return false;
+    layout = with_numbers_of(layout, *std::exchange(moved_, {}));
+    return true;
+}
+
+bool AlignmentMode::turn_by_keys(const Controls& controls, Layout& layout)
+{
+    const std::vector<Adjustable> all = adjustables(layout);
+    const std::size_t count = all.size();
+    if (count == 0) {
+        say("This layout has no number to change; a \"quad\" in a viewport gives it some");
+        return false;
+    }
+    chosen_ = std::min(chosen_, count - 1);
+    // The first press shows the chosen number; further presses move on.
+    if (controls.choose != 0 && std::exchange(choosing_, true))
+        chosen_ = (chosen_ + count + std::size_t(controls.choose + int(count))) % count;
+    const bool turned = controls.turn_by != 0;
+    if (turned) {
+        layout = adjusted(std::move(layout), all[chosen_], controls.turn_by);
+        choosing_ = true;
+    }
+    handle_ = handle_direction(layout, all[chosen_]);
+    say(all[chosen_].name + ": " + shown(value_of(layout, all[chosen_]))
+        + (turned ? "   (F5 saves it)" : "   (Page Up, Page Down)"));
+    return turned;
 }
 
 bool AlignmentMode::apply(const Controls& controls, Layout& layout, const Layout& kept)
@@ -147,28 +181,15 @@ bool AlignmentMode::apply(const Controls& controls, Layout& layout, const Layout
         pattern_ = Pattern((int(pattern_) + 1) % int(pattern_names.size()));
         write_log(LogKind::pattern_shown, std::string("test pattern: ") + pattern_names[std::size_t(pattern_)]);
     }
-    if (controls[Switch::save])
+    const bool saves = controls[Switch::save], turns = controls.choose != 0 || controls.turn_by != 0;
+    bool changed = (saves || turns) && show_moved(layout);
+    if (saves)
         save(layout);
-    const std::vector<Adjustable> all = adjustables(layout);
-    const std::size_t count = all.size();
-    chosen_ = std::min(chosen_, count - 1);
-    // The first press shows the chosen number; further presses move on.
-    if (controls.choose != 0 && std::exchange(choosing_, true))
-        chosen_ = (chosen_ + count + std::size_t(controls.choose + int(count))) % count;
-    const bool turned = controls.turn_by != 0;
-    if (turned) {
-        layout = adjusted(std::move(layout), all[chosen_], controls.turn_by);
-        choosing_ = true;
-    }
-    bool changed = turned;
+    if (turns)
+        changed |= turn_by_keys(controls, layout);
     moves_before_ = moves_.size();
     for (const Command& command : std::exchange(taken_, {}))
         changed |= carry_out(command, layout, kept);
-    if (turned || controls.choose != 0)
-        handle_ = handle_direction(layout, all[chosen_]);
-    if (turned || controls.choose != 0)
-        say(all[chosen_].name + ": " + shown(value_of(layout, all[chosen_]))
-            + (turned ? "   (F5 saves it)" : "   (Page Up, Page Down)"));
     return changed;
 }
 

@@ -48,6 +48,8 @@ public:
 private:
     void save(const Layout& layout);
     void hold(const Layout& layout, const Grip& grip);
+    bool show_moved(Layout& layout);
+    bool turn_by_keys(const Controls& controls, Layout& layout);
     bool carry_out(const Command& command, Layout& layout, const Layout& kept);
 
     Pattern first_, pattern_;

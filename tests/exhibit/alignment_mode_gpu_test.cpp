@@ -91,6 +91,35 @@ TEST(AlignmentMode, ATabletPullsACornerAndTakesItBack)
     EXPECT_TRUE(changes(tablet.kept, tablet.layout).empty());
 }
 
+TEST(AlignmentMode, ALayoutWithoutNumbersHasNoneToTurn)
+{
+    Layout layout;
+    layout.outputs.resize(1);
+    layout.outputs[0].viewports = {{.projection = Wall{{-1, -1, -2}, {1, -1, -2}, {-1, 1, -2}}}};
+    const Layout kept = layout;
+    ASSERT_TRUE(adjustables(layout).empty());
+    AlignmentMode alignment;
+    Controls controls;
+    controls.choose = 1, controls.turn_by = 10;
+    EXPECT_FALSE(alignment.apply(controls, layout, kept));
+    EXPECT_NE(alignment.says().find("no number to change"), std::string::npos);
+    EXPECT_THROW(alignment.take(command_of(std::vector<std::string>{"grip", "a"}), layout), InputError);
+}
+
+TEST(AlignmentMode, AKeyWhileTheSavedPictureIsShownTurnsTheBuilders)
+{
+    Tablet tablet;
+    tablet.give({"grip", "wall, upper right corner"}, false);
+    tablet.give({"move", "-40", "20"}, true);
+    tablet.give({"as-saved", "on"}, true);
+    Controls controls;
+    controls.turn_by = 5; // of the first number, the yaw
+    EXPECT_TRUE(tablet.alignment.apply(controls, tablet.layout, tablet.kept));
+    EXPECT_FALSE(tablet.alignment.as_saved());
+    EXPECT_LT(glm::distance(tablet.corner(), pulled), 1e-12);
+    EXPECT_NEAR(std::get<Planar>(tablet.layout.outputs[0].viewports[0].projection).turn.yaw_deg, 0.5, 1e-12);
+}
+
 TEST(AlignmentMode, AMoveThatCantBeShownIsNoMove)
 {
     Tablet tablet;
@@ -114,6 +143,7 @@ TEST(AlignmentMode, ATabletKeepsTheBuildersPictureAndNotTheOneThatIsCompared)
     tablet.give({"as-saved", "on"}, true);
     EXPECT_EQ(tablet.in_file(), before);
     tablet.give({"keep"}, true);
+    EXPECT_TRUE(tablet.alignment.says().starts_with("Saved in ")) << tablet.alignment.says();
     EXPECT_FALSE(tablet.alignment.as_saved());
     EXPECT_LT(glm::distance(tablet.in_file(), pulled), 1e-12);
     EXPECT_LT(glm::distance(tablet.corner(), pulled), 1e-12);
