@@ -5,7 +5,7 @@
 #
 #     docs/before_after.sh OLD/build/release/starbow build/release/starbow
 set -eu
-[ $# = 2 ] || { sed -n '2,5s/^# *//p' "$0" >&2 && exit 2; }
+[ $# = 2 ] || { sed -n '2,6s/^# *//p' "$0" >&2 && exit 2; }
 work=out/before-after
 mkdir -p "$work"
 

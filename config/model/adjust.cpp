@@ -187,11 +187,8 @@ std::vector<Change> changes(const Layout& saved, const Layout& now)
     const std::map<std::string, double> before = values_of(saved), after = values_of(now);
     for (const auto& [pointer, value] : after)
         if (const auto had = before.find(pointer); had != before.end() && had->second != value)
-            all.push_back(change_of(after, pointer));
-    // A list's numbers are one change.
-    const auto repeated = [](const Change& a, const Change& b) { return a.pointer == b.pointer; };
-    std::ranges::stable_sort(all, {}, &Change::pointer);
-    all.erase(std::unique(all.begin(), all.end(), repeated), all.end());
+            if (Change change = change_of(after, pointer); all.empty() || all.back().pointer != change.pointer)
+                all.push_back(std::move(change)); // a list's numbers follow one another, and are one change
     return all;
 }
 

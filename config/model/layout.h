@@ -132,7 +132,7 @@ struct Quad {
     glm::dvec2 upper_left{0, 0}, upper_right{1, 0}, lower_right{1, 1}, lower_left{0, 1};
 };
 
-/// A net of handles over the picture, whose outer ones are its edges: displays/warp/bend.h has the surface through them.
+/// A net of handles over the picture, whose outer ones are its edges: displays/compile/bend.h has the surface through them.
 struct HandleGrid {
     static constexpr int least = 3, most = 17; ///< handles across or down
     int columns = 5, rows = 5;

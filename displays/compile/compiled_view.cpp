@@ -1,9 +1,9 @@
 #include "compiled_view.h"
+#include "bend.h"
 #include "config/json/error.h"
 #include "config/json/folder.h"
 #include "config/json/hash.h"
 #include "config/json/kept_file.h"
-#include "displays/warp/bend.h"
 #include "map_cache.h"
 #include <algorithm>
 #include <array>

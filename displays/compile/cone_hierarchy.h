@@ -39,7 +39,7 @@ private:
     std::vector<std::vector<BoundingCone>> cones_; ///< by level, rows from the top; of a flat picture the coarser levels
     std::optional<glm::dmat3> flat_;
     glm::dvec2 foot_{0}; ///< foot of the perpendicular from the eye, pixels
-    /// Of a flat picture whose axes are not perpendicular: the squares of M's first two columns, with their product between.
+    /// The dot products a.a, a.b and b.b of M's first two columns a and b; none where the two are perpendicular.
     std::optional<std::array<double, 3>> skew_;
     double unit_ = 0; ///< square root of M's determinant
 };

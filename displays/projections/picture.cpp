@@ -30,12 +30,12 @@ PictureRays::Rays PictureRays::prepare(const Picture& picture)
         Match{
             [&](const Planar& planar) -> Rays { return planar_plane(planar, size); },
             [&](const Wall& wall) -> Rays {
-                if (const auto keystone = wall.upper_right_m ? wall_keystone(wall, size, picture.eye_m) : std::nullopt)
-                    return *keystone;
-                if (wall.upper_right_m)
-                    return Nothing{};
-                if (const auto plane = wall_plane(wall, size, picture.eye_m))
+                if (wall.upper_right_m) {
+                    if (const auto keystone = wall_keystone(wall, size, picture.eye_m))
+                        return *keystone;
+                } else if (const auto plane = wall_plane(wall, size, picture.eye_m)) {
                     return *plane;
+                }
                 return Nothing{};
             },
             [&](const Fisheye& fisheye) -> Rays { return FisheyeRays(fisheye, size); },

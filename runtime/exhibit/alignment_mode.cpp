@@ -70,24 +70,24 @@ Layout with_numbers_of(const Layout& layout, const Layout& other) { return turne
 
 } // namespace
 
-void AlignmentMode::hold(const Layout& layout, const Grip& grip)
+void AlignmentMode::choose_grip(const Layout& layout, const Grip& grip)
 {
     grip_ = grip.name, grip_says_ = numbers_of(layout, grip), handle_ = handle_direction(layout, grip.numbers[0]);
     say(grip_ + ": " + grip_says_);
 }
 
-void AlignmentMode::forget_moves()
+void AlignmentMode::reset_moves()
 {
-    moves_.clear(), taken_.clear(), moved_.reset();
+    moves_.clear(), queued_.clear(), moved_.reset();
     grip_.clear(), grip_says_.clear(), handle_.reset();
 }
 
-bool AlignmentMode::take(const Command& command, const Layout& layout)
+bool AlignmentMode::queue(const Command& command, const Layout& layout)
 {
     switch (command.kind) {
     case CommandKind::grip:
         if (const std::optional<Grip> grip = find_grip(layout, command.text))
-            hold(layout, *grip);
+            choose_grip(layout, *grip);
         else
             throw InputError(
                 "the layout has no grip \"" + one_line(command.text) + "\"; " + one_of(grips(layout)) + " is right");
@@ -97,7 +97,7 @@ bool AlignmentMode::take(const Command& command, const Layout& layout)
             throw InputError("no grip is chosen yet; the command grip before is right");
         break;
     case CommandKind::move_back:
-        if (moves_.empty() && taken_.empty())
+        if (moves_.empty() && queued_.empty())
             throw InputError("nothing has been moved; a move before is right");
         break;
     case CommandKind::as_saved:
@@ -106,11 +106,11 @@ bool AlignmentMode::take(const Command& command, const Layout& layout)
     default:
         return false;
     }
-    taken_.push_back(command);
+    queued_.push_back(command);
     return true;
 }
 
-bool AlignmentMode::carry_out(const Command& command, Layout& layout, const Layout& kept)
+bool AlignmentMode::apply_command(const Command& command, Layout& layout, const Layout& kept)
 {
     if (command.kind == CommandKind::as_saved && command.on) {
         if (moved_)
@@ -136,7 +136,7 @@ bool AlignmentMode::carry_out(const Command& command, Layout& layout, const Layo
         changed = true;
     }
     if (const auto grip = find_grip(layout, grip_); grip && changed)
-        hold(layout, *grip);
+        choose_grip(layout, *grip);
     if (command.kind == CommandKind::keep)
         save(layout);
     return changed;
@@ -188,8 +188,8 @@ bool AlignmentMode::apply(const Controls& controls, Layout& layout, const Layout
     if (turns)
         changed |= turn_by_keys(controls, layout);
     moves_before_ = moves_.size();
-    for (const Command& command : std::exchange(taken_, {}))
-        changed |= carry_out(command, layout, kept);
+    for (const Command& command : std::exchange(queued_, {}))
+        changed |= apply_command(command, layout, kept);
     return changed;
 }
 

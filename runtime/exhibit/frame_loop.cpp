@@ -544,7 +544,7 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
     forget_drawn();
     session_.devices.track(layout.head_tracker);
     if (layout.file != session_.layout.file)
-        session_.alignment.forget_moves();
+        session_.alignment.reset_moves();
     session_.layout = std::move(layout);
     session_.kept = std::move(loaded.fresh);
     if (master_) {

@@ -43,11 +43,11 @@ ReplayRenderer::ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, con
 }
 
 /// A builder's move by a tablet. A replay writes no layout, and one on another layout has other grips.
-void ReplayRenderer::take_move(const Command& command)
+void ReplayRenderer::queue_move(const Command& command)
 {
     try {
         if (command.kind != CommandKind::keep)
-            alignment_.take(command, layout_);
+            alignment_.queue(command, layout_);
     } catch (const InputError& error) {
         alignment_.say(one_line(error.what()));
     }
@@ -61,7 +61,7 @@ void ReplayRenderer::take(const RecordEntry& entry, const Flight& flight)
         if (switches_choice(command.kind))
             apply(choices_, command);
         else if (aligns(command.kind))
-            take_move(command);
+            queue_move(command);
     light_.advance(now,
         {.source = FlownFlight(flight, start_ev_),
             .range = entry.ranged,

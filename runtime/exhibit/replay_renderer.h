@@ -32,7 +32,7 @@ public:
     const std::optional<RangeCurve>& curve() const { return light_.curve(); }
 
 private:
-    void take_move(const Command& command);
+    void queue_move(const Command& command);
 
     OffscreenRenderer& renderer_;
     Layout kept_, layout_; ///< by its file, and with the builder's changes

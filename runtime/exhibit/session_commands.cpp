@@ -119,7 +119,7 @@ void apply_command(Session& session, const Command& command, Requests& requests)
     case CommandKind::move_back:
     case CommandKind::as_saved:
     case CommandKind::keep:
-        session.alignment.take(command, session.layout);
+        session.alignment.queue(command, session.layout);
         break;
     case CommandKind::unlock:
         if (!session.attendance.attends())

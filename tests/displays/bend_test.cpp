@@ -1,7 +1,7 @@
 // Quads and grids of handles: bent pictures against maps that are calculated here by other means.
 #include "config/json/error.h"
 #include "displays/compile/compiled_view.h"
-#include "displays/warp/bend.h"
+#include "displays/compile/bend.h"
 #include "tests/support/files.h"
 #include <cmath>
 #include <gtest/gtest.h>

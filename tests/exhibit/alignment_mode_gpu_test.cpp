@@ -39,7 +39,7 @@ struct Tablet {
     std::string give(const std::vector<std::string>& words, bool changes)
     {
         try {
-            alignment.take(command_of(words), layout);
+            alignment.queue(command_of(words), layout);
         } catch (const InputError& error) {
             return error.what();
         }
@@ -70,7 +70,7 @@ TEST(AlignmentMode, ATabletPullsACornerAndTakesItBack)
     EXPECT_EQ(tablet.give({"move", "0", "20"}, true), "");
     EXPECT_LT(glm::distance(tablet.corner(), pulled), 1e-12);
     EXPECT_EQ(tablet.alignment.grip_says(), "0.89, 0.105");
-    // As it was saved, and again; a second word of either changes nothing.
+    // The saved picture, then the builder's. A repeated command changes nothing.
     tablet.give({"as-saved", "on"}, true);
     tablet.give({"as-saved", "on"}, false);
     EXPECT_TRUE(tablet.alignment.as_saved());
@@ -103,7 +103,7 @@ TEST(AlignmentMode, ALayoutWithoutNumbersHasNoneToTurn)
     controls.choose = 1, controls.turn_by = 10;
     EXPECT_FALSE(alignment.apply(controls, layout, kept));
     EXPECT_NE(alignment.says().find("no number to change"), std::string::npos);
-    EXPECT_THROW(alignment.take(command_of(std::vector<std::string>{"grip", "a"}), layout), InputError);
+    EXPECT_THROW(alignment.queue(command_of(std::vector<std::string>{"grip", "a"}), layout), InputError);
 }
 
 TEST(AlignmentMode, AKeyWhileTheSavedPictureIsShownTurnsTheBuilders)
@@ -155,7 +155,7 @@ TEST(AlignmentMode, ATabletKeepsTheBuildersPictureAndNotTheOneThatIsCompared)
     tablet.give({"as-saved", "on"}, true);
     tablet.layout.file = "other.json";
     tablet.layout.outputs[0].viewports[0].quad->upper_right = {0.5, 0.2};
-    tablet.alignment.forget_moves();
+    tablet.alignment.reset_moves();
     tablet.give({"as-saved", "off"}, false);
     EXPECT_EQ(tablet.corner(), glm::dvec2(0.5, 0.2));
     EXPECT_NE(tablet.give({"move-back"}, false), "");

@@ -1,5 +1,5 @@
 #pragma once
-#include "mesh.h"
+#include "displays/warp/mesh.h"
 
 namespace starbow {
 
@@ -10,9 +10,10 @@ public:
     /// Without a quad or a grid that part changes nothing.
     Bend(const std::optional<Quad>& quad, const std::optional<HandleGrid>& grid);
 
-    /// Where a place of the picture lies after it. The grid moves places by a surface through its handles that is smooth to
-    /// its first derivative (Catmull and Rom, 1974, in both directions); beyond its edges, by as much as on them. The quad
-    /// is the projective map that takes the viewport's corners to its own (Heckbert, Fundamentals of Texture Mapping, 1989).
+    /// The position of a picture point after bending. The grid moves points by a surface through its handles that is smooth
+    /// to its first derivative (Catmull and Rom, 1974, in both directions); beyond its edges, by as much as on them. The
+    /// quad is the projective map that takes the viewport's corners to its own (Heckbert, Fundamentals of Texture Mapping,
+    /// 1989).
     glm::dvec2 at(glm::dvec2 place) const;
 
 private:

@@ -1,5 +1,6 @@
 #include "bend.h"
 #include "config/json/error.h"
+#include "displays/projections/keystone.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,17 +18,15 @@ constexpr int cells_across = 192;
 constexpr double longest_edge = 1.0 / 64;
 constexpr std::size_t most_divided = std::size_t(1) << 20;
 
-/// The projective map of the unit square to a quad.
+/// The projective map of the unit square to a quad, on homogeneous places.
 glm::dmat3 projective(const Quad& quad)
 {
-    const glm::dvec3 corner(quad.upper_left, 1), right(quad.upper_right, 1), opposite(quad.lower_right, 1),
-        down(quad.lower_left, 1);
-    const glm::dmat3 three(right, down, -corner);
-    const glm::dvec3 lengths = glm::inverse(three) * opposite;
-    if (!(glm::determinant(three) < -1e-9) || !(lengths.x > 0 && lengths.y > 0 && lengths.z > 0))
+    const auto map = keystone(glm::dvec3(quad.upper_left, 1), glm::dvec3(quad.upper_right, 1),
+        glm::dvec3(quad.lower_right, 1), glm::dvec3(quad.lower_left, 1), {1, 1});
+    if (!map)
         throw InputError("has corners that make no quadrilateral that bulges outwards everywhere; upper left, upper right, "
                          "lower right, lower left in this order are right");
-    return {lengths.x * right - lengths.z * corner, lengths.y * down - lengths.z * corner, lengths.z * corner};
+    return map->matrix();
 }
 
 /// The weights of four neighbouring handles at a place from 0 to 1 between the middle two.
